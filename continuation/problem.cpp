@@ -1,0 +1,45 @@
+#include "arcslip/continuation/problem.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace arcslip::continuation {
+
+void Problem::scale(const Vector& /*u*/, const Vector& /*p*/, Vector& unknowns, Vector& parameters) const {
+  unknowns.setOnes();
+  parameters.setOnes();
+}
+
+int Problem::border_count(int /*regime*/) const { return 0; }
+
+double Problem::border(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, int /*border*/,
+                       Gradient* /*gradient*/) const {
+  throw std::logic_error("Problem::border: this problem has no borders");
+}
+
+int Problem::regime_beyond(int /*regime*/, int /*border*/) const {
+  throw std::logic_error("Problem::regime_beyond: this problem has no borders");
+}
+
+void Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+  values.resize(0);
+}
+
+double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+                        Gradient& /*gradient*/) const {
+  throw std::logic_error("Problem::observe: this problem has no observable with a gradient");
+}
+
+std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, double /*to*/) const { return {}; }
+
+Index index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(fmt::format("there is no '{}' among {}", name, names));
+  }
+  return found - names.begin();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,207 @@
+#include "arcslip/continuation/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace arcslip::continuation {
+
+Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step)
+    : problem_(problem),
+      corrector_(corrector),
+      tracked_(std::move(tracked)),
+      max_step_(max_step),
+      here_(corrector.make_point()),
+      there_(corrector.make_point()),
+      probe_(corrector.make_point()) {
+  const Index size = corrector.size() + 1;
+  for (Vector* v : {&normal_, &slope_from_, &slope_to_, &probe_slope_, &predicted_, &step_, &work_, &bend_,
+                    &next_bend_}) {
+    v->setZero(size);
+  }
+  gradient_.unknowns.setZero(corrector.size());
+  gradient_.parameters.setZero(here_.parameters.size());
+  for (std::vector<Monitor>* m : {&from_, &to_, &probed_}) m->reserve(tracked_.size() + 8);
+}
+
+Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int regime, double forward) {
+  here_.unknowns = unknowns;
+  here_.parameters = parameters;
+  here_.regime = regime;
+  corrector_.set_scale(here_);
+  there_ = here_;
+  normal_.setZero();
+  normal_(normal_.size() - 1) = forward;
+  const Correction result = corrector_.correct(here_, there_, normal_, 0, true);
+  if (result != Correction::converged) return result;
+  here_.parameters = parameters;
+  slope_to_ = corrector_.direction();
+  corrector_.set_tangent(here_, there_);
+  monitor(here_, here_.scale, here_.tangent, to_);
+  bend_.setZero();
+  return result;
+}
+
+Correction Stepper::enter(int regime) {
+  here_.regime = regime;
+  const Index n = corrector_.size();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < problem_.border_count(regime); ++b) {  // the border of the new regime on which the point lies
+    const double value = problem_.border(here_.unknowns, here_.parameters, regime, b, &gradient_);
+    if (std::abs(value) >= nearest) continue;
+    nearest = std::abs(value);
+    normal_.head(n) = -gradient_.unknowns.cwiseProduct(here_.scale.head(n));
+    normal_(n) = -gradient_.parameters(corrector_.parameter()) * here_.scale(n);
+  }
+  const double length = normal_.norm();
+  if (!std::isfinite(nearest) || !(length > 0)) return Correction::singular;
+  normal_ /= length;
+  const Correction result = corrector_.linearise(here_, normal_);
+  if (result != Correction::converged) return result;
+  corrector_.set_tangent(here_, here_);
+  monitor(here_, here_.scale, here_.tangent, to_);
+  bend_.setZero();
+  return result;
+}
+
+double Stepper::slope_length(Hold hold) const {
+  return hold == Hold::tangent ? 1 : 1 / std::abs(here_.tangent(here_.tangent.size() - 1));
+}
+
+double Stepper::parameter_slope(Hold hold) const {
+  const double rate = here_.tangent(here_.tangent.size() - 1);
+  return hold == Hold::tangent ? rate : std::copysign(1.0, rate);
+}
+
+void Stepper::set_condition(Hold hold) {
+  hold_ = hold;
+  if (hold == Hold::tangent) {
+    normal_ = here_.tangent;
+  } else {
+    normal_.setZero();
+    normal_(normal_.size() - 1) = parameter_slope(hold);
+  }
+  slope_from_ = here_.tangent * slope_length(hold);
+}
+
+// With a = 1/(normal . t) the curve's second derivative in the step's coordinate is a^2 (b - a (normal . b) t).
+void Stepper::bend_along(Vector& out) const {
+  const double a = 1 / normal_.dot(here_.tangent);
+  out = a * a * (bend_ - a * normal_.dot(bend_) * here_.tangent);
+}
+
+void Stepper::predict() {
+  bend_along(work_);
+  predicted_ = distance_ * slope_from_ + 0.5 * distance_ * distance_ * work_;
+  corrector_.displace(here_, predicted_, there_);
+}
+
+bool Stepper::attempt(Hold hold, double distance) {
+  set_condition(hold);
+  distance_ = distance;
+  if (!(distance > 0) || !slope_from_.allFinite()) return false;
+  predict();
+  return finish(false, 0);
+}
+
+bool Stepper::attempt_landing(double value) {
+  set_condition(Hold::parameter);
+  const Index n = corrector_.size();
+  distance_ = std::abs(value - here_.parameters(corrector_.parameter())) / here_.scale(n);
+  if (!slope_from_.allFinite()) return false;
+  predict();
+  return finish(true, value);
+}
+
+bool Stepper::finish(bool lands, double value) {
+  signals_ = {};
+  if (lands) there_.parameters(corrector_.parameter()) = value;
+  const Correction result = corrector_.correct(there_, here_, normal_, distance_, lands);
+  signals_.contraction = corrector_.contraction();
+  if (result != Correction::converged) {
+    signals_.contraction = 1;
+    return false;
+  }
+  if (lands) there_.parameters(corrector_.parameter()) = value;
+  slope_to_ = corrector_.direction();
+  corrector_.difference(there_, here_, step_);
+  signals_.prediction_error = (step_ - predicted_).norm();
+  signals_.mismatch = (step_ - 0.5 * distance_ * (slope_from_ + slope_to_)).norm();
+  if (hold_ == Hold::tangent) signals_.turn = std::acos(std::min(1.0, 1 / slope_to_.norm()));
+  if (!acceptable(signals_, limits_, max_step_)) return false;
+
+  next_bend_ = (slope_to_ - slope_from_) / distance_;
+  if ((slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm()) next_bend_.setZero();
+  corrector_.set_tangent(there_, here_);
+  if (there_.orientation != here_.orientation) {  // the corrector jumped to a piece that runs the other way
+    signals_.turn = limits_.turn_limit * 4;
+    return false;
+  }
+  next_bend_.array() *= here_.scale.array() / there_.scale.array();
+  next_bend_ /= (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().squaredNorm();
+  from_.clear();
+  monitor(here_, here_.scale, slope_from_, from_);
+  monitor(there_, here_.scale, slope_to_, to_);
+  if (resolved()) return true;
+  signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
+  return false;
+}
+
+void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out) {
+  const Index n = corrector_.size();
+  const Index a = corrector_.parameter();
+  out.clear();
+  const auto add = [&](double value) {
+    out.push_back({value, gradient_.unknowns.dot(scale.head(n).cwiseProduct(slope.head(n))) +
+                              gradient_.parameters(a) * scale(n) * slope(n)});
+  };
+  for (const Index which : tracked_) {
+    add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));
+  }
+  for (int b = 0; b < problem_.border_count(point.regime); ++b) {
+    add(problem_.border(point.unknowns, point.parameters, point.regime, b, &gradient_));
+  }
+}
+
+bool Stepper::resolved() const {
+  for (std::size_t i = 0; i < from_.size(); ++i) {
+    const Monitor& a = from_[i];
+    const Monitor& b = to_[i];
+    const double change = b.value - a.value;
+    const bool tracked = i < tracked_.size();
+    const double size = tracked ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
+    if (std::abs(change - 0.5 * distance_ * (a.slope + b.slope)) > 0.1 * size) return false;
+    // The cubic through both ends has a pair of extrema inside: look closer, unless they are shallow.
+    const double middle = 1.5 * change / distance_ - 0.25 * (a.slope + b.slope);
+    const double deep = 1e-9 * size / distance_;
+    if (a.slope * b.slope > 0 && a.slope * middle < 0 && std::abs(middle) > deep) return false;
+  }
+  return true;
+}
+
+bool Stepper::probe(double s) {
+  const double x = s / distance_;
+  const double y = 1 - x;
+  work_ = x * x * (3 - 2 * x) * step_ + distance_ * (x * y * y * slope_from_ - x * x * y * slope_to_);
+  corrector_.displace(here_, work_, probe_);
+  if (corrector_.correct(probe_, here_, normal_, s, true) != Correction::converged) return false;
+  probe_slope_ = corrector_.direction();
+  monitor(probe_, here_.scale, probe_slope_, probed_);
+  return true;
+}
+
+void Stepper::cut(double s) {
+  std::swap(there_, probe_);
+  slope_to_ = probe_slope_;
+  std::swap(to_, probed_);
+  distance_ = s;
+  corrector_.difference(there_, here_, step_);
+  corrector_.set_tangent(there_, here_);
+}
+
+void Stepper::advance() {
+  std::swap(here_, there_);
+  bend_ = next_bend_;
+}
+
+}  // namespace arcslip::continuation

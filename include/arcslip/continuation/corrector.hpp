@@ -1,0 +1,105 @@
+#pragma once
+
+// Newton's method on a branch: F(u, p) = 0 together with one linear condition,
+//
+//   normal . (z - origin)/scale = distance,      z = (u, p_a), p_a the active parameter.
+//
+// With `normal` the tangent at the origin this is pseudo-arclength continuation [Keller 1977]; with the unit vector
+// of the parameter it keeps the parameter, which lands on a value exactly [Rheinboldt & Burkardt 1983]. Either way the
+// Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
+
+#include "arcslip/continuation/bordered_solver.hpp"
+#include "arcslip/continuation/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// A point of a branch with what is needed to go on from it.
+struct CurvePoint {
+  Vector unknowns;
+  Vector parameters;
+  int regime = 0;
+  Vector scale;            ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
+  Vector tangent;          ///< n + 1, unit length, dz/ds in units of `scale`
+  double orientation = 0;  ///< sign of det [J F_p; tangent^T], which a smooth branch keeps
+  double residual = 0;     ///< largest entry of F
+  int iterations = 0;      ///< Newton corrections spent on it
+};
+
+enum class Correction { converged, cannot_evaluate, singular, diverging, too_many_iterations };
+
+struct CorrectorOptions {
+  double tolerance = 1e-10;  ///< on the largest entry of F
+  int max_iterations = 10;
+};
+
+/// Work counted over a branch.
+struct Work {
+  long evaluations = 0;     ///< of F with its derivatives
+  long factorizations = 0;  ///< of the bordered Jacobian
+  long iterations = 0;      ///< Newton corrections
+  long rejected_steps = 0;
+};
+
+/// Owns its work space: nothing is allocated after construction.
+class Corrector {
+ public:
+  Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options);
+
+  Index size() const { return size_; }
+  Index parameter() const { return parameter_; }
+
+  /// An unset point of the right sizes.
+  CurvePoint make_point() const;
+
+  /// Fills `point.scale` from the problem.
+  void set_scale(CurvePoint& point);
+
+  /// z of `point` in units of `scale`, relative to `origin`: out = (z - z_origin)/scale.
+  void difference(const CurvePoint& point, const CurvePoint& origin, Vector& out) const;
+
+  /// point = origin + scale * displacement.
+  void displace(const CurvePoint& origin, const Vector& displacement, CurvePoint& point) const;
+
+  /// Corrects `point` from where it stands. `to_rounding` goes on until the residual is at its rounding level.
+  Correction correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
+                     bool to_rounding = false);
+
+  /// Contraction rate of the last corrections, |dz_2|/|dz_1|; 0 where fewer than two were needed.
+  double contraction() const { return contraction_; }
+
+  /// dz/ds along the branch at the point last corrected or linearised, in units of the origin's scale, with
+  /// normal . (dz/ds) = 1.
+  const Vector& direction() const { return direction_; }
+
+  /// Sets tangent, scale and orientation of `point` from `direction()`, which is measured in `origin.scale`.
+  void set_tangent(CurvePoint& point, const CurvePoint& origin);
+
+  /// Factors the problem at a point that is already on the branch, with its own scale, for `direction()`.
+  Correction linearise(CurvePoint& point, const Vector& normal);
+
+  Work& work() { return work_; }
+
+ private:
+  bool evaluate(CurvePoint& point);
+  bool factor(const Vector& scale, const Vector& normal);
+  bool solve_direction();
+  double rounding_level(const CurvePoint& point) const;
+
+  const Problem& problem_;
+  Index size_;
+  Index parameter_;
+  CorrectorOptions options_;
+  BorderedSolver solver_;
+  Work work_;
+  double contraction_ = 0;
+  double border_sign_ = 0;  // sign of det [J F_p; normal^T]
+  Vector residual_;
+  Matrix jacobian_;
+  Matrix parameter_jacobian_;
+  Vector correction_;
+  Vector direction_;
+  Vector unknown_scale_;
+  Vector parameter_scale_;
+};
+
+}  // namespace arcslip::continuation

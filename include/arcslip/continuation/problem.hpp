@@ -1,0 +1,75 @@
+#pragma once
+
+// The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within each
+// of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
+
+#include <string>
+#include <vector>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+/// What `Problem::evaluate` is asked for; a null is not wanted. Every target comes with its size.
+struct Evaluation {
+  Vector* residual = nullptr;            ///< F, n, scaled by the problem so that 1 is large
+  Matrix* jacobian = nullptr;            ///< dF/du, n x n
+  Matrix* parameter_jacobian = nullptr;  ///< dF/dp, n x (number of parameters)
+};
+
+/// A scalar function of (u, p) with its exact gradient.
+struct Gradient {
+  Vector unknowns;    ///< n
+  Vector parameters;  ///< number of parameters
+};
+
+/// An observable of which the tracer may find the extrema.
+struct Observable {
+  std::string name;
+  bool has_gradient = false;
+};
+
+/// Only the first three have to be written. All are called from several threads and must not change the problem.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  /// n, the number of unknowns and of equations.
+  virtual Index size() const = 0;
+
+  virtual std::vector<std::string> parameter_names() const = 0;
+
+  /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens the step.
+  virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
+
+  /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that spans
+  /// decades gives its own value. The default is 1 for everything.
+  virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
+
+  virtual std::vector<std::string> regime_names() const { return {"smooth"}; }
+  virtual int border_count(int regime) const;
+
+  /// Value of a border function, negative inside `regime`, and its gradient where that is not null.
+  virtual double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const;
+
+  /// The regime that a branch enters across this border.
+  virtual int regime_beyond(int regime, int border) const;
+
+  /// What is written beside each point, besides u and p.
+  virtual std::vector<Observable> observables() const { return {}; }
+
+  /// All of them, in the order of `observables()`.
+  virtual void observe(const Vector& u, const Vector& p, int regime, Vector& values) const;
+
+  /// The value of one with has_gradient, and its gradient on the branch.
+  virtual double observe(const Vector& u, const Vector& p, int regime, Index which, Gradient& gradient) const;
+
+  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any step, say
+  /// a resonance of weak coupling. The tracer puts a point on each and refines towards it.
+  virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
+};
+
+/// Position of a name in `names`; throws std::invalid_argument that lists what there is.
+Index index_of(const std::vector<std::string>& names, const std::string& name);
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,109 @@
+#pragma once
+
+// One step along a branch within one regime: prediction, correction, and the tests that the step must pass before
+// it counts. The condition that closes the step is either the tangent's (pseudo-arclength, which passes folds) or
+// the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a vertical tangent
+// misses the branch, and lands on values); the caller turns to the other when one fails.
+
+#include <optional>
+#include <vector>
+
+#include "arcslip/continuation/corrector.hpp"
+#include "arcslip/continuation/step_control.hpp"
+
+namespace arcslip::continuation {
+
+enum class Hold { tangent, parameter };
+
+/// Value of a function along the branch and its derivative in the step's coordinate s = normal . (z - z_here)/scale.
+struct Monitor {
+  double value = 0;
+  double slope = 0;
+};
+
+class Stepper {
+ public:
+  /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
+  Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step);
+
+  const CurvePoint& here() const { return here_; }
+  const CurvePoint& there() const { return there_; }
+
+  /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
+  Correction start(const Vector& unknowns, const Vector& parameters, int regime, double forward);
+
+  /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented into it.
+  Correction enter(int regime);
+
+  /// Arclength per distance at `here`: 1 or more.
+  double slope_length(Hold hold) const;
+
+  /// Change of the parameter, in its scale, per distance at `here`.
+  double parameter_slope(Hold hold) const;
+
+  /// Tries a step of the given distance; true if it is kept, in `there`.
+  bool attempt(Hold hold, double distance);
+
+  /// Tries to land on a value of the parameter ahead.
+  bool attempt_landing(double value);
+
+  const StepSignals& signals() const { return signals_; }
+  double distance() const { return distance_; }
+  double chord() const { return step_.norm(); }
+
+  /// Monitors at both ends of the step: the tracked observables first, then the regime's borders.
+  const std::vector<Monitor>& from() const { return from_; }
+  const std::vector<Monitor>& to() const { return to_; }
+  Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
+
+  /// Change of the parameter over the step's coordinate at both ends.
+  double parameter_rate_from() const { return slope_from_(slope_from_.size() - 1); }
+  double parameter_rate_to() const { return slope_to_(slope_to_.size() - 1); }
+
+  /// The branch at 0 <= s <= distance within the step, solved to rounding: false if that fails.
+  bool probe(double s);
+  const std::vector<Monitor>& probed() const { return probed_; }
+  double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
+
+  /// Ends the step at the point last probed.
+  void cut(double s);
+
+  /// Makes `there` the new `here`.
+  void advance();
+
+ private:
+  void set_condition(Hold hold);
+  void predict();
+  bool finish(bool lands, double value);
+  bool resolved() const;
+  void monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
+  void bend_along(Vector& out) const;
+
+  const Problem& problem_;
+  Corrector& corrector_;
+  std::vector<Index> tracked_;
+  double max_step_;
+  StepLimits limits_;
+
+  CurvePoint here_;
+  CurvePoint there_;
+  CurvePoint probe_;
+  Hold hold_ = Hold::tangent;
+  double distance_ = 0;
+  Vector normal_;
+  Vector slope_from_;
+  Vector slope_to_;
+  Vector probe_slope_;
+  Vector predicted_;
+  Vector step_;
+  Vector work_;
+  Vector bend_;  // d^2 z/ds^2 over the last step, along the arc, in here_'s scale
+  Vector next_bend_;
+  StepSignals signals_;
+  std::vector<Monitor> from_;
+  std::vector<Monitor> to_;
+  std::vector<Monitor> probed_;
+  Gradient gradient_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,57 @@
+#pragma once
+
+// A reduced structure seen at its contact dof, as a sum over its modes.
+//
+// With damping proportional to stiffness, C = (beta/2 pi) K, and w* = 2 pi eta, the modes of (K, M) diagonalise
+// the dynamic stiffness Z(eta) = K + j w* C - w*^2 M for every eta at once:
+//
+//   c(eta)   = e^T Z^{-1} e = sum_k a_k/d_k,      a_k = |e^T v_k|^2/(2 pi)^2
+//   y_0(eta) = e^T Z^{-1} F = sum_k b_k/d_k,      b_k = (e^T v_k)(v_k^H F)/(2 pi)^2
+//   d_k(eta) = (eta_k - eta)(eta_k + eta) + j beta eta eta_k^2
+//
+// The difference eta_k - eta is exact, so that the sums are accurate to rounding on the sharpest peak.
+
+#include <vector>
+
+#include "arcslip/sector.hpp"
+
+namespace arcslip {
+
+/// Response at the contact dof for a given eta, with its derivatives in eta.
+struct ContactResponse {
+  Complex compliance;       ///< c = e^T Z^{-1} e
+  Complex compliance_eta;   ///< dc/deta
+  Complex free;             ///< y_0 = e^T Z^{-1} F, the response without contact
+  Complex free_eta;         ///< dy_0/deta
+};
+
+/// One mode; frequencies are in units of eta.
+struct Mode {
+  double frequency;      ///< eta_k
+  double residue;        ///< a_k >= 0
+  Complex load_residue;  ///< b_k
+};
+
+/// All modes of a structure, in ascending order of frequency.
+class ModalModel {
+ public:
+  /// `damping` is beta: C = (beta/2 pi) K, that is 2 zeta_D for the damper and 2 zeta_B/gamma for the base.
+  /// Throws std::invalid_argument where the mass is not positive definite.
+  ModalModel(const ReducedStructure& structure, Index contact_dof, double damping);
+
+  /// Compliance and free response at eta, O(J) operations.
+  ContactResponse at(double eta) const;
+
+  const std::vector<Mode>& modes() const { return modes_; }
+  double damping() const { return damping_; }
+
+ private:
+  std::vector<Mode> modes_;
+  double damping_;
+};
+
+/// The undamped frequencies at which 1 + k c = 0, c the sum of the compliances of `models`: the resonances of these
+/// structures joined at the contact dof through springs of stiffness k. In ascending order.
+std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& models, double k);
+
+}  // namespace arcslip
