@@ -1,0 +1,53 @@
+#pragma once
+
+// Traced branches as files and tables: branches.csv, summary.json, and the rows of special points.
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "arcslip/case_file.hpp"
+#include "arcslip/continuation/branch.hpp"
+#include "arcslip/continuation/problem.hpp"
+
+namespace arcslip {
+
+/// A branch with the problem that it solves.
+struct TracedBranch {
+  const CaseBranch* request;
+  const continuation::Problem* problem;
+  continuation::Branch branch;
+  double seconds;
+};
+
+/// A special point with what tables and summaries show of it.
+struct SpecialPoint {
+  std::size_t point;  ///< its place along the branch
+  continuation::PointType type;
+  double eta;
+  double preload;
+  double R_over_S;
+  double Y;
+};
+
+std::vector<SpecialPoint> special_points(const TracedBranch& traced);
+
+/// Takes pieces of a text in order.
+using Sink = std::function<void(std::string_view)>;
+
+/// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the observables,
+/// arclength, iterations, residual.
+void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
+
+/// summary.json as described in the README.
+nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds);
+
+/// Rows of special points, as AUTO prints them; `number` is the branch's.
+std::string special_table(std::size_t number, const TracedBranch& traced);
+
+/// The line above such rows.
+std::string special_table_header();
+
+}  // namespace arcslip

@@ -1,0 +1,46 @@
+#pragma once
+
+// Files that appear whole or not at all: written under a temporary name beside the target, then renamed.
+
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace arcslip {
+
+/// A file or folder that could not be written; the message names it and the reason.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Creates the folder and its parents. Throws OutputError.
+void create_folder(const std::string& path);
+
+class AtomicFile {
+ public:
+  /// Opens the temporary file. Throws OutputError.
+  explicit AtomicFile(std::string path);
+  /// Removes the temporary file unless it was committed.
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  AtomicFile(AtomicFile&&) = delete;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+
+  void write(std::string_view text);
+
+  /// Brings the content to the disk and gives the file its name. Throws OutputError.
+  void commit();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_;
+  std::string temporary_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,135 @@
+#include <fmt/color.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+
+#include "arcslip/case_file.hpp"
+#include "arcslip/problems/forced_response.hpp"
+#include "arcslip/results.hpp"
+#include "atomic_file.hpp"
+#include "commands.hpp"
+
+namespace arcslip {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void note_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);  // a second one ends the program at once
+}
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// One line on stderr that follows the work, where that is a terminal.
+class Progress {
+ public:
+  Progress(bool shown, std::size_t branches) : shown_(shown && isatty(STDERR_FILENO) != 0), branches_(branches) {}
+  ~Progress() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  Progress(Progress&&) = delete;
+  Progress& operator=(Progress&&) = delete;
+
+  void show(std::size_t branch, const continuation::TraceOptions& options, double value, std::size_t points) {
+    if (!shown_ || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
+    last_ = Clock::now();
+    drawn_ = true;
+    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, {} = {:.6g} of {:g} to {:g}", branch + 1, branches_, points,
+               options.parameter, value, options.from, options.to);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool shown_;
+  bool drawn_ = false;
+  std::size_t branches_;
+  Clock::time_point last_ = Clock::now();
+};
+
+std::vector<TracedBranch> trace_all(const Case& input,
+                                    std::vector<std::unique_ptr<problems::ForcedResponse>>& problems, bool quiet) {
+  std::vector<TracedBranch> traced;
+  Progress progress(!quiet, input.branches.size());
+  for (std::size_t i = 0; i < input.branches.size() && interrupted == 0; ++i) {
+    const CaseBranch& request = input.branches[i];
+    const Clock::time_point start = Clock::now();
+    const auto& problem = *problems.emplace_back(
+        std::make_unique<problems::ForcedResponse>(build_system(request.system)));
+    const bool in_eta = request.options.parameter == "eta";
+    const continuation::Guess guess = in_eta ? problem.guess(request.options.from, request.system.preload)
+                                             : problem.guess(request.eta, request.options.from);
+    std::size_t points = 0;
+    const auto watch = [&](const continuation::BranchPoint& point) {
+      if (++points % 256 == 0) progress.show(i, request.options, point.parameters(in_eta ? 0 : 1), points);
+      return interrupted == 0;
+    };
+    continuation::Branch branch = continuation::trace(problem, guess, request.options, watch);
+    traced.push_back({&request, &problem, std::move(branch), seconds_since(start)});
+  }
+  return traced;
+}
+
+void print_tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
+                  double seconds) {
+  if (!input.title.empty()) fmt::print("{}\n\n", input.title);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    const std::string values = describe(traced[i].request->values);
+    if (!values.empty()) fmt::print("{}{}\n", i == 0 ? "" : "\n", values);
+    fmt::print("{}{}", special_table_header(), special_table(i, traced[i]));
+    points += traced[i].branch.points.size();
+  }
+  fmt::print("\n{} branch{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n", traced.size(),
+             traced.size() == 1 ? "" : "es", points, seconds, folder);
+  if (std::fflush(stdout) != 0) throw OutputError("standard output: cannot be written");
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const Case input = read_case(options.case_path, options.settings);
+  const std::string folder = !options.folder.empty()
+                                 ? options.folder
+                                 : "out/" + std::filesystem::path(options.case_path).stem().string();
+  create_folder(folder);
+  AtomicFile branches(folder + "/branches.csv");
+  AtomicFile summary(folder + "/summary.json");
+
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+  std::vector<std::unique_ptr<problems::ForcedResponse>> problems;
+  const std::vector<TracedBranch> traced = trace_all(input, problems, options.quiet);
+  const double seconds = seconds_since(start);
+
+  write_branches(traced, [&](std::string_view text) { branches.write(text); });
+  summary.write(summarize(input, traced, seconds).dump(2));
+  summary.write("\n");
+  branches.commit();
+  summary.commit();
+  if (!options.quiet) print_tables(input, traced, folder, seconds);
+
+  int result = status::done;
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    if (traced[i].branch.complete()) continue;
+    result = status::incomplete_branch;
+    fmt::print(stderr, "arcslip: branch {}: {}: {}\n", i, to_string(traced[i].branch.stop),
+               traced[i].branch.explanation);
+  }
+  if (traced.size() < input.branches.size()) {
+    result = status::incomplete_branch;
+    fmt::print(stderr, "arcslip: interrupted: {} of {} branches were not begun\n",
+               input.branches.size() - traced.size(), input.branches.size());
+  }
+  return result;
+}
+
+}  // namespace arcslip

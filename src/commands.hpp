@@ -1,0 +1,34 @@
+#pragma once
+
+// The commands of the program. Each returns its exit status; InputError and OutputError are left to the caller.
+
+#include <string>
+#include <vector>
+
+namespace arcslip {
+
+namespace status {
+constexpr int done = 0;
+constexpr int wrong_input = 1;
+constexpr int wrong_command_line = 2;
+constexpr int incomplete_branch = 3;
+constexpr int cannot_write = 4;
+}  // namespace status
+
+struct RunOptions {
+  std::string case_path;
+  std::string folder;                 ///< empty: out/<name of the case file>
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool quiet = false;
+};
+
+/// Traces the branches, writes branches.csv and summary.json, prints the special points.
+int run_command(const RunOptions& options);
+
+/// Prints what `run` would do.
+int check_command(const std::string& case_path, const std::vector<std::string>& settings);
+
+/// Draws what is in `folder`, as PNG and SVG beside it.
+int plot_command(const std::string& folder);
+
+}  // namespace arcslip

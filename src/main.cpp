@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+
+#include "arcslip/case_file.hpp"
+#include "atomic_file.hpp"
+#include "commands.hpp"
+
+namespace {
+
+constexpr const char* about =
+    "arcslip traces the response of structures damped by dry friction: continuation through stick and slip.";
+
+constexpr const char* examples = R"(
+Examples
+  arcslip run problems/figure_8.toml              results in out/figure_8
+  arcslip run problems/figure_8.toml -o fine --set continuation.max_step=0.02
+  arcslip plot out/figure_8                       its pictures, PNG and SVG
+  arcslip check problems/figure_8.toml            what would run
+
+Exit status
+  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced to its end; 4 a file could not be written)";
+
+constexpr const char* run_notes = R"(
+Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
+the special points. Ctrl-C ends a run cleanly: what was traced is written and marked as interrupted.
+
+A case file, every key of [continuation] optional:
+  title = "Two beams"
+  [system]
+  model = "beams"            # or "rods"
+  wave_number = 1            # n
+  elements = 30              # N > 2n
+  mass_ratio = 5.0           # M*
+  frequency_ratio = 4.0      # gamma
+  slenderness = 33.3         # L/h_D, beams; or interface_stiffness = K_FD
+  poisson_ratio = 0.3
+  damping = { base = 1e-4, damper = 1e-4 }
+  force = 1.0                # F
+  preload = 1.0              # P
+  [branch]
+  parameter = "eta"          # or "P", with eta = ... for the fixed frequency
+  from = 0.5
+  to = 120.0
+  for_each = { preload = [0.1, 1.0, 10.0] }   # one branch for each; several lists are walked together
+  [continuation]
+  tolerance = 1e-10
+  max_step = 0.1
+  min_step = 1e-10
+  max_points = 100000
+  stop_at = [3.9, 4.1]       # values to land on exactly)";
+
+int dispatch(int argc, char** argv) {
+  using namespace arcslip;
+  CLI::App app{about, "arcslip"};
+  app.set_version_flag("--version", "arcslip " ARCSLIP_VERSION);
+  app.require_subcommand(1);
+  app.footer(examples);
+
+  RunOptions options;
+  CLI::App* run = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
+  run->add_option("CASE", options.case_path, "Case file (TOML)")->required();
+  run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")->type_name("DIR");
+  run->add_option("--set", options.settings, "Replace a value of the case file; may be repeated")
+      ->type_name("section.key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
+  run->footer(run_notes);
+
+  CLI::App* check = app.add_subcommand("check", "Read and validate a case file, print what would run");
+  check->add_option("CASE", options.case_path, "Case file (TOML)")->required();
+  check->add_option("--set", options.settings, "As for run")->type_name("section.key=value")->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+
+  std::string folder;
+  CLI::App* plot = app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
+  plot->add_option("DIR", folder, "Folder that `arcslip run` wrote")->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::cerr << "arcslip: " << error.what() << "; see arcslip --help\n";
+    return status::wrong_command_line;
+  }
+  if (run->parsed()) return run_command(options);
+  if (check->parsed()) return check_command(options.case_path, options.settings);
+  return plot_command(folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is reported as one that cannot be written
+#endif
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return dispatch(argc, argv);
+  } catch (const arcslip::InputError& error) {
+    std::cerr << error.what() << '\n';
+    return arcslip::status::wrong_input;
+  } catch (const arcslip::OutputError& error) {
+    std::cerr << error.what() << '\n';
+    return arcslip::status::cannot_write;
+  } catch (const std::exception& error) {
+    std::cerr << "arcslip: " << error.what() << '\n';
+    return arcslip::status::wrong_input;
+  }
+}

@@ -1,0 +1,92 @@
+#pragma once
+
+// Typed access to a TOML document with errors that name file, line, column, key, what was expected and what was
+// given. Values may be replaced by their dotted path, as `--set` and `for_each` do.
+
+#include <toml++/toml.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "arcslip/case_file.hpp"
+
+namespace arcslip {
+
+/// A file's table and the settings on top of it.
+class TomlDocument {
+ public:
+  TomlDocument(const std::string& path, const std::vector<std::string>& settings);
+
+  const toml::table& root() const { return root_; }
+
+  /// Error at a node; `name` is the key as the user wrote it.
+  [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
+  /// "expected ..., got ...".
+  [[noreturn]] void mismatch(const toml::node& node, const std::string& name, const std::string& expected) const;
+
+ private:
+  void apply(const std::string& setting);
+
+  std::string path_;
+  toml::table root_;
+};
+
+/// A value that takes the place of another, with the name it goes by in errors.
+struct Replacement {
+  const toml::node* node;
+  std::string name;
+};
+
+using Replacements = std::map<std::string, Replacement, std::less<>>;
+
+/// What a number must satisfy; `text` completes "expected a number ...".
+struct NumberRule {
+  std::function<bool(double)> holds;
+  std::string text;
+};
+
+NumberRule positive();
+NumberRule between(double low, double high);  ///< open interval
+
+/// One table of the document.
+class TomlSection {
+ public:
+  TomlSection(const TomlDocument& document, std::string path, const Replacements* replacements = nullptr);
+
+  bool has(std::string_view key) const { return find(key).node != nullptr; }
+  double number(std::string_view key, const NumberRule& rule) const;
+  double number(std::string_view key, const NumberRule& rule, double otherwise) const;
+  Index integer(std::string_view key, Index low, Index high, const std::string& expected) const;
+  Index integer(std::string_view key, Index low, Index high, const std::string& expected, Index otherwise) const;
+  std::string text(std::string_view key, const std::vector<std::string>& choices) const;
+  std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
+
+  /// Refuses every key that is not among these.
+  void allow_only(const std::vector<std::string>& keys) const;
+
+  [[noreturn]] void fail(std::string_view key, const std::string& what) const;
+  [[noreturn]] void mismatch(std::string_view key, const std::string& expected) const;
+  const toml::node& require(std::string_view key, const std::string& expected) const;
+  const toml::table* table() const { return table_; }
+  std::string name(std::string_view key) const;
+
+ private:
+  Replacement find(std::string_view key) const;
+  double checked(const Replacement& value, const NumberRule& rule) const;
+
+  const TomlDocument& document_;
+  std::string path_;
+  const Replacements* replacements_;
+  const toml::table* table_ = nullptr;
+};
+
+/// The same value as JSON.
+nlohmann::ordered_json to_json(const toml::node& node);
+
+/// The name among `names` that `name` was most likely meant to be, or "".
+std::string nearest_name(std::string_view name, const std::vector<std::string>& names);
+
+}  // namespace arcslip

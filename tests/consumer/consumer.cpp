@@ -1,0 +1,21 @@
+// What another project writes to trace a frequency response with the installed library: two rods, from far
+// below their first resonance to beyond it.
+
+#include <arcslip/continuation/trace.hpp>
+#include <arcslip/problems/forced_response.hpp>
+#include <iostream>
+
+int main() {
+  const arcslip::SystemParameters rods{.model = arcslip::StructureModel::rods, .interface_stiffness = 1000};
+  const arcslip::problems::ForcedResponse problem(arcslip::build_system(rods));
+
+  arcslip::continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = 0.2;
+  options.to = 20;
+  options.extrema_of = {"Y"};
+  const auto branch = trace(problem, problem.guess(options.from, rods.preload), options);
+
+  std::cout << branch.points.size() << " points: " << branch.explanation << '\n';
+  return branch.complete() ? 0 : 1;
+}
