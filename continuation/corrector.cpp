@@ -62,9 +62,8 @@ bool Corrector::factor(const Vector& scale, const Vector& normal) {
   solver_.columns() = parameter_jacobian_.col(parameter_) * scale(size_);
   solver_.rows() = normal.head(size_).transpose();
   solver_.corner()(0, 0) = normal(size_);
-  solver_.factor();
-  border_sign_ = solver_.determinant_sign();
-  return border_sign_ != 0 && std::isfinite(border_sign_);
+  border_sign_ = solver_.factor();
+  return border_sign_ != 0;
 }
 
 bool Corrector::solve_direction() {

@@ -21,7 +21,7 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
   }
   gradient_.unknowns.setZero(corrector.size());
   gradient_.parameters.setZero(here_.parameters.size());
-  for (std::vector<Monitor>* m : {&from_, &to_, &probed_}) m->reserve(tracked_.size() + 8);
+  for (std::vector<Monitor>* m : {&at_here_, &from_, &to_, &probed_}) m->reserve(tracked_.size() + 8);
 }
 
 Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int regime, double forward) {
@@ -37,7 +37,7 @@ Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int 
   here_.parameters = parameters;
   slope_to_ = corrector_.direction();
   corrector_.set_tangent(here_, there_);
-  monitor(here_, here_.scale, here_.tangent, to_);
+  monitor(here_, here_.scale, here_.tangent, at_here_);
   bend_.setZero();
   return result;
 }
@@ -59,7 +59,7 @@ Correction Stepper::enter(int regime) {
   const Correction result = corrector_.linearise(here_, normal_);
   if (result != Correction::converged) return result;
   corrector_.set_tangent(here_, here_);
-  monitor(here_, here_.scale, here_.tangent, to_);
+  monitor(here_, here_.scale, here_.tangent, at_here_);
   bend_.setZero();
   return result;
 }
@@ -139,8 +139,8 @@ bool Stepper::finish(bool lands, double value) {
   }
   next_bend_.array() *= here_.scale.array() / there_.scale.array();
   next_bend_ /= (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().squaredNorm();
-  from_.clear();
-  monitor(here_, here_.scale, slope_from_, from_);
+  from_ = at_here_;
+  for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
   if (resolved()) return true;
   signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
@@ -200,6 +200,9 @@ void Stepper::cut(double s) {
 }
 
 void Stepper::advance() {
+  const double length = (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().norm();
+  at_here_ = to_;
+  for (Monitor& monitor : at_here_) monitor.slope /= length;
   std::swap(here_, there_);
   bend_ = next_bend_;
 }

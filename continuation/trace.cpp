@@ -79,7 +79,9 @@ class Tracer {
         corrector_(problem, parameter_, {options.tolerance}),
         stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step),
         targets_(collect_targets(problem, parameter_, options)),
-        distance_(0.1 * options.max_step) {}
+        distance_(0.1 * options.max_step) {
+    branch_.points.reserve(1024);
+  }
 
   Branch run(const Guess& guess) {
     if (start(guess)) {
@@ -133,13 +135,13 @@ bool Tracer::start(const Guess& guess) {
     return stop(Stop::no_start, fmt::format("no solution was found from the guess at {} = {:.10g}",
                                             options_.parameter, options_.from));
   }
-  for (std::size_t b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.to().size(); ++b) {
-    if (stepper_.to()[b].value > 0) {
+  for (std::size_t b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
+    if (stepper_.at_here()[b].value > 0) {
       return stop(Stop::no_start, fmt::format("the start lies outside the regime '{}' that was given for it",
                                               problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
     }
   }
-  signs_.reset(stepper_.to(), stepper_.tracked_count(), stepper_.parameter_slope(Hold::tangent));
+  signs_.reset(stepper_.at_here(), stepper_.tracked_count(), stepper_.parameter_slope(Hold::tangent));
   return store(PointType::start);
 }
 
@@ -232,7 +234,7 @@ bool Tracer::take() {
   stepper_.advance();
   if (whole) distance_ *= factor;
   const Signs before = signs_;
-  signs_.update(stepper_.to(), stepper_.parameter_slope(Hold::tangent));
+  signs_.update(stepper_.at_here(), stepper_.parameter_slope(Hold::tangent));
   if (event_) return take_event(*event_, before);
   return landing_ != nullptr ? take_target(*landing_) : store(PointType::regular);
 }
@@ -285,7 +287,7 @@ bool Tracer::cross(Index border) {
 
 /// Extrema and folds that are corners: a derivative jumps from one sign to the other.
 bool Tracer::corner_events(const Signs& before) {
-  signs_.reset(stepper_.to(), stepper_.tracked_count(), stepper_.parameter_slope(Hold::tangent));
+  signs_.reset(stepper_.at_here(), stepper_.tracked_count(), stepper_.parameter_slope(Hold::tangent));
   if (before.parameter * signs_.parameter < 0 && !store(PointType::fold)) return false;
   for (std::size_t i = 0; i < signs_.observables.size(); ++i) {
     if (before.observables[i] * signs_.observables[i] >= 0) continue;

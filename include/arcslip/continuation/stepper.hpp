@@ -51,7 +51,10 @@ class Stepper {
   double distance() const { return distance_; }
   double chord() const { return step_.norm(); }
 
-  /// Monitors at both ends of the step: the tracked observables first, then the regime's borders.
+  /// Monitors at `here`, their slopes along the unit tangent: the tracked observables first, then the borders.
+  const std::vector<Monitor>& at_here() const { return at_here_; }
+
+  /// Monitors at both ends of the step.
   const std::vector<Monitor>& from() const { return from_; }
   const std::vector<Monitor>& to() const { return to_; }
   Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
@@ -100,6 +103,7 @@ class Stepper {
   Vector bend_;  // d^2 z/ds^2 over the last step, along the arc, in here_'s scale
   Vector next_bend_;
   StepSignals signals_;
+  std::vector<Monitor> at_here_;  // with slopes along the unit tangent
   std::vector<Monitor> from_;
   std::vector<Monitor> to_;
   std::vector<Monitor> probed_;

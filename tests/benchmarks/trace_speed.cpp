@@ -1,0 +1,84 @@
+// Speed of tracing: accepted points a second, and the time of a corrector iteration over that of one bare evaluation
+// of residual and derivatives, both measured in this run. Goal: at most 3.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "arcslip/problems/forced_response.hpp"
+
+namespace {
+
+using namespace arcslip;
+using Clock = std::chrono::steady_clock;
+
+/// Median over 15 runs of the seconds that `work` takes.
+template <class Work>
+double median_seconds(Work work) {
+  std::vector<double> times;
+  for (int run = 0; run < 15; ++run) {
+    const Clock::time_point start = Clock::now();
+    work();
+    times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  std::nth_element(times.begin(), times.begin() + 7, times.end());
+  return times[7];
+}
+
+/// Seconds of one evaluation of residual, Jacobian and parameter derivatives, over the points of a branch.
+double evaluation_seconds(const problems::ForcedResponse& problem, const continuation::Branch& branch) {
+  Vector residual(1);
+  Matrix jacobian(1, 1);
+  Matrix parameter_jacobian(1, 2);
+  double sum = 0;
+  const double seconds = median_seconds([&] {
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      for (const continuation::BranchPoint& point : branch.points) {
+        problem.evaluate(point.unknowns, point.parameters, point.regime, {&residual, &jacobian, &parameter_jacobian});
+        sum += residual(0) + jacobian(0, 0);
+      }
+    }
+  });
+  if (sum == 1) fmt::print(" ");  // keeps the evaluations
+  return seconds / (20.0 * static_cast<double>(branch.points.size()));
+}
+
+void report(const char* name, const SystemParameters& parameters, double to) {
+  const problems::ForcedResponse problem(build_system(parameters));
+  continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = 0.5;
+  options.to = to;
+  options.extrema_of = {"Y"};
+  const continuation::Guess guess = problem.guess(options.from, parameters.preload);
+  continuation::Branch branch;
+  const double seconds = median_seconds([&] { branch = continuation::trace(problem, guess, options); });
+  const double evaluation = evaluation_seconds(problem, branch);
+  const auto points = static_cast<double>(branch.points.size());
+  const auto iterations = static_cast<double>(branch.work.iterations);
+  fmt::print("{:<16} {:>7} {:>10.0f} {:>12.0f} {:>10.0f} {:>12.2f} {:>12.2f}\n", name, branch.points.size(),
+             points / seconds, 1e9 * seconds / points, 1e9 * evaluation, seconds / points / evaluation,
+             seconds / iterations / evaluation);
+}
+
+}  // namespace
+
+int main() {
+  fmt::print("{:<16} {:>7} {:>10} {:>12} {:>10} {:>12} {:>12}\n", "branch", "points", "points/s", "ns/point", "ns/eval",
+             "point/eval", "iteration/eval");
+  for (const double preload : {0.1, 1.0, 5.0, 10.0, 50.0}) {
+    SystemParameters beams;
+    beams.mass_ratio = 5;
+    beams.frequency_ratio = 4;
+    beams.interface_stiffness = shear_interface_stiffness(33.3, 0.3);
+    beams.preload = preload;
+    report(fmt::format("beams P = {:g}", preload).c_str(), beams, 120);
+    SystemParameters rods = beams;
+    rods.model = StructureModel::rods;
+    rods.interface_stiffness = 1000;
+    report(fmt::format("rods  P = {:g}", preload).c_str(), rods, 20);
+  }
+  return 0;
+}
