@@ -17,7 +17,8 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       correction_(size_ + 1),
       direction_(size_ + 1),
       unknown_scale_(size_),
-      parameter_scale_(parameter_jacobian_.cols()) {}
+      parameter_scale_(parameter_jacobian_.cols()),
+      parameter_normal_(Vector::Unit(size_ + 1, size_)) {}
 
 CurvePoint Corrector::make_point() const {
   CurvePoint point;
@@ -87,21 +88,25 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
                               bool to_rounding) {
   contraction_ = 0;
   point.iterations = 0;
+  bool held = false;
   double last_length = 0;
   double last_residual = std::numeric_limits<double>::infinity();
   while (true) {
     if (!evaluate(point)) return Correction::cannot_evaluate;
     if (!factor(origin.scale, normal)) return Correction::singular;
-    const bool last = point.iterations == options_.max_iterations;
-    const double target = to_rounding && !last ? 0 : options_.tolerance;
-    if (point.residual <= target ||
-        (point.residual >= 0.5 * last_residual && point.residual <= rounding_level(point))) {
+    const bool last = point.iterations >= options_.max_iterations;
+    const bool stagnant = point.residual >= 0.5 * last_residual && point.residual <= rounding_level(point);
+    if (point.residual <= (to_rounding && !last ? 0 : options_.tolerance) ||
+        (stagnant && (held || point.residual <= options_.tolerance))) {
       return solve_direction() ? Correction::converged : Correction::singular;
     }
     if (last) return Correction::too_many_iterations;
-
+    if (stagnant) {  // the parameter's own rounding is what is left: hold it and correct the unknowns
+      held = true;
+      if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
+    }
     difference(point, origin, correction_);
-    const double gap = distance - normal.dot(correction_);
+    const double gap = held ? 0 : distance - normal.dot(correction_);
     correction_.head(size_) = -residual_;
     correction_(size_) = gap;
     solver_.solve(correction_);
@@ -111,13 +116,28 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (point.iterations >= 1 && length > 0.7 * last_length && point.residual > rounding_level(point)) {
       return Correction::diverging;
     }
-    point.unknowns += origin.scale.head(size_).cwiseProduct(correction_.head(size_));
-    point.parameters(parameter_) += origin.scale(size_) * correction_(size_);
     last_length = length;
     last_residual = point.residual;
-    ++point.iterations;
-    ++work_.iterations;
+    apply(point, origin);
   }
+}
+
+Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double change) {
+  if (!evaluate(point)) return Correction::cannot_evaluate;
+  if (!factor(origin.scale, normal)) return Correction::singular;
+  correction_.head(size_) = -residual_;
+  correction_(size_) = change;
+  solver_.solve(correction_);
+  if (!correction_.allFinite()) return Correction::singular;
+  apply(point, origin);
+  return Correction::converged;
+}
+
+void Corrector::apply(CurvePoint& point, const CurvePoint& origin) {
+  point.unknowns += origin.scale.head(size_).cwiseProduct(correction_.head(size_));
+  point.parameters(parameter_) += origin.scale(size_) * correction_(size_);
+  ++point.iterations;
+  ++work_.iterations;
 }
 
 Correction Corrector::linearise(CurvePoint& point, const Vector& normal) {

@@ -27,15 +27,30 @@ std::optional<double> locate(Stepper& stepper, double upper, double at_zero, dou
   return at_a < at_b ? a : b;
 }
 
+/// Looks for the end of the regime first: what lies beyond it is not the branch, so that extrema and folds are looked
+/// for up to there only.
 class Search {
  public:
-  Search(Stepper& stepper, const Signs& signs) : stepper_(stepper), signs_(signs) {}
+  Search(Stepper& stepper, const Signs& signs)
+      : stepper_(stepper),
+        signs_(signs),
+        upper_(stepper.distance()),
+        at_upper_(&stepper.to()),
+        rate_at_upper_(stepper.parameter_rate_to()) {}
 
   EventSearch run() {
-    folds();
-    for (Index i = 0; i < stepper_.tracked_count(); ++i) extremum(i);
-    const auto borders = static_cast<Index>(stepper_.to().size()) - stepper_.tracked_count();
+    const auto borders = static_cast<Index>(at_upper_->size()) - stepper_.tracked_count();
     for (Index b = 0; b < borders; ++b) border(b);
+    if (result_.solved && result_.first) {
+      upper_ = result_.first->s;
+      result_.solved = stepper_.probe(upper_) && stepper_.resolved(upper_, stepper_.probed());
+      cut_ = stepper_.probed();
+      at_upper_ = &cut_;
+      rate_at_upper_ = stepper_.probed_parameter_rate();
+    }
+    if (!result_.solved) return result_;
+    fold();
+    for (Index i = 0; i < stepper_.tracked_count(); ++i) extremum(i);
     return result_;
   }
 
@@ -48,21 +63,20 @@ class Search {
     }
   }
 
-  void folds() {
-    if (signs_.parameter * sign_of(stepper_.parameter_rate_to()) >= 0) return;
-    found(Event::Kind::fold, 0,
-          locate(stepper_, stepper_.distance(), stepper_.parameter_rate_from(), stepper_.parameter_rate_to(),
-                 [](Stepper& s) { return s.probed_parameter_rate(); }));
+  void fold() {
+    if (signs_.parameter * sign_of(rate_at_upper_) >= 0) return;
+    found(Event::Kind::fold, 0, locate(stepper_, upper_, stepper_.parameter_rate_from(), rate_at_upper_,
+                                       [](Stepper& s) { return s.probed_parameter_rate(); }));
   }
 
   std::optional<double> locate_extremum(std::size_t monitor) {
-    return locate(stepper_, stepper_.distance(), stepper_.from()[monitor].slope, stepper_.to()[monitor].slope,
+    return locate(stepper_, upper_, stepper_.from()[monitor].slope, (*at_upper_)[monitor].slope,
                   [monitor](Stepper& s) { return s.probed()[monitor].slope; });
   }
 
   void extremum(Index i) {
     const auto m = static_cast<std::size_t>(i);
-    if (signs_.observables[m] * sign_of_slope(stepper_.to()[m]) >= 0) return;
+    if (signs_.observables[m] * sign_of_slope((*at_upper_)[m]) >= 0) return;
     // A step that starts on an extremum and comes back across it holds no second one.
     if (sign_of(stepper_.from()[m].slope) != signs_.observables[m]) return;
     found(Event::Kind::extremum, i, locate_extremum(m));
@@ -71,23 +85,26 @@ class Search {
   void border(Index b) {
     const auto m = static_cast<std::size_t>(stepper_.tracked_count() + b);
     const Monitor from = stepper_.from()[m];
-    const Monitor to = stepper_.to()[m];
-    double upper = stepper_.distance();
-    double at_upper = to.value;
-    if (at_upper <= 0) {
-      if (!(from.slope > 0 && to.slope < 0)) return;
+    double upper = upper_;
+    double value = (*at_upper_)[m].value;
+    if (value <= 0) {
+      if (!(from.slope > 0 && (*at_upper_)[m].slope < 0)) return;
       const std::optional<double> top = locate_extremum(m);  // the border function's highest point in the step
       if (!top || !stepper_.probe(*top)) return found(Event::Kind::crossing, b, std::nullopt);
       upper = *top;
-      at_upper = stepper_.probed()[m].value;
-      if (at_upper <= 0) return;
+      value = stepper_.probed()[m].value;
+      if (value <= 0) return;
     }
     found(Event::Kind::crossing, b,
-          locate(stepper_, upper, from.value, at_upper, [m](Stepper& s) { return s.probed()[m].value; }));
+          locate(stepper_, upper, from.value, value, [m](Stepper& s) { return s.probed()[m].value; }));
   }
 
   Stepper& stepper_;
   const Signs& signs_;
+  double upper_;
+  const std::vector<Monitor>* at_upper_;
+  std::vector<Monitor> cut_;  // the monitors at the crossing
+  double rate_at_upper_;
   EventSearch result_;
 };
 

@@ -142,7 +142,7 @@ bool Stepper::finish(bool lands, double value) {
   from_ = at_here_;
   for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
-  if (resolved()) return true;
+  if (resolved(distance_, to_)) return true;
   signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
   return false;
 }
@@ -163,18 +163,17 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
   }
 }
 
-bool Stepper::resolved() const {
+bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
-    const Monitor& b = to_[i];
+    const Monitor& b = at_s[i];
     const double change = b.value - a.value;
     const bool tracked = i < tracked_.size();
     const double size = tracked ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
-    if (std::abs(change - 0.5 * distance_ * (a.slope + b.slope)) > 0.1 * size) return false;
+    if (std::abs(change - 0.5 * s * (a.slope + b.slope)) > 0.1 * size) return false;
     // The cubic through both ends has a pair of extrema inside: look closer, unless they are shallow.
-    const double middle = 1.5 * change / distance_ - 0.25 * (a.slope + b.slope);
-    const double deep = 1e-9 * size / distance_;
-    if (a.slope * b.slope > 0 && a.slope * middle < 0 && std::abs(middle) > deep) return false;
+    const double middle = 1.5 * change / s - 0.25 * (a.slope + b.slope);
+    if (a.slope * b.slope > 0 && a.slope * middle < 0 && std::abs(middle) * s > 1e-9 * size) return false;
   }
   return true;
 }
@@ -197,6 +196,18 @@ void Stepper::cut(double s) {
   distance_ = s;
   corrector_.difference(there_, here_, step_);
   corrector_.set_tangent(there_, here_);
+}
+
+Correction Stepper::settle_on_border(int border) {
+  const Index n = corrector_.size();
+  for (int i = 0; i < 3; ++i) {
+    const double value = problem_.border(there_.unknowns, there_.parameters, there_.regime, border, &gradient_);
+    work_.head(n) = gradient_.unknowns.cwiseProduct(here_.scale.head(n));
+    work_(n) = gradient_.parameters(corrector_.parameter()) * here_.scale(n);
+    const Correction result = corrector_.correct_once(there_, here_, work_, -value);
+    if (result != Correction::converged) return result;
+  }
+  return Correction::converged;
 }
 
 void Stepper::advance() {

@@ -229,6 +229,7 @@ bool Tracer::take() {
   if (event_) {
     stepper_.probe(event_->s);
     stepper_.cut(event_->s);
+    if (event_->kind == Event::Kind::crossing) stepper_.settle_on_border(static_cast<int>(event_->index));
   }
   arclength_ += stepper_.chord();
   stepper_.advance();

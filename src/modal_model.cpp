@@ -1,5 +1,6 @@
 #include "arcslip/modal_model.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
@@ -15,11 +16,10 @@ Complex rounded(const PreciseComplex& z) { return {static_cast<double>(z.real())
 }  // namespace
 
 ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, double damping) : damping_(damping) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness, structure.mass);
-  if (solver.info() != Eigen::Success) {
-    throw std::invalid_argument("ModalModel: the modes of the structure could not be found; its mass matrix must be "
-                                "positive definite");
+  if (structure.mass.llt().info() != Eigen::Success) {
+    throw std::invalid_argument("ModalModel: the mass matrix of the structure must be positive definite");
   }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness, structure.mass);
   const PreciseReal two_pi = boost::math::constants::two_pi<PreciseReal>();
   for (Index k = 0; k < structure.load.size(); ++k) {
     const PreciseComplexVector shape = solver.eigenvectors().col(k);

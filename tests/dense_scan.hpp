@@ -1,21 +1,25 @@
 #pragma once
 
-// The response equation R |1 + k phi(R/S) c| = |y_0| solved a second time, sharing no code with the library, and
-// scanned so densely that nothing can hide: every R = S, every extremum of Y.
+// The response equation R |1 + k phi(R/S) c| = |y_0| solved a second time, sharing no code with the library,
+// and scanned so densely that nothing can hide: every R = S, every extremum of Y.
 //
-// Elements, reduction and compliances are closed forms worked out by hand, in extended precision; R comes from
-// bracketing, since the left side rises with R. The scan halves its cells until a cubic explains each of them.
+// Elements, reduction and compliances are closed forms worked out by hand, in extended precision; R comes
+// from bracketing, since the left side rises with R. The scan halves its cells until a cubic explains each of
+// them.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 namespace dense {
 
 using Real = long double;
+static_assert(std::numeric_limits<Real>::digits >= 64,
+              "the scan needs more digits than the tracer that it checks");
 using Complex = std::complex<Real>;
 using Polynomial = std::vector<Real>;  // ascending powers
 
@@ -43,7 +47,9 @@ struct Jet {
 
 inline Jet operator+(const Jet& a, const Jet& b) { return {a.value + b.value, a.slope + b.slope}; }
 inline Jet operator-(const Jet& a, const Jet& b) { return {a.value - b.value, a.slope - b.slope}; }
-inline Jet operator*(const Jet& a, const Jet& b) { return {a.value * b.value, a.value * b.slope + a.slope * b.value}; }
+inline Jet operator*(const Jet& a, const Jet& b) {
+  return {a.value * b.value, a.value * b.slope + a.slope * b.value};
+}
 inline Jet operator*(Real a, const Jet& b) { return {a * b.value, a * b.slope}; }
 inline Jet operator/(const Jet& a, const Jet& b) {
   const Complex ratio = a.value / b.value;
@@ -102,8 +108,8 @@ inline std::vector<Real> positive_roots(const Polynomial& p) {
 }
 
 /// One ring under the travelling wave. With lambda = w*^2/(1 + j beta eta), the dynamic stiffness is
-/// (1 + j beta eta) (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda. All their
-/// coefficients are free of cancellation, for the longest waves too.
+/// (1 + j beta eta) (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda. All
+/// their coefficients are free of cancellation, for the longest waves too.
 struct Ring {
   Polynomial determinant;  ///< of K - lambda M
   Polynomial by_contact;   ///< c = by_contact/determinant/(1 + j beta eta)
@@ -119,20 +125,21 @@ inline Ring rod_ring(const Case& c, Real mass, Real stiffness, Real beta) {
   return {{k, -m}, {1}, {load}, beta};
 }
 
-/// sum_m of (-1)^m a^(2m+odd)/(2m+odd)! int_0^1 s^(2m+odd) shape(s) ds: the integral of cos(as) or sin(as) times
-/// a shape function given by its coefficients.
+/// sum_m of (-1)^m a^(2m+odd)/(2m+odd)! int_0^1 s^(2m+odd) shape(s) ds: the integral of cos(as) or sin(as)
+/// times a shape function given by its coefficients.
 inline Real wave_integral(Real a, int odd, const std::array<int, 4>& shape) {
   Real sum = 0;
   Real power = odd != 0 ? a : 1;
   for (int m = odd; m < 60; m += 2) {
-    for (int i = 0; i < 4; ++i) sum += power * shape[static_cast<std::size_t>(i)] / static_cast<Real>(m + i + 1);
+    for (int i = 0; i < 4; ++i)
+      sum += power * shape[static_cast<std::size_t>(i)] / static_cast<Real>(m + i + 1);
     power *= -a * a / static_cast<Real>((m + 1) * (m + 2));
   }
   return sum;
 }
 
-/// Contact dof w, second dof w' times the element's length. The off-diagonal entries of the reduced matrices are
-/// j k12 and j m12, and the loads f1 and -j f2, with all of them real.
+/// Contact dof w, second dof w' times the element's length. The off-diagonal entries of the reduced matrices
+/// are j k12 and j m12, and the loads f1 and -j f2, with all of them real.
 inline Ring beam_ring(const Case& c, Real mass, Real stiffness, Real beta) {
   const Real a = 2 * pi * c.n / c.N;
   const Real half = std::sin(a / 2) * std::sin(a / 2);
@@ -220,13 +227,13 @@ class Response {
   std::vector<Real> landmarks() const {
     const Polynomial base = sum(base_.determinant, scaled(k_, base_.by_contact));
     const Polynomial damper = sum(damper_.determinant, scaled(k_, damper_.by_contact));
-    const Polynomial pair = sum(product(base, damper_.determinant),
-                                scaled(k_, product(base_.determinant, damper_.by_contact)));
-    const Polynomial both = sum(product(base_.by_contact, damper_.determinant),
-                                product(base_.determinant, damper_.by_contact));
+    const Polynomial pair =
+        sum(product(base, damper_.determinant), scaled(k_, product(base_.determinant, damper_.by_contact)));
+    const Polynomial both =
+        sum(product(base_.by_contact, damper_.determinant), product(base_.determinant, damper_.by_contact));
     std::vector<Real> found;
-    for (const Polynomial& p : {base_.determinant, damper_.determinant, base, damper, pair, both, base_.by_load,
-                                base_.by_contact, damper_.by_contact}) {
+    for (const Polynomial& p : {base_.determinant, damper_.determinant, base, damper, pair, both,
+                                base_.by_load, base_.by_contact, damper_.by_contact}) {
       for (const Real lambda : positive_roots(p)) found.push_back(std::sqrt(lambda) / (2 * pi));
     }
     return found;
@@ -301,7 +308,8 @@ class Response {
     const Real t_slope =
         (local.log_free_slope - threshold_slope - std::real(phi.value * local.c.slope / closed)) /
         (1 + std::real(phi.slope * local.c.value / closed));
-    const Complex damper_slope = phi.value * local.c_damper.slope + t_slope * phi.slope * local.c_damper.value;
+    const Complex damper_slope =
+        phi.value * local.c_damper.slope + t_slope * phi.slope * local.c_damper.value;
     Sample result{};
     result.at = local.at;
     result.slip = slip;
@@ -323,7 +331,7 @@ class Response {
 struct Event {
   enum class Kind { peak, trough, crossing };
   Kind kind;
-  Real at;     ///< the parameter itself
+  Real at;  ///< the parameter itself
   Real log_Y;
   Real log_R;
   Real depth;  ///< of an extremum: least difference of ln Y to the extremum or end next to it
@@ -360,7 +368,9 @@ class Scan {
   std::vector<Real> make_grid(Real from, Real to) const {
     std::vector<Real> grid;
     constexpr int count = 400;
-    for (int i = 0; i <= count; ++i) grid.push_back(from + (to - from) * i / count);
+    grid.reserve(2000);
+    for (int i = 0; i < count; ++i) grid.push_back(from + (to - from) * i / count);
+    grid.push_back(to);
     if (!along_preload_) {
       for (const Real eta : response_.landmarks()) {
         const Real center = std::log(eta);
@@ -377,8 +387,8 @@ class Scan {
     return grid;
   }
 
-  /// Zero between a and b of a function that has signs f_a and -f_a there: regula falsi, which halves the weight of
-  /// an end that stays (Illinois), and bisection in turns.
+  /// Zero between a and b of a function that has signs f_a and -f_a there: regula falsi, which halves the
+  /// weight of an end that stays (Illinois), and bisection in turns.
   template <class Function>
   static Real zero(Real a, Real b, Real f_a, Real f_b, Function f) {
     const bool rises = f_a < 0;
@@ -403,7 +413,7 @@ class Scan {
     const Sample after = at_switch(x, b.slip);
     halve(a, before);
     events_.push_back({Event::Kind::crossing, std::exp(x), before.log_Y, before.log_R, 0});
-    if (before.log_Y_slope * after.log_Y_slope < 0) add_extremum(before);
+    if (before.log_Y_slope * after.log_Y_slope < 0) add_extremum(before, before.log_Y_slope > 0);
     halve(after, b);
   }
 
@@ -412,11 +422,8 @@ class Scan {
                           : response_.at_switch(x, log_fixed_, false, slip);
   }
 
-  /// `before` is the extremum or lies just before it.
-  void add_extremum(const Sample& before, const Sample* place = nullptr) {
-    const Sample& s = place != nullptr ? *place : before;
-    events_.push_back({before.log_Y_slope > 0 ? Event::Kind::peak : Event::Kind::trough, std::exp(s.at), s.log_Y,
-                       s.log_R, 0});
+  void add_extremum(const Sample& s, bool peak) {
+    events_.push_back({peak ? Event::Kind::peak : Event::Kind::trough, std::exp(s.at), s.log_Y, s.log_R, 0});
   }
 
   /// A cell within one regime.
@@ -445,51 +452,47 @@ class Scan {
 
   static bool explained(const Sample& a, const Sample& m, const Sample& b) {
     const Real h = b.at - a.at;
-    const Real ratio_error = error(h, a.log_ratio, m.log_ratio, b.log_ratio, a.log_ratio_slope, m.log_ratio_slope,
-                                   b.log_ratio_slope);
+    const Real ratio_error = error(h, a.log_ratio, m.log_ratio, b.log_ratio, a.log_ratio_slope,
+                                   m.log_ratio_slope, b.log_ratio_slope);
     // Within a regime R/S may come back to 1 unseen only if its curve is far from the cubic.
     const Real nearest = std::max({std::abs(a.log_ratio), std::abs(m.log_ratio), std::abs(b.log_ratio)});
     if (ratio_error > 1e-4L || ratio_error > 0.02L * nearest) return false;
 
-    const Real y_error =
-        error(h, a.log_Y, m.log_Y, b.log_Y, a.log_Y_slope, m.log_Y_slope, b.log_Y_slope);
+    const Real y_error = error(h, a.log_Y, m.log_Y, b.log_Y, a.log_Y_slope, m.log_Y_slope, b.log_Y_slope);
     if (y_error > 1e-5L) return false;
     if (y_error < 1e-15L) return true;
     if (a.log_Y_slope * m.log_Y_slope < 0 || m.log_Y_slope * b.log_Y_slope < 0) {
       return y_error < 0.01L * std::max(std::abs(m.log_Y - a.log_Y), std::abs(m.log_Y - b.log_Y));
     }
-    // The slope, a parabola through three values of one sign, has to stay clear of zero.
-    const Real bend = 2 * (a.log_Y_slope - 2 * m.log_Y_slope + b.log_Y_slope);
-    const Real tilt = b.log_Y_slope - a.log_Y_slope;
-    Real least = std::min({std::abs(a.log_Y_slope), std::abs(m.log_Y_slope), std::abs(b.log_Y_slope)});
-    if (std::abs(tilt) < std::abs(bend)) {
-      const Real vertex = m.log_Y_slope - tilt * tilt / (4 * bend);
-      least = std::min(least, vertex * (m.log_Y_slope > 0 ? 1 : -1));
-    }
-    return least > 16 * y_error / h;
+    return least_slope(a.log_Y_slope, m.log_Y_slope, b.log_Y_slope) > 16 * y_error / h;
+  }
+
+  /// How close a parabola through three values of one sign comes to zero: negative if it gets beyond.
+  static Real least_slope(Real a, Real m, Real b) {
+    const Real bend = 2 * (a - 2 * m + b);
+    const Real tilt = b - a;
+    const Real ends = std::min({std::abs(a), std::abs(m), std::abs(b)});
+    if (std::abs(tilt) >= std::abs(bend)) return ends;
+    const Real vertex = m - tilt * tilt / (4 * bend);
+    return std::min(ends, m > 0 ? vertex : -vertex);
   }
 
   /// A cell that holds at most one extremum of R/S and of Y.
   void finish(const Sample& a, const Sample& b) {
     const Real inward = a.slip ? -1 : 1;  // times ln(R/S): negative, and zero at the switch
     if (inward * a.log_ratio_slope > 0 && inward * b.log_ratio_slope < 0) {
-      bool beyond = false;
-      const Real top = zero(a.at, b.at, a.log_ratio_slope, b.log_ratio_slope, [&](Real x) {
-        const Sample s = at(x);
-        beyond = beyond || s.slip != a.slip;
-        return s.log_ratio_slope;
-      });
-      const Sample highest = at(top);
-      if (highest.slip != a.slip) {
-        connect(a, highest);
-        connect(highest, b);
+      const Sample nearest = at(zero(a.at, b.at, a.log_ratio_slope, b.log_ratio_slope,
+                                     [&](Real x) { return at(x).log_ratio_slope; }));
+      if (nearest.slip != a.slip) {
+        connect(a, nearest);
+        connect(nearest, b);
         return;
       }
     }
     if (a.log_Y_slope * b.log_Y_slope >= 0) return;
-    const Sample place =
-        at(zero(a.at, b.at, a.log_Y_slope, b.log_Y_slope, [&](Real x) { return at(x).log_Y_slope; }));
-    add_extremum(a, &place);
+    const Real x =
+        zero(a.at, b.at, a.log_Y_slope, b.log_Y_slope, [&](Real at_x) { return at(at_x).log_Y_slope; });
+    add_extremum(at(x), a.log_Y_slope > 0);
   }
 
   void measure_depths() {

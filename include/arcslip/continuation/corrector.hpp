@@ -64,6 +64,9 @@ class Corrector {
   Correction correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
                      bool to_rounding = false);
 
+  /// One Newton correction of F = 0 and of a condition with the gradient `normal` that is to change by `change`.
+  Correction correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double change);
+
   /// Contraction rate of the last corrections, |dz_2|/|dz_1|; 0 where fewer than two were needed.
   double contraction() const { return contraction_; }
 
@@ -83,6 +86,7 @@ class Corrector {
   bool evaluate(CurvePoint& point);
   bool factor(const Vector& scale, const Vector& normal);
   bool solve_direction();
+  void apply(CurvePoint& point, const CurvePoint& origin);
   double rounding_level(const CurvePoint& point) const;
 
   const Problem& problem_;
@@ -100,6 +104,7 @@ class Corrector {
   Vector direction_;
   Vector unknown_scale_;
   Vector parameter_scale_;
+  Vector parameter_normal_;  // the condition that keeps the parameter
 };
 
 }  // namespace arcslip::continuation

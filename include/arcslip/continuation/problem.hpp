@@ -64,8 +64,8 @@ class Problem {
   /// The value of one with has_gradient, and its gradient on the branch.
   virtual double observe(const Vector& u, const Vector& p, int regime, Index which, Gradient& gradient) const;
 
-  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any step, say
-  /// a resonance of weak coupling. The tracer puts a point on each and refines towards it.
+  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any step.
+  /// The tracer puts a point on each and refines towards it.
   virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
 };
 

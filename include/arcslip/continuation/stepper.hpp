@@ -68,8 +68,15 @@ class Stepper {
   const std::vector<Monitor>& probed() const { return probed_; }
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
 
+  /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.
+  bool resolved(double s, const std::vector<Monitor>& at_s) const;
+
   /// Ends the step at the point last probed.
   void cut(double s);
+
+  /// Moves `there`, which is next to it, onto a border of its regime, and thereby to the parameter's last bit off the
+  /// branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
+  Correction settle_on_border(int border);
 
   /// Makes `there` the new `here`.
   void advance();
@@ -78,7 +85,6 @@ class Stepper {
   void set_condition(Hold hold);
   void predict();
   bool finish(bool lands, double value);
-  bool resolved() const;
   void monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
   void bend_along(Vector& out) const;
 

@@ -1,0 +1,424 @@
+// The engine on problems without physics, each with its answer in closed form.
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "arcslip/continuation/derivative_check.hpp"
+#include "arcslip/continuation/trace.hpp"
+#include "catch.hpp"
+
+using namespace arcslip;
+using namespace arcslip::continuation;
+
+namespace {
+
+/// x' = mu + x - x^3: folds at mu = -+2/(3 sqrt 3), x = +-1/sqrt 3.
+class Cusp : public Problem {
+ public:
+  Index size() const override { return 1; }
+  std::vector<std::string> parameter_names() const override { return {"mu"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    if (out.residual != nullptr) (*out.residual)(0) = p(0) + u(0) - u(0) * u(0) * u(0);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1 - 3 * u(0) * u(0);
+    if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = 1;
+    return true;
+  }
+};
+
+/// Freudenstein & Roth, as in Rheinboldt & Burkardt, ACM TOMS 9 (1983) 236; x3 is the parameter.
+class FreudensteinRoth : public Problem {
+ public:
+  Index size() const override { return 2; }
+  std::vector<std::string> parameter_names() const override { return {"x3"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const double x = u(0), y = u(1), z = p(0) - 1;
+    if (out.residual != nullptr) {
+      *out.residual << x - y * y * y + 5 * y * y - 2 * y - 13 + 34 * z, x + y * y * y + y * y - 14 * y - 29 + 10 * z;
+    }
+    if (out.jacobian != nullptr) {
+      *out.jacobian << 1, -3 * y * y + 10 * y - 2, 1, 3 * y * y + 2 * y - 14;
+    }
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << 34, 10;
+    return true;
+  }
+};
+
+/// u = height/(1 + (p/width)^2), a peak of any sharpness, in ln u.
+class Needle : public Problem {
+ public:
+  explicit Needle(double width) : width_(width) {}
+  Index size() const override { return 1; }
+  std::vector<std::string> parameter_names() const override { return {"p"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const double x = (p(0) - 1) / width_;
+    if (out.residual != nullptr) (*out.residual)(0) = u(0) + 0.5 * std::log1p(x * x);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
+    if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = x / (1 + x * x) / width_;
+    return true;
+  }
+  void scale(const Vector& /*u*/, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    unknowns(0) = 1;
+    parameters = p;
+  }
+  std::vector<Observable> observables() const override { return {{"amplitude", true}}; }
+  void observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const override {
+    values = u.array().exp();
+  }
+  double observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+                 Gradient& gradient) const override {
+    gradient.unknowns(0) = std::exp(u(0));
+    gradient.parameters(0) = 0;
+    return std::exp(u(0));
+  }
+
+ private:
+  double width_;
+};
+
+/// Two straight pieces that meet at u = 0: p = a u for u < 0 ("below") and p = b u for u > 0 ("above").
+class Corner : public Problem {
+ public:
+  Corner(double a, double b) : a_(a), b_(b) {}
+  Index size() const override { return 1; }
+  std::vector<std::string> parameter_names() const override { return {"p"}; }
+  std::vector<std::string> regime_names() const override { return {"below", "above"}; }
+  int border_count(int /*regime*/) const override { return 1; }
+  int regime_beyond(int regime, int /*border*/) const override { return 1 - regime; }
+  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/, Gradient* gradient) const override {
+    const double sign = regime == 0 ? 1 : -1;
+    if (gradient != nullptr) {
+      gradient->unknowns(0) = sign;
+      gradient->parameters(0) = 0;
+    }
+    return sign * u(0);
+  }
+  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    const double slope = regime == 0 ? a_ : b_;
+    if (out.residual != nullptr) (*out.residual)(0) = p(0) - slope * u(0);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = -slope;
+    if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = 1;
+    return true;
+  }
+
+ private:
+  double a_, b_;
+};
+
+/// u = width^2 - (p - 1)^2, above the border only between p = 1 - width and 1 + width.
+class Bump : public Corner {
+ public:
+  explicit Bump(double width) : Corner(1, 1), width_(width) {}
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const double x = p(0) - 1;
+    if (out.residual != nullptr) (*out.residual)(0) = u(0) - (width_ * width_ - x * x);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
+    if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = 2 * x;
+    return true;
+  }
+
+ private:
+  double width_;
+};
+
+/// Another problem with its unknowns and residuals multiplied, and its scale with them.
+class Rescaled : public FreudensteinRoth {
+ public:
+  Rescaled(double unknowns, double residuals) : unknowns_(unknowns), residuals_(residuals) {}
+  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    FreudensteinRoth::evaluate(u / unknowns_, p, regime, out);
+    if (out.residual != nullptr) *out.residual *= residuals_;
+    if (out.jacobian != nullptr) *out.jacobian *= residuals_ / unknowns_;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian *= residuals_;
+    return true;
+  }
+  void scale(const Vector& /*u*/, const Vector& /*p*/, Vector& unknowns, Vector& parameters) const override {
+    unknowns.setConstant(unknowns_);
+    parameters.setOnes();
+  }
+
+ private:
+  double unknowns_, residuals_;
+};
+
+/// Discretised Bratu problem u'' + L e^u = 0, u(0) = u(1) = 0, central differences on m inner points.
+class Bratu : public Problem {
+ public:
+  explicit Bratu(Index m) : m_(m) {}
+  Index size() const override { return m_; }
+  std::vector<std::string> parameter_names() const override { return {"L"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const double h = 1.0 / static_cast<double>(m_ + 1);
+    if (out.jacobian != nullptr) out.jacobian->setZero();
+    for (Index i = 0; i < m_; ++i) {
+      const double left = i > 0 ? u(i - 1) : 0;
+      const double right = i + 1 < m_ ? u(i + 1) : 0;
+      const double source = h * h * std::exp(u(i));
+      if (out.residual != nullptr) (*out.residual)(i) = left - 2 * u(i) + right + p(0) * source;
+      if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(i, 0) = source;
+      if (out.jacobian == nullptr) continue;
+      (*out.jacobian)(i, i) = -2 + p(0) * source;
+      if (i > 0) (*out.jacobian)(i, i - 1) = 1;
+      if (i + 1 < m_) (*out.jacobian)(i, i + 1) = 1;
+    }
+    return true;
+  }
+
+ private:
+  Index m_;
+};
+
+Guess guess_of(std::initializer_list<double> unknowns, double parameter, int regime = 0) {
+  Guess guess{Vector(static_cast<Index>(unknowns.size())), Vector::Constant(1, parameter), regime};
+  std::copy(unknowns.begin(), unknowns.end(), guess.unknowns.begin());
+  return guess;
+}
+
+TraceOptions over(const std::string& parameter, double from, double to) {
+  TraceOptions options;
+  options.parameter = parameter;
+  options.from = from;
+  options.to = to;
+  return options;
+}
+
+std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
+  std::vector<BranchPoint> points;
+  for (const BranchPoint& point : branch.points) {
+    if (point.type == type) points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("The branch passes both folds of the cusp and lands exactly on its last value") {
+  const Branch branch = trace(Cusp(), guess_of({-1.5}, -2), over("mu", -2, 2));
+  REQUIRE(branch.complete());
+  CHECK(branch.points.front().type == PointType::start);
+  CHECK(branch.points.front().parameters(0) == -2);
+  CHECK(branch.points.back().type == PointType::end);
+  CHECK(branch.points.back().parameters(0) == 2);
+  const auto folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 2);
+  const double mu = 2 / (3 * std::sqrt(3.0));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(mu, 1e-12));
+  CHECK_THAT(folds[0].unknowns(0), WithinRel(-1 / std::sqrt(3.0), 1e-10));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(-mu, 1e-12));
+  CHECK_THAT(folds[1].unknowns(0), WithinRel(1 / std::sqrt(3.0), 1e-10));
+  for (const BranchPoint& point : branch.points) CHECK(point.residual <= 1e-9);
+}
+
+TEST_CASE("The same branch the other way has the same folds") {
+  const Branch branch = trace(Cusp(), guess_of({1.5}, 2), over("mu", 2, -2));
+  REQUIRE(branch.complete());
+  const auto folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK_THAT(folds[0].unknowns(0), WithinRel(1 / std::sqrt(3.0), 1e-10));
+  CHECK_THAT(folds[1].unknowns(0), WithinRel(-1 / std::sqrt(3.0), 1e-10));
+}
+
+TEST_CASE("A branch that turns back to its first value ends there and says so") {
+  const Branch branch = trace(Cusp(), guess_of({-1}, 0), over("mu", 0, 1.5));
+  CHECK(branch.stop == Stop::left_range);
+  CHECK(branch.points.back().parameters(0) == 0);
+  CHECK_THAT(branch.points.back().unknowns(0), WithinAbs(0, 1e-10));  // the middle sheet
+}
+
+TEST_CASE("Freudenstein and Roth's branch has its published folds") {
+  const Branch branch = trace(FreudensteinRoth(), guess_of({22.8, -2.59}, -0.9), over("x3", -0.9, 1));
+  REQUIRE(branch.complete());
+  const auto folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK_THAT(folds[0].unknowns(0), WithinRel(20.4858578279, 1e-10));
+  CHECK_THAT(folds[0].unknowns(1), WithinRel(-0.8968052533, 1e-9));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(0.5875873254, 1e-9));
+  CHECK_THAT(folds[1].unknowns(0), WithinRel(61.0203150116, 1e-10));
+  CHECK_THAT(folds[1].unknowns(1), WithinRel(2.2301385866, 1e-9));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(-0.6863527575, 1e-9));
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(5.0, 1e-9));
+  CHECK_THAT(branch.points.back().unknowns(1), WithinRel(4.0, 1e-9));
+}
+
+TEST_CASE("A change of units changes neither the branch nor its folds") {
+  const Branch plain = trace(FreudensteinRoth(), guess_of({15, -2}, 0), over("x3", 0, 1));
+  TraceOptions options = over("x3", 0, 1);
+  options.tolerance = 1e-10 * 1e6;  // residuals in other units, so the tolerance on them
+  const Branch scaled = trace(Rescaled(1e6, 1e6), guess_of({15e6, -2e6}, 0), options);
+  REQUIRE(scaled.points.size() == plain.points.size());
+  for (std::size_t i = 0; i < plain.points.size(); ++i) {
+    CHECK(scaled.points[i].type == plain.points[i].type);
+    CHECK_THAT(scaled.points[i].unknowns(0) / 1e6, WithinRel(plain.points[i].unknowns(0), 1e-8));
+  }
+}
+
+TEST_CASE("The discretised Bratu problem folds at a parameter that converges to 3.51383071912516") {
+  // Error of second-order differences: c h^2 with c fitted at two meshes, so that extrapolation gains two digits.
+  const auto fold = [](Index m) {
+    TraceOptions options = over("L", 0, 4);
+    options.max_step = 0.3;
+    const Branch branch = trace(Bratu(m), {Vector::Zero(m), Vector::Zero(1), 0}, options);
+    const auto folds = of_type(branch, PointType::fold);
+    REQUIRE(folds.size() == 1);
+    return folds[0].parameters(0);
+  };
+  const double coarse = fold(15);
+  const double fine = fold(31);
+  CHECK_THAT((4 * fine - coarse) / 3, WithinRel(3.51383071912516, 1e-5));
+  CHECK_THAT(fine, WithinRel(3.51383071912516, 2e-3));
+}
+
+TEST_CASE("Needles of any sharpness are passed with the defaults, and their peak is found") {
+  const double width = GENERATE(1e-1, 1e-3, 1e-6, 1e-9);
+  TraceOptions options = over("p", 0.1, 10);
+  options.extrema_of = {"amplitude"};
+  const Needle problem(width);
+  const double start = -0.5 * std::log1p(0.81 / (width * width));
+  const Branch branch = trace(problem, guess_of({start}, 0.1), options);
+  REQUIRE(branch.complete());
+  const auto peaks = of_type(branch, PointType::peak);
+  REQUIRE(peaks.size() == 1);
+  CHECK_THAT(peaks[0].parameters(0), WithinRel(1.0, 1e-14));
+  CHECK_THAT(peaks[0].unknowns(0), WithinAbs(0, 1e-10));
+  CHECK(of_type(branch, PointType::trough).empty());
+  CHECK(of_type(branch, PointType::fold).empty());
+  CHECK(branch.points.size() < 700);
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    CHECK(branch.points[i].parameters(0) > branch.points[i - 1].parameters(0));  // never lapped
+  }
+}
+
+TEST_CASE("A corner of any angle is turned at the border itself") {
+  const double slope = GENERATE(1e-4, 0.02, 1.0, 50.0, 1e4);
+  const double to = std::min(1.0, 10 * slope);
+  const Branch branch = trace(Corner(1, slope), guess_of({-1}, -1), over("p", -1, to));
+  REQUIRE(branch.complete());
+  const auto switches = of_type(branch, PointType::regime_switch);
+  REQUIRE(switches.size() == 1);
+  CHECK_THAT(switches[0].unknowns(0), WithinAbs(0, 1e-14));
+  CHECK_THAT(switches[0].parameters(0), WithinAbs(0, 1e-14));
+  CHECK(switches[0].regime == 1);
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(to / slope, 1e-9));
+  CHECK(of_type(branch, PointType::fold).empty());
+}
+
+TEST_CASE("A corner at which the parameter turns back is a fold of its own kind") {
+  const Branch branch = trace(Corner(1, -2), guess_of({-1}, -1), over("p", -1, 1));
+  CHECK(branch.stop == Stop::left_range);
+  const auto folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-14));
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(0.5, 1e-10));
+}
+
+TEST_CASE("A border touched only between two steps is not stepped over") {
+  const double width = GENERATE(0.3, 1e-2, 1e-3, 1e-4);  // the border function rises to width^2
+  const Branch branch = trace(Bump(width), guess_of({-1}, 0), over("p", 0, 2));
+  REQUIRE(branch.complete());
+  const auto switches = of_type(branch, PointType::regime_switch);
+  REQUIRE(switches.size() == 2);
+  CHECK_THAT(switches[0].parameters(0), WithinAbs(1 - width, 1e-10));
+  CHECK_THAT(switches[1].parameters(0), WithinAbs(1 + width, 1e-10));
+}
+
+TEST_CASE("Listed values are landed on exactly, in either direction") {
+  TraceOptions options = over("mu", 3, 1);
+  options.stop_at = {1.25, 2.7, 2.5};
+  const Branch branch = trace(Cusp(), guess_of({1.6}, 3), options);
+  const auto users = of_type(branch, PointType::user);
+  REQUIRE(users.size() == 3);
+  CHECK(users[0].parameters(0) == 2.7);
+  CHECK(users[1].parameters(0) == 2.5);
+  CHECK(users[2].parameters(0) == 1.25);
+}
+
+TEST_CASE("Each end of a branch has its reason") {
+  TraceOptions options = over("mu", -2, 2);
+  options.max_points = 7;
+  const Branch full = trace(Cusp(), guess_of({-1.5}, -2), options);
+  CHECK(full.stop == Stop::max_points);
+  CHECK(full.points.size() == 7);
+
+  int seen = 0;
+  const Branch stopped =
+      trace(Cusp(), guess_of({-1.5}, -2), over("mu", -2, 2), [&](const BranchPoint&) { return ++seen < 5; });
+  CHECK(stopped.stop == Stop::interrupted);
+  CHECK(stopped.points.size() == 5);
+
+  class NoSolution : public Cusp {
+   public:
+    bool evaluate(const Vector&, const Vector&, int, const Evaluation&) const override { return false; }
+  };
+  const Branch none = trace(NoSolution(), guess_of({0}, 0), over("mu", 0, 1));
+  CHECK(none.stop == Stop::no_start);
+  CHECK(none.points.empty());
+
+  class Wall : public Cusp {  // cannot be evaluated beyond mu = 1
+   public:
+    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+      return p(0) <= 1 && Cusp::evaluate(u, p, regime, out);
+    }
+  };
+  const Branch wall = trace(Wall(), guess_of({1.2}, 0.5), over("mu", 0.5, 2));
+  CHECK(wall.stop == Stop::min_step);
+  CHECK_THAT(wall.points.back().parameters(0), WithinAbs(1, 1e-8));
+  CHECK_THAT(wall.explanation, ContainsSubstring("min_step"));
+
+  class Broken : public Cusp {  // nan beyond mu = 1
+   public:
+    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+      Cusp::evaluate(u, p, regime, out);
+      if (p(0) > 1 && out.residual != nullptr) (*out.residual)(0) = std::nan("");
+      return true;
+    }
+  };
+  const Branch broken = trace(Broken(), guess_of({1.2}, 0.5), over("mu", 0.5, 2));
+  CHECK(broken.stop == Stop::min_step);
+  for (const BranchPoint& point : broken.points) CHECK(std::isfinite(point.unknowns(0)));
+}
+
+TEST_CASE("A start outside its regime is refused") {
+  const Branch branch = trace(Corner(1, 1), guess_of({0.5}, 0.5, 0), over("p", 0.5, 1));
+  CHECK(branch.stop == Stop::no_start);
+  CHECK_THAT(branch.explanation, ContainsSubstring("below"));
+}
+
+TEST_CASE("Options that do not fit are refused with what is allowed") {
+  const Guess guess = guess_of({-1.5}, -2);
+  CHECK_THROWS_WITH(trace(Cusp(), guess, over("nu", -2, 2)), ContainsSubstring("mu"));
+  CHECK_THROWS_AS(trace(Cusp(), guess, over("mu", 1, 1)), std::invalid_argument);
+  TraceOptions outside = over("mu", -2, 2);
+  outside.stop_at = {3};
+  CHECK_THROWS_WITH(trace(Cusp(), guess, outside), ContainsSubstring("stop_at"));
+  TraceOptions unknown = over("mu", -2, 2);
+  unknown.extrema_of = {"Y"};
+  CHECK_THROWS_AS(trace(Cusp(), guess, unknown), std::invalid_argument);
+}
+
+TEST_CASE("The derivative checker passes exact derivatives and names a wrong one") {
+  Vector u(2);
+  u << 3.0, -1.0;
+  CHECK(check_derivatives(FreudensteinRoth(), u, Vector::Zero(1), 0).worst < 1e-9);
+
+  class Wrong : public FreudensteinRoth {
+   public:
+    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+      FreudensteinRoth::evaluate(u, p, regime, out);
+      if (out.jacobian != nullptr) (*out.jacobian)(1, 0) *= 1.01;
+      return true;
+    }
+  };
+  const DerivativeReport report = check_derivatives(Wrong(), u, Vector::Zero(1), 0);
+  CHECK(report.worst > 1e-3);
+  CHECK(report.where == "dF1/du0");
+}
+
+TEST_CASE("Points of a branch lie no farther apart than max_step, but for the corrector's last bit") {
+  TraceOptions options = over("mu", -2, 2);
+  options.max_step = 0.03;
+  const Branch branch = trace(Cusp(), guess_of({-1.5}, -2), options);
+  REQUIRE(branch.complete());
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    CHECK(branch.points[i].arclength - branch.points[i - 1].arclength <= 1.15 * 0.03);
+  }
+}
