@@ -95,13 +95,14 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (!evaluate(point)) return Correction::cannot_evaluate;
     if (!factor(origin.scale, normal)) return Correction::singular;
     const bool last = point.iterations >= options_.max_iterations;
-    const bool stagnant = point.residual >= 0.5 * last_residual && point.residual <= rounding_level(point);
-    if (point.residual <= (to_rounding && !last ? 0 : options_.tolerance) ||
-        (stagnant && (held || point.residual <= options_.tolerance))) {
+    const bool good = point.residual <= options_.tolerance;
+    const bool stagnant = point.residual >= 0.5 * last_residual;
+    const bool rounded = stagnant && point.residual <= rounding_level(point);
+    if (point.residual == 0 || (good && (!to_rounding || stagnant || last)) || (rounded && held)) {
       return solve_direction() ? Correction::converged : Correction::singular;
     }
     if (last) return Correction::too_many_iterations;
-    if (stagnant) {  // the parameter's own rounding is what is left: hold it and correct the unknowns
+    if (rounded) {  // the parameter's own rounding is what is left: hold it and correct the unknowns
       held = true;
       if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
     }
@@ -113,9 +114,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     const double length = correction_.norm();
     if (!std::isfinite(length)) return Correction::singular;
     if (point.iterations == 1) contraction_ = length / last_length;
-    if (point.iterations >= 1 && length > 0.7 * last_length && point.residual > rounding_level(point)) {
-      return Correction::diverging;
-    }
+    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded) return Correction::diverging;
     last_length = length;
     last_residual = point.residual;
     apply(point, origin);

@@ -8,23 +8,49 @@ namespace {
 
 int sign_of(double value) { return (value > 0) - (value < 0); }
 
-/// Zero of f(stepper) for s in [0, upper], where f has the values at_zero and at_upper of unlike signs.
+struct Zero {
+  enum class State { found, absent, failed };
+  State state;
+  double s = 0;
+};
+
+/// A function of the branch within the step: positive before its zero and negative behind it, or the other way round.
+struct Bracket {
+  double upper;     ///< the zero lies in (0, upper)
+  double at_zero;   ///< value at 0; noise if another zero has just been located there
+  int before;       ///< sign before the zero
+  double at_upper;  ///< of the other sign
+};
+
+/// Locates the zero. Where the value at 0 may be noise, a point that shows the sign before the zero is looked for.
 template <class Function>
-std::optional<double> locate(Stepper& stepper, double upper, double at_zero, double at_upper, Function f) {
-  if (sign_of(at_zero) * sign_of(at_upper) >= 0) return std::nullopt;
+Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   bool solved = true;
   const auto along = [&](double s) {
     solved = solved && stepper.probe(s);
     return solved ? f(stepper) : 0.0;
   };
-  const auto close = [upper](double a, double b) { return std::abs(b - a) <= 1e-14 * upper; };
+  double lower = 0;
+  double at_lower = bracket.at_zero;
+  if (sign_of(at_lower) != bracket.before || std::abs(at_lower) < 0.01 * std::abs(bracket.at_upper)) {
+    double s = 0.5 * bracket.upper;
+    double value = along(s);
+    while (solved && sign_of(value) != bracket.before && s > 1e-12 * bracket.upper) value = along(s *= 0.5);
+    if (!solved) return {Zero::State::failed};
+    if (sign_of(value) == bracket.before) {
+      lower = s;
+      at_lower = value;
+    } else if (sign_of(at_lower) != bracket.before) {
+      return {Zero::State::absent};
+    }
+  }
+  const auto close = [&](double a, double b) { return std::abs(b - a) <= 1e-14 * bracket.upper; };
   std::uintmax_t iterations = 100;
-  const auto [a, b] =
-      boost::math::tools::toms748_solve(along, 0.0, upper, at_zero, at_upper, close, iterations);
-  if (!solved) return std::nullopt;
-  const double at_a = a > 0 ? std::abs(along(a)) : std::abs(at_zero);
+  const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower, bracket.at_upper, close,
+                                                        iterations);
+  const double at_a = a > lower ? std::abs(along(a)) : std::abs(at_lower);
   const double at_b = std::abs(along(b));
-  return at_a < at_b ? a : b;
+  return {solved ? Zero::State::found : Zero::State::failed, at_a < at_b ? a : b};
 }
 
 /// Looks for the end of the regime first: what lies beyond it is not the branch, so that extrema and folds are looked
@@ -55,31 +81,29 @@ class Search {
   }
 
  private:
-  void found(Event::Kind kind, Index index, std::optional<double> s) {
-    if (!s) {
-      result_.solved = false;
-    } else if (!result_.first || *s < result_.first->s) {
-      result_.first = Event{kind, index, *s};
-    }
+  void note(Event::Kind kind, Index index, const Zero& zero) {
+    if (zero.state == Zero::State::failed) result_.solved = false;
+    if (zero.state != Zero::State::found) return;
+    if (!result_.first || zero.s < result_.first->s) result_.first = Event{kind, index, zero.s};
   }
 
   void fold() {
     if (signs_.parameter * sign_of(rate_at_upper_) >= 0) return;
-    found(Event::Kind::fold, 0, locate(stepper_, upper_, stepper_.parameter_rate_from(), rate_at_upper_,
-                                       [](Stepper& s) { return s.probed_parameter_rate(); }));
+    note(Event::Kind::fold, 0,
+         locate(stepper_, {upper_, stepper_.parameter_rate_from(), signs_.parameter, rate_at_upper_},
+                [](Stepper& s) { return s.probed_parameter_rate(); }));
   }
 
-  std::optional<double> locate_extremum(std::size_t monitor) {
-    return locate(stepper_, upper_, stepper_.from()[monitor].slope, (*at_upper_)[monitor].slope,
+  Zero locate_extremum(std::size_t monitor, int before) {
+    return locate(stepper_, {upper_, stepper_.from()[monitor].slope, before, (*at_upper_)[monitor].slope},
                   [monitor](Stepper& s) { return s.probed()[monitor].slope; });
   }
 
   void extremum(Index i) {
     const auto m = static_cast<std::size_t>(i);
-    if (signs_.observables[m] * sign_of_slope((*at_upper_)[m]) >= 0) return;
-    // A step that starts on an extremum and comes back across it holds no second one.
-    if (sign_of(stepper_.from()[m].slope) != signs_.observables[m]) return;
-    found(Event::Kind::extremum, i, locate_extremum(m));
+    const int before = signs_.observables[m];
+    if (before * sign_of_slope((*at_upper_)[m]) >= 0) return;
+    note(Event::Kind::extremum, i, locate_extremum(m, before));
   }
 
   void border(Index b) {
@@ -89,14 +113,18 @@ class Search {
     double value = (*at_upper_)[m].value;
     if (value <= 0) {
       if (!(from.slope > 0 && (*at_upper_)[m].slope < 0)) return;
-      const std::optional<double> top = locate_extremum(m);  // the border function's highest point in the step
-      if (!top || !stepper_.probe(*top)) return found(Event::Kind::crossing, b, std::nullopt);
-      upper = *top;
+      const Zero top = locate_extremum(m, 1);  // the border function's highest point in the step
+      if (top.state != Zero::State::found || !stepper_.probe(top.s)) {
+        result_.solved = false;
+        return;
+      }
+      upper = top.s;
       value = stepper_.probed()[m].value;
       if (value <= 0) return;
     }
-    found(Event::Kind::crossing, b,
-          locate(stepper_, upper, from.value, value, [m](Stepper& s) { return s.probed()[m].value; }));
+    const Zero zero = locate(stepper_, {upper, from.value, -1, value}, [m](Stepper& s) { return s.probed()[m].value; });
+    if (zero.state == Zero::State::absent) result_.solved = false;  // beyond the border, yet nowhere across it
+    note(Event::Kind::crossing, b, zero);
   }
 
   Stepper& stepper_;

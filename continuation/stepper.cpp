@@ -5,6 +5,23 @@
 #include <limits>
 
 namespace arcslip::continuation {
+namespace {
+
+/// Whether the cubic on [0, 1] with these end slopes of one sign and this change has, or nearly has, a pair of extrema
+/// inside: its slope falls there below a third of that at either end, and by more than `shallow`.
+bool hides_extrema(double slope_0, double slope_1, double change, double shallow) {
+  if (!(slope_0 * slope_1 > 0)) return false;
+  const double sign = slope_0 > 0 ? 1 : -1;
+  const double a = sign * slope_0;
+  const double b = 6 * sign * change - 4 * a - 2 * sign * slope_1;  // slope a + b x + c x^2
+  const double c = -b + sign * slope_1 - a;
+  if (!(c > 0) || !(b < 0) || !(-b < 2 * c)) return false;
+  const double least = std::min(a, sign * slope_1);
+  const double lowest = a - b * b / (4 * c);
+  return lowest < least / 3 && least - lowest > shallow;
+}
+
+}  // namespace
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step)
     : problem_(problem),
@@ -171,9 +188,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const bool tracked = i < tracked_.size();
     const double size = tracked ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
     if (std::abs(change - 0.5 * s * (a.slope + b.slope)) > 0.1 * size) return false;
-    // The cubic through both ends has a pair of extrema inside: look closer, unless they are shallow.
-    const double middle = 1.5 * change / s - 0.25 * (a.slope + b.slope);
-    if (a.slope * b.slope > 0 && a.slope * middle < 0 && std::abs(middle) * s > 1e-9 * size) return false;
+    if (hides_extrema(a.slope * s, b.slope * s, change, 1e-9 * size)) return false;
   }
   return true;
 }
