@@ -89,7 +89,8 @@ double BorderedSolver::permutation_sign() {
   solution_.setZero();  // marks what has been seen
   double sign = 1;
   for (Index start = 0; start < image.size(); ++start) {
-    for (Index i = image(start); i != start && solution_(start) == 0; i = image(i)) {  // a cycle of length l: l - 1
+    for (Index i = image(start); i != start && solution_(start) == 0;
+         i = image(i)) {  // a cycle of length l: l - 1
       solution_(i) = 1;
       sign = -sign;
     }

@@ -84,8 +84,8 @@ double Corrector::rounding_level(const CurvePoint& point) const {
   return 4 * std::numeric_limits<double>::epsilon() * (1 + level);
 }
 
-Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
-                              bool to_rounding) {
+Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                              double distance, bool to_rounding) {
   contraction_ = 0;
   point.iterations = 0;
   bool held = false;
@@ -114,14 +114,16 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     const double length = correction_.norm();
     if (!std::isfinite(length)) return Correction::singular;
     if (point.iterations == 1) contraction_ = length / last_length;
-    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded) return Correction::diverging;
+    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded)
+      return Correction::diverging;
     last_length = length;
     last_residual = point.residual;
     apply(point, origin);
   }
 }
 
-Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double change) {
+Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                                   double change) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
   if (!factor(origin.scale, normal)) return Correction::singular;
   correction_.head(size_) = -residual_;

@@ -14,7 +14,8 @@ struct Zero {
   double s = 0;
 };
 
-/// A function of the branch within the step: positive before its zero and negative behind it, or the other way round.
+/// A function of the branch within the step: positive before its zero and negative behind it, or the other
+/// way round.
 struct Bracket {
   double upper;     ///< the zero lies in (0, upper)
   double at_zero;   ///< value at 0; noise if another zero has just been located there
@@ -22,7 +23,8 @@ struct Bracket {
   double at_upper;  ///< of the other sign
 };
 
-/// Locates the zero. Where the value at 0 may be noise, a point that shows the sign before the zero is looked for.
+/// Locates the zero. Where the value at 0 may be noise, a point that shows the sign before the zero is looked
+/// for.
 template <class Function>
 Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   bool solved = true;
@@ -46,15 +48,15 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   }
   const auto close = [&](double a, double b) { return std::abs(b - a) <= 1e-14 * bracket.upper; };
   std::uintmax_t iterations = 100;
-  const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower, bracket.at_upper, close,
-                                                        iterations);
+  const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower,
+                                                        bracket.at_upper, close, iterations);
   const double at_a = a > lower ? std::abs(along(a)) : std::abs(at_lower);
   const double at_b = std::abs(along(b));
   return {solved ? Zero::State::found : Zero::State::failed, at_a < at_b ? a : b};
 }
 
-/// Looks for the end of the regime first: what lies beyond it is not the branch, so that extrema and folds are looked
-/// for up to there only.
+/// Looks for the end of the regime first: what lies beyond it is not the branch, so that extrema and folds
+/// are looked for up to there only.
 class Search {
  public:
   Search(Stepper& stepper, const Signs& signs)
@@ -122,8 +124,10 @@ class Search {
       value = stepper_.probed()[m].value;
       if (value <= 0) return;
     }
-    const Zero zero = locate(stepper_, {upper, from.value, -1, value}, [m](Stepper& s) { return s.probed()[m].value; });
-    if (zero.state == Zero::State::absent) result_.solved = false;  // beyond the border, yet nowhere across it
+    const Zero zero =
+        locate(stepper_, {upper, from.value, -1, value}, [m](Stepper& s) { return s.probed()[m].value; });
+    if (zero.state == Zero::State::absent)
+      result_.solved = false;  // beyond the border, yet nowhere across it
     note(Event::Kind::crossing, b, zero);
   }
 
@@ -145,7 +149,8 @@ int sign_of_slope(const Monitor& monitor) {
 void Signs::reset(const std::vector<Monitor>& monitors, Index tracked, double parameter_rate) {
   parameter = sign_of(parameter_rate);
   observables.clear();
-  for (Index i = 0; i < tracked; ++i) observables.push_back(sign_of_slope(monitors[static_cast<std::size_t>(i)]));
+  for (Index i = 0; i < tracked; ++i)
+    observables.push_back(sign_of_slope(monitors[static_cast<std::size_t>(i)]));
 }
 
 void Signs::update(const std::vector<Monitor>& monitors, double parameter_rate) {

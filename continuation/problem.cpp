@@ -32,7 +32,9 @@ double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/
   throw std::logic_error("Problem::observe: this problem has no observable with a gradient");
 }
 
-std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, double /*to*/) const { return {}; }
+std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, double /*to*/) const {
+  return {};
+}
 
 Index index_of(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);

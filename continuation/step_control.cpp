@@ -14,9 +14,10 @@ bool acceptable(const StepSignals& signals, const StepLimits& limits, double max
 
 double step_factor(const StepSignals& signals, const StepLimits& limits, double max_step) {
   constexpr double tiny = std::numeric_limits<double>::min();
-  const double factor = std::min({std::sqrt(limits.contraction_aim / (signals.contraction + tiny)),
-                                  limits.turn_aim / (signals.turn + tiny),
-                                  std::sqrt(limits.error_aim * max_step / (signals.prediction_error + tiny))});
+  const double factor =
+      std::min({std::sqrt(limits.contraction_aim / (signals.contraction + tiny)),
+                limits.turn_aim / (signals.turn + tiny),
+                std::sqrt(limits.error_aim * max_step / (signals.prediction_error + tiny))});
   const double largest = acceptable(signals, limits, max_step) ? limits.growth : 0.5;
   return std::clamp(factor, limits.shrink, largest);
 }

@@ -7,8 +7,8 @@
 namespace arcslip::continuation {
 namespace {
 
-/// Whether the cubic on [0, 1] with these end slopes of one sign and this change has, or nearly has, a pair of extrema
-/// inside: its slope falls there below a third of that at either end, and by more than `shallow`.
+/// Whether the cubic on [0, 1] with these end slopes of one sign and this change has, or nearly has, a pair
+/// of extrema inside: its slope falls there below a third of that at either end, and by more than `shallow`.
 bool hides_extrema(double slope_0, double slope_1, double change, double shallow) {
   if (!(slope_0 * slope_1 > 0)) return false;
   const double sign = slope_0 > 0 ? 1 : -1;
@@ -63,7 +63,8 @@ Correction Stepper::enter(int regime) {
   here_.regime = regime;
   const Index n = corrector_.size();
   double nearest = std::numeric_limits<double>::infinity();
-  for (int b = 0; b < problem_.border_count(regime); ++b) {  // the border of the new regime on which the point lies
+  for (int b = 0; b < problem_.border_count(regime);
+       ++b) {  // the border of the new regime on which the point lies
     const double value = problem_.border(here_.unknowns, here_.parameters, regime, b, &gradient_);
     if (std::abs(value) >= nearest) continue;
     nearest = std::abs(value);
@@ -101,7 +102,8 @@ void Stepper::set_condition(Hold hold) {
   slope_from_ = here_.tangent * slope_length(hold);
 }
 
-// With a = 1/(normal . t) the curve's second derivative in the step's coordinate is a^2 (b - a (normal . b) t).
+// With a = 1/(normal . t) the curve's second derivative in the step's coordinate is a^2 (b - a (normal . b)
+// t).
 void Stepper::bend_along(Vector& out) const {
   const double a = 1 / normal_.dot(here_.tangent);
   out = a * a * (bend_ - a * normal_.dot(bend_) * here_.tangent);
@@ -164,7 +166,8 @@ bool Stepper::finish(bool lands, double value) {
   return false;
 }
 
-void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out) {
+void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector& slope,
+                      std::vector<Monitor>& out) {
   const Index n = corrector_.size();
   const Index a = corrector_.parameter();
   out.clear();
@@ -216,7 +219,8 @@ void Stepper::cut(double s) {
 Correction Stepper::settle_on_border(int border) {
   const Index n = corrector_.size();
   for (int i = 0; i < 3; ++i) {
-    const double value = problem_.border(there_.unknowns, there_.parameters, there_.regime, border, &gradient_);
+    const double value =
+        problem_.border(there_.unknowns, there_.parameters, there_.regime, border, &gradient_);
     work_.head(n) = gradient_.unknowns.cwiseProduct(here_.scale.head(n));
     work_(n) = gradient_.parameters(corrector_.parameter()) * here_.scale(n);
     const Correction result = corrector_.correct_once(there_, here_, work_, -value);

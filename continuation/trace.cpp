@@ -63,8 +63,9 @@ std::vector<Index> tracked_observables(const Problem& problem, const TraceOption
   for (const std::string& name : options.extrema_of) {
     index_of(names, name);  // throws where it has no gradient
     const std::vector<Observable> all = problem.observables();
-    tracked.push_back(std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; }) -
-                      all.begin());
+    tracked.push_back(
+        std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; }) -
+        all.begin());
   }
   return tracked;
 }
@@ -135,10 +136,12 @@ bool Tracer::start(const Guess& guess) {
     return stop(Stop::no_start, fmt::format("no solution was found from the guess at {} = {:.10g}",
                                             options_.parameter, options_.from));
   }
-  for (std::size_t b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
+  for (std::size_t b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size();
+       ++b) {
     if (stepper_.at_here()[b].value > 0) {
-      return stop(Stop::no_start, fmt::format("the start lies outside the regime '{}' that was given for it",
-                                              problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
+      return stop(Stop::no_start,
+                  fmt::format("the start lies outside the regime '{}' that was given for it",
+                              problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
     }
   }
   signs_.reset(stepper_.at_here(), stepper_.tracked_count(), stepper_.parameter_slope(Hold::tangent));
@@ -210,9 +213,8 @@ const Target* Tracer::target_ahead(double reach) const {
 bool Tracer::overshoots() const {
   const double a = stepper_.here().parameters(parameter_);
   const double b = stepper_.there().parameters(parameter_);
-  return std::any_of(targets_.begin(), targets_.end(), [&](const Target& target) {
-    return (target.value - a) * (target.value - b) < 0;
-  });
+  return std::any_of(targets_.begin(), targets_.end(),
+                     [&](const Target& target) { return (target.value - a) * (target.value - b) < 0; });
 }
 
 void Tracer::use(Hold hold) {
@@ -242,9 +244,7 @@ bool Tracer::take() {
 
 bool Tracer::take_event(const Event& event, const Signs& before) {
   switch (event.kind) {
-    case Event::Kind::fold:
-      signs_.parameter = -before.parameter;
-      return store(PointType::fold);
+    case Event::Kind::fold: signs_.parameter = -before.parameter; return store(PointType::fold);
     case Event::Kind::extremum: {
       const auto which = static_cast<std::size_t>(event.index);
       signs_.observables[which] = -before.observables[which];
@@ -274,7 +274,8 @@ bool Tracer::cross(Index border) {
   const int regime = problem_.regime_beyond(before.regime, static_cast<int>(border));
   if (stepper_.enter(regime) != Correction::converged) {
     return store(PointType::regime_switch) &&
-           stop(Stop::grazing_border, fmt::format("the branch beyond the border does not leave it, at {}", place()));
+           stop(Stop::grazing_border,
+                fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
   if (!store(PointType::regime_switch) || !corner_events(signs_before)) return false;
   // Neither the unknowns nor the parameter may move faster beyond the corner than they did before it.
@@ -317,7 +318,8 @@ std::string Tracer::place() const {
 
 }  // namespace
 
-Branch trace(const Problem& problem, const Guess& guess, const TraceOptions& options, const Observer& observer) {
+Branch trace(const Problem& problem, const Guess& guess, const TraceOptions& options,
+             const Observer& observer) {
   check(options);
   return Tracer(problem, options, observer).run(guess);
 }

@@ -37,7 +37,8 @@ bool ForcedResponse::evaluate(const Vector& u, const Vector& p, int regime,
   const Complex c = base.compliance + damper.compliance;
   const Complex closed = 1.0 + k * law.phi * c;
 
-  if (out.residual != nullptr) (*out.residual)(0) = u(0) + 0.5 * std::log(std::norm(closed) / std::norm(base.free));
+  if (out.residual != nullptr)
+    (*out.residual)(0) = u(0) + 0.5 * std::log(std::norm(closed) / std::norm(base.free));
   if (out.jacobian == nullptr && out.parameter_jacobian == nullptr) return true;
   const Complex gain = k * std::conj(closed) / std::norm(closed);
   const double by_ratio = std::real(gain * c * law.phi_log);  // dg/d ln(R/S) through phi
@@ -68,8 +69,7 @@ double ForcedResponse::border(const Vector& u, const Vector& p, int regime, int 
 }
 
 std::vector<continuation::Observable> ForcedResponse::observables() const {
-  return {{"R"},    {"S"},     {"R_over_S"}, {"Y", true},   {"U"},
-          {"beta"}, {"alpha"}, {"psi"},      {"dissipated"}};
+  return {{"R"}, {"S"}, {"R_over_S"}, {"Y", true}, {"U"}, {"beta"}, {"alpha"}, {"psi"}, {"dissipated"}};
 }
 
 void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
@@ -137,8 +137,9 @@ continuation::Guess ForcedResponse::guess(double eta_value, double preload_value
   double high = threshold + 1;
   while (g(high, slip) < 0) high += high - threshold;  // g -> rho - ln|y_0|
   std::uintmax_t iterations = 200;
-  const auto [a, b] = boost::math::tools::toms748_solve([&](double rho) { return g(rho, slip); }, threshold, high,
-                                                        boost::math::tools::eps_tolerance<double>(48), iterations);
+  const auto [a, b] =
+      boost::math::tools::toms748_solve([&](double rho) { return g(rho, slip); }, threshold, high,
+                                        boost::math::tools::eps_tolerance<double>(48), iterations);
   guess.unknowns(0) = 0.5 * (a + b);
   return guess;
 }

@@ -12,8 +12,15 @@ namespace arcslip {
 void create_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (!error && !std::filesystem::is_directory(path, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && !std::filesystem::is_directory(path, error))
+    error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw OutputError(fmt::format("{}: the folder cannot be made: {}", path, error.message()));
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  throw OutputError(
+      fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
 }
 
 AtomicFile::AtomicFile(std::string path)

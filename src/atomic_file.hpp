@@ -19,6 +19,9 @@ class OutputError : public std::runtime_error {
 /// Creates the folder and its parents. Throws OutputError.
 void create_folder(const std::string& path);
 
+/// Prints on standard output, at once. Throws OutputError.
+void print(std::string_view text);
+
 class AtomicFile {
  public:
   /// Opens the temporary file. Throws OutputError.

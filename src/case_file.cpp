@@ -13,12 +13,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const std::vector<std::string> system_keys = {"model",           "wave_number",  "elements",
-                                              "mass_ratio",      "frequency_ratio", "slenderness",
-                                              "poisson_ratio",   "interface_stiffness", "damping",
-                                              "force",           "preload"};
+const std::vector<std::string> system_keys = {
+    "model",         "wave_number",         "elements", "mass_ratio", "frequency_ratio", "slenderness",
+    "poisson_ratio", "interface_stiffness", "damping",  "force",      "preload"};
 const std::vector<std::string> branch_keys = {"parameter", "from", "to", "eta", "for_each"};
-const std::vector<std::string> continuation_keys = {"tolerance", "max_step", "min_step", "max_points", "stop_at"};
+const std::vector<std::string> continuation_keys = {"tolerance", "max_step", "min_step", "max_points",
+                                                    "stop_at"};
 constexpr double default_poisson_ratio = 0.3;
 
 /// What differs from branch to branch: one value for each key of `for_each`.
@@ -42,8 +42,9 @@ ForEach read_for_each(const TomlDocument& document, const TomlSection& branch) {
     const toml::array* list = node.as_array();
     if (list == nullptr || list->empty()) section.mismatch(name, "an array with at least one value");
     if (!result.keys.empty() && list->size() != result.count) {
-      section.fail(name, fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
-                                     result.count, result.keys.front(), list->size()));
+      section.fail(
+          name, fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
+                            result.count, result.keys.front(), list->size()));
     }
     result.keys.push_back(name);
     result.values.push_back(list);
@@ -72,10 +73,12 @@ ordered_json values_of(const ForEach& for_each, std::size_t i) {
 }
 
 double read_interface_stiffness(const TomlSection& section, StructureModel model) {
-  const double poisson_ratio = section.number(
-      "poisson_ratio", {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"}, default_poisson_ratio);
+  const double poisson_ratio =
+      section.number("poisson_ratio", {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"},
+                     default_poisson_ratio);
   if (model == StructureModel::rods) {
-    if (section.has("slenderness")) section.fail("slenderness", "only for beams; rods take interface_stiffness");
+    if (section.has("slenderness"))
+      section.fail("slenderness", "only for beams; rods take interface_stiffness");
     return section.number("interface_stiffness", positive());
   }
   if (section.has("slenderness") && section.has("interface_stiffness")) {
@@ -97,22 +100,26 @@ void read_damping(const TomlDocument& document, const TomlSection& section, Syst
     }
     const double value = node.value<double>().value_or(-1);
     if (!node.is_number() || !(value > 0 && value < 1)) {
-      document.mismatch(node, section.name("damping") + "." + std::string(key.str()), "a finite number > 0 and < 1");
+      document.mismatch(node, section.name("damping") + "." + std::string(key.str()),
+                        "a finite number > 0 and < 1");
     }
     (base ? system.base_damping : system.damper_damping) = value;
   }
 }
 
-SystemParameters read_system(const TomlDocument& document, const Replacements& replacements, bool needs_preload) {
+SystemParameters read_system(const TomlDocument& document, const Replacements& replacements,
+                             bool needs_preload) {
   const TomlSection section(document, "system", &replacements);
   if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
   section.allow_only(system_keys);
   SystemParameters system;
-  system.model = section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
+  system.model =
+      section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
   constexpr Index most = 1'000'000'000;
   system.wave_number = section.integer("wave_number", 1, most, "an integer >= 1");
-  system.elements = section.integer("elements", 2 * system.wave_number + 1, most,
-                                    fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
+  system.elements =
+      section.integer("elements", 2 * system.wave_number + 1, most,
+                      fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
   system.mass_ratio = section.number("mass_ratio", positive());
   system.frequency_ratio = section.number("frequency_ratio", positive());
   system.interface_stiffness = read_interface_stiffness(section, system.model);
@@ -130,13 +137,15 @@ continuation::TraceOptions read_continuation(const TomlDocument& document) {
   options.max_step = section.number("max_step", {[](double h) { return h > 0 && h <= 1; }, " > 0 and <= 1"},
                                     options.max_step);
   options.min_step = section.number(
-      "min_step", {[&](double h) { return h > 0 && h <= options.max_step; }, " > 0 and <= max_step"}, options.min_step);
-  options.max_points =
-      section.integer("max_points", 2, std::numeric_limits<int>::max(), "an integer >= 2", options.max_points);
+      "min_step", {[&](double h) { return h > 0 && h <= options.max_step; }, " > 0 and <= max_step"},
+      options.min_step);
+  options.max_points = section.integer("max_points", 2, std::numeric_limits<int>::max(), "an integer >= 2",
+                                       options.max_points);
   return options;
 }
 
-void read_range(const TomlDocument& document, const TomlSection& branch, continuation::TraceOptions& options) {
+void read_range(const TomlDocument& document, const TomlSection& branch,
+                continuation::TraceOptions& options) {
   options.parameter = branch.text("parameter", {"eta", "P"});
   options.extrema_of = {"Y"};
   options.from = branch.number("from", positive());

@@ -24,12 +24,15 @@ extern "C" void note_interrupt(int signal) {
   std::signal(signal, SIG_DFL);  // a second one ends the program at once
 }
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// One line on stderr that follows the work, where that is a terminal.
 class Progress {
  public:
-  Progress(bool shown, std::size_t branches) : shown_(shown && isatty(STDERR_FILENO) != 0), branches_(branches) {}
+  Progress(bool shown, std::size_t branches)
+      : shown_(shown && isatty(STDERR_FILENO) != 0), branches_(branches) {}
   ~Progress() {
     if (drawn_) fmt::print(stderr, "\r\033[K");
   }
@@ -42,8 +45,8 @@ class Progress {
     if (!shown_ || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
     last_ = Clock::now();
     drawn_ = true;
-    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, {} = {:.6g} of {:g} to {:g}", branch + 1, branches_, points,
-               options.parameter, value, options.from, options.to);
+    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, {} = {:.6g} of {:g} to {:g}", branch + 1,
+               branches_, points, options.parameter, value, options.from, options.to);
     std::fflush(stderr);
   }
 
@@ -55,14 +58,15 @@ class Progress {
 };
 
 std::vector<TracedBranch> trace_all(const Case& input,
-                                    std::vector<std::unique_ptr<problems::ForcedResponse>>& problems, bool quiet) {
+                                    std::vector<std::unique_ptr<problems::ForcedResponse>>& problems,
+                                    bool quiet) {
   std::vector<TracedBranch> traced;
   Progress progress(!quiet, input.branches.size());
   for (std::size_t i = 0; i < input.branches.size() && interrupted == 0; ++i) {
     const CaseBranch& request = input.branches[i];
     const Clock::time_point start = Clock::now();
-    const auto& problem = *problems.emplace_back(
-        std::make_unique<problems::ForcedResponse>(build_system(request.system)));
+    const auto& problem =
+        *problems.emplace_back(std::make_unique<problems::ForcedResponse>(build_system(request.system)));
     const bool in_eta = request.options.parameter == "eta";
     const continuation::Guess guess = in_eta ? problem.guess(request.options.from, request.system.preload)
                                              : problem.guess(request.eta, request.options.from);
@@ -77,19 +81,18 @@ std::vector<TracedBranch> trace_all(const Case& input,
   return traced;
 }
 
-void print_tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
-                  double seconds) {
-  if (!input.title.empty()) fmt::print("{}\n\n", input.title);
+std::string tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
+                   double seconds) {
+  std::string text = input.title.empty() ? "" : input.title + "\n\n";
   std::size_t points = 0;
   for (std::size_t i = 0; i < traced.size(); ++i) {
     const std::string values = describe(traced[i].request->values);
-    if (!values.empty()) fmt::print("{}{}\n", i == 0 ? "" : "\n", values);
-    fmt::print("{}{}", special_table_header(), special_table(i, traced[i]));
+    if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
+    text += special_table_header() + special_table(i, traced[i]);
     points += traced[i].branch.points.size();
   }
-  fmt::print("\n{} branch{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n", traced.size(),
-             traced.size() == 1 ? "" : "es", points, seconds, folder);
-  if (std::fflush(stdout) != 0) throw OutputError("standard output: cannot be written");
+  return text + fmt::format("\n{} branch{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
+                            traced.size(), traced.size() == 1 ? "" : "es", points, seconds, folder);
 }
 
 }  // namespace
@@ -115,7 +118,7 @@ int run_command(const RunOptions& options) {
   summary.write("\n");
   branches.commit();
   summary.commit();
-  if (!options.quiet) print_tables(input, traced, folder, seconds);
+  if (!options.quiet) print(tables(input, traced, folder, seconds));
 
   int result = status::done;
   for (std::size_t i = 0; i < traced.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
-// The commands of the program. Each returns its exit status; InputError and OutputError are left to the caller.
+// The commands of the program. Each returns its exit status; InputError and OutputError are left to the
+// caller.
 
 #include <string>
 #include <vector>

@@ -57,25 +57,25 @@ Element beam_element(double mass_ratio, double stiffness_ratio, Index wave_numbe
 
   Element element;
   element.mass.resize(4, 4);
-  element.mass << 156, 22 * l, 54, -13 * l,                //
-      22 * l, 4 * l * l, 13 * l, -3 * l * l,               //
-      54, 13 * l, 156, -22 * l,                            //
-      -13 * l, -3 * l * l, -22 * l, 4 * l * l;             //
-  element.mass *= pi() * pi() * mass_ratio * l / 105;      // (2 pi)^2/420 of the consistent beam
+  element.mass << 156, 22 * l, 54, -13 * l,            //
+      22 * l, 4 * l * l, 13 * l, -3 * l * l,           //
+      54, 13 * l, 156, -22 * l,                        //
+      -13 * l, -3 * l * l, -22 * l, 4 * l * l;         //
+  element.mass *= pi() * pi() * mass_ratio * l / 105;  // (2 pi)^2/420 of the consistent beam
   element.stiffness.resize(4, 4);
-  element.stiffness << 12, 6 * l, -12, 6 * l,              //
-      6 * l, 4 * l * l, -6 * l, 2 * l * l,                 //
-      -12, -6 * l, 12, -6 * l,                             //
-      6 * l, 2 * l * l, -6 * l, 4 * l * l;                 //
+  element.stiffness << 12, 6 * l, -12, 6 * l,  //
+      6 * l, 4 * l * l, -6 * l, 2 * l * l,     //
+      -12, -6 * l, 12, -6 * l,                 //
+      6 * l, 2 * l * l, -6 * l, 4 * l * l;     //
   element.stiffness *= stiffness_ratio / (l * l * l);
   const PreciseComplex length = l;
   const PreciseComplex two = 2;
   const PreciseComplex three = 3;
   element.load.resize(4);
-  element.load << s0 - three * s2 + two * s3,              // 1 - 3 s^2 + 2 s^3
-      length * (s1 - two * s2 + s3),                       // L_e (s - 2 s^2 + s^3)
-      three * s2 - two * s3,                               // 3 s^2 - 2 s^3
-      length * (s3 - s2);                                  // L_e (s^3 - s^2)
+  element.load << s0 - three * s2 + two * s3,  // 1 - 3 s^2 + 2 s^3
+      length * (s1 - two * s2 + s3),           // L_e (s - 2 s^2 + s^3)
+      three * s2 - two * s3,                   // 3 s^2 - 2 s^3
+      length * (s3 - s2);                      // L_e (s^3 - s^2)
   element.load *= length;
   return element;
 }

@@ -60,7 +60,8 @@ int dispatch(int argc, char** argv) {
   RunOptions options;
   CLI::App* run = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
   run->add_option("CASE", options.case_path, "Case file (TOML)")->required();
-  run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")->type_name("DIR");
+  run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
+      ->type_name("DIR");
   run->add_option("--set", options.settings, "Replace a value of the case file; may be repeated")
       ->type_name("section.key=value")
       ->expected(1)
@@ -70,11 +71,14 @@ int dispatch(int argc, char** argv) {
 
   CLI::App* check = app.add_subcommand("check", "Read and validate a case file, print what would run");
   check->add_option("CASE", options.case_path, "Case file (TOML)")->required();
-  check->add_option("--set", options.settings, "As for run")->type_name("section.key=value")->expected(1)
+  check->add_option("--set", options.settings, "As for run")
+      ->type_name("section.key=value")
+      ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
   std::string folder;
-  CLI::App* plot = app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
+  CLI::App* plot =
+      app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
   plot->add_option("DIR", folder, "Folder that `arcslip run` wrote")->required();
 
   try {

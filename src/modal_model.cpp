@@ -11,15 +11,19 @@
 namespace arcslip {
 namespace {
 
-Complex rounded(const PreciseComplex& z) { return {static_cast<double>(z.real()), static_cast<double>(z.imag())}; }
+Complex rounded(const PreciseComplex& z) {
+  return {static_cast<double>(z.real()), static_cast<double>(z.imag())};
+}
 
 }  // namespace
 
-ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, double damping) : damping_(damping) {
+ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, double damping)
+    : damping_(damping) {
   if (structure.mass.llt().info() != Eigen::Success) {
     throw std::invalid_argument("ModalModel: the mass matrix of the structure must be positive definite");
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness, structure.mass);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness,
+                                                                              structure.mass);
   const PreciseReal two_pi = boost::math::constants::two_pi<PreciseReal>();
   for (Index k = 0; k < structure.load.size(); ++k) {
     const PreciseComplexVector shape = solver.eigenvectors().col(k);
@@ -27,9 +31,9 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, dou
     const PreciseComplex by_load = shape.dot(structure.load) / two_pi;  // v^H F
     const PreciseReal eigenvalue = solver.eigenvalues()(k);
     const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / two_pi) : PreciseReal(0);
-    const PreciseReal residue =
-        at_contact.real() * at_contact.real() + at_contact.imag() * at_contact.imag();
-    modes_.push_back({static_cast<double>(frequency), static_cast<double>(residue), rounded(at_contact * by_load)});
+    const PreciseReal residue = at_contact.real() * at_contact.real() + at_contact.imag() * at_contact.imag();
+    modes_.push_back(
+        {static_cast<double>(frequency), static_cast<double>(residue), rounded(at_contact * by_load)});
   }
 }
 
@@ -66,8 +70,8 @@ std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& mod
   for (const Pole& pole : poles) total += pole.residue;
   std::vector<double> roots;
   for (std::size_t i = 0; i < poles.size(); ++i) {
-    // 1 + sum a/(p - x) rises from -inf to +inf between two poles, and beyond the last one from -inf to 1. With
-    // x = p_i + t its nearest pole is exact in t.
+    // 1 + sum a/(p - x) rises from -inf to +inf between two poles, and beyond the last one from -inf to 1.
+    // With x = p_i + t its nearest pole is exact in t.
     const double base = poles[i].square;
     const double width = i + 1 < poles.size() ? poles[i + 1].square - base : 2 * total;
     if (!(width > 4e-16 * base)) {
@@ -88,8 +92,8 @@ std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& mod
       continue;
     }
     std::uintmax_t iterations = 200;
-    const auto bracket = boost::math::tools::toms748_solve(secular, low, high,
-                                                           boost::math::tools::eps_tolerance<double>(50), iterations);
+    const auto bracket = boost::math::tools::toms748_solve(
+        secular, low, high, boost::math::tools::eps_tolerance<double>(50), iterations);
     roots.push_back(std::sqrt(base + 0.5 * (bracket.first + bracket.second)));
   }
   return roots;

@@ -108,7 +108,8 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
 
 ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds) {
   ordered_json branches = ordered_json::array();
-  for (std::size_t number = 0; number < traced.size(); ++number) branches.push_back(summarize(number, traced[number]));
+  for (std::size_t number = 0; number < traced.size(); ++number)
+    branches.push_back(summarize(number, traced[number]));
   return {{"arcslip", ARCSLIP_VERSION},
           {"title", input.title},
           {"case", input.resolved},
@@ -117,8 +118,8 @@ ordered_json summarize(const Case& input, const std::vector<TracedBranch>& trace
 }
 
 std::string special_table_header() {
-  return fmt::format("{:>6} {:>6}  {:<8} {:>14} {:>13} {:>13} {:>14}\n", "branch", "point", "type", "eta", "P", "R/S",
-                     "Y");
+  return fmt::format("{:>6} {:>6}  {:<8} {:>14} {:>13} {:>13} {:>14}\n", "branch", "point", "type", "eta",
+                     "P", "R/S", "Y");
 }
 
 std::string special_table(std::size_t number, const TracedBranch& traced) {

@@ -20,8 +20,9 @@ ReducedPair reduce(const SystemParameters& parameters) {
   const Index n = parameters.wave_number;
   const Index elements = parameters.elements;
   const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
-  ReducedPair pair{reduce(make(parameters.mass_ratio, parameters.stiffness_ratio(), n, elements), n, elements),
-                   reduce(make(1, 1, n, elements), n, elements)};
+  ReducedPair pair{
+      reduce(make(parameters.mass_ratio, parameters.stiffness_ratio(), n, elements), n, elements),
+      reduce(make(1, 1, n, elements), n, elements)};
   pair.base.load *= PreciseComplex(parameters.force * parameters.stiffness_ratio());
   pair.damper.load.setZero();
   return pair;

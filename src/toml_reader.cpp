@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <sstream>
@@ -21,16 +23,19 @@ std::string one_line(std::string text) {
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (const toml::array* array = node.as_array()) return array->empty() ? "an empty array" : "an array";
+  if (const auto* value = node.as_string()) return fmt::format("\"{}\"", one_line(value->get()));
+  if (const auto* value = node.as_floating_point()) return fmt::format("{}", value->get());
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
-  return one_line(out.str());
+  return out.str();
 }
 
 std::string read_text(const std::string& path) {
+  errno = std::filesystem::is_directory(path) ? EISDIR : 0;
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) {  // a folder opens, but cannot be read
+  if (errno == 0 && in) text << in.rdbuf();
+  if (errno != 0 || !in || in.bad()) {
     const int code = errno != 0 ? errno : EIO;
     throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(code)));
   }
@@ -63,7 +68,6 @@ toml::table parse_value(const std::string& setting, const std::string& value) {
 }  // namespace
 
 TomlDocument::TomlDocument(const std::string& path, const std::vector<std::string>& settings) : path_(path) {
-  errno = 0;
   const std::string text = read_text(path);
   try {
     root_ = toml::parse(text);
@@ -97,7 +101,8 @@ void TomlDocument::fail(const toml::node* node, const std::string& name, const s
   throw InputError(fmt::format("{}:{}:{}: {}: {}", path_, at.line, at.column, name, what));
 }
 
-void TomlDocument::mismatch(const toml::node& node, const std::string& name, const std::string& expected) const {
+void TomlDocument::mismatch(const toml::node& node, const std::string& name,
+                            const std::string& expected) const {
   fail(&node, name, fmt::format("expected {}, got {}", expected, shown(node)));
 }
 
@@ -180,7 +185,8 @@ Index TomlSection::integer(std::string_view key, Index low, Index high, const st
 }
 
 std::string TomlSection::text(std::string_view key, const std::vector<std::string>& choices) const {
-  const std::string expected = choices.empty() ? "a string" : fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
+  const std::string expected =
+      choices.empty() ? "a string" : fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
   const auto value = require(key, expected).value_exact<std::string>();
   if (!value || (!choices.empty() && std::find(choices.begin(), choices.end(), *value) == choices.end())) {
     mismatch(key, expected);

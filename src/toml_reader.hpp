@@ -1,7 +1,7 @@
 #pragma once
 
-// Typed access to a TOML document with errors that name file, line, column, key, what was expected and what was
-// given. Values may be replaced by their dotted path, as `--set` and `for_each` do.
+// Typed access to a TOML document with errors that name file, line, column, key, what was expected and what
+// was given. Values may be replaced by their dotted path, as `--set` and `for_each` do.
 
 #include <toml++/toml.h>
 
@@ -25,7 +25,8 @@ class TomlDocument {
   /// Error at a node; `name` is the key as the user wrote it.
   [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
   /// "expected ..., got ...".
-  [[noreturn]] void mismatch(const toml::node& node, const std::string& name, const std::string& expected) const;
+  [[noreturn]] void mismatch(const toml::node& node, const std::string& name,
+                             const std::string& expected) const;
 
  private:
   void apply(const std::string& setting);
@@ -60,7 +61,8 @@ class TomlSection {
   double number(std::string_view key, const NumberRule& rule) const;
   double number(std::string_view key, const NumberRule& rule, double otherwise) const;
   Index integer(std::string_view key, Index low, Index high, const std::string& expected) const;
-  Index integer(std::string_view key, Index low, Index high, const std::string& expected, Index otherwise) const;
+  Index integer(std::string_view key, Index low, Index high, const std::string& expected,
+                Index otherwise) const;
   std::string text(std::string_view key, const std::vector<std::string>& choices) const;
   std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
 

@@ -37,8 +37,8 @@ inline continuation::TraceOptions over_eta(double from, double to) {
   return options;
 }
 
-inline continuation::Branch trace_over_eta(const problems::ForcedResponse& problem, double preload, double from,
-                                           double to) {
+inline continuation::Branch trace_over_eta(const problems::ForcedResponse& problem, double preload,
+                                           double from, double to) {
   return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
 }
 

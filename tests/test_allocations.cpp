@@ -34,7 +34,8 @@ TEST_CASE("Steps and corrections allocate nothing") {
   continuation::Corrector corrector(problem, problems::ForcedResponse::eta, {});
   continuation::Stepper stepper(problem, corrector, {problems::ForcedResponse::Y}, 0.1);
   const continuation::Guess guess = problem.guess(0.5, 1);
-  REQUIRE(stepper.start(guess.unknowns, guess.parameters, guess.regime, 1) == continuation::Correction::converged);
+  REQUIRE(stepper.start(guess.unknowns, guess.parameters, guess.regime, 1) ==
+          continuation::Correction::converged);
 
   const long before = allocations;
   int kept = 0;

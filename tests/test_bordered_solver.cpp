@@ -19,7 +19,8 @@ Matrix fill(BorderedSolver& solver, const Matrix& whole) {
 
 }  // namespace
 
-TEST_CASE("Bordered systems of one to three borders are solved, transposed too, with the determinant's sign") {
+TEST_CASE(
+    "Bordered systems of one to three borders are solved, transposed too, with the determinant's sign") {
   const Index n = GENERATE(1, 2, 7, 13, 14, 15, 40);  // on both sides of the size where the method changes
   const Index borders = GENERATE(1, 2, 3);
   BorderedSolver solver(n, borders);

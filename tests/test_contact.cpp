@@ -47,7 +47,9 @@ TEST_CASE("The slip coefficient and its derivative are accurate to 1e-12 relativ
 
 TEST_CASE("The coefficients are those of the loop in closed form (Caughey 1960)") {
   // k = 2, slip force 3: S = 1.5; force coefficients k R phi.
-  const auto force = [](double amplitude) { return 2 * amplitude * hysteresis_coefficient(amplitude, 1.5).phi; };
+  const auto force = [](double amplitude) {
+    return 2 * amplitude * hysteresis_coefficient(amplitude, 1.5).phi;
+  };
   CHECK_THAT(force(3).real(), WithinRel(3.0, 1e-12));
   CHECK_THAT(force(3).imag(), WithinRel(1.909859317103, 1e-12));
   CHECK_THAT(force(5).real(), WithinRel(2.523157877343, 1e-12));
@@ -59,7 +61,8 @@ TEST_CASE("The coefficients are those of the loop in closed form (Caughey 1960)"
 
 TEST_CASE("The coefficients are the Fourier integrals of the hysteresis loop") {
   for (const double ratio : {1.05, 1.7, 4.0, 25.0}) {
-    // Force over k S at displacement R cos t, t from 0 to pi: elastic down from +1, then sliding at -1 [paper, Fig. 5].
+    // Force over k S at displacement R cos t, t from 0 to pi: elastic down from +1, then sliding at -1
+    // [paper, Fig. 5].
     const int steps = 200000;
     Complex sum = 0;
     for (int i = 0; i < steps; ++i) {
@@ -84,7 +87,8 @@ TEST_CASE("Stick is linear; at R = S the coefficient is continuous and its slope
 TEST_CASE("The energy of the loop is pi k R^2 Im phi = 4 k S (R - S)") {
   for (const double ratio : {1.0001, 1.5, 2.0, 100.0, 1e8}) {
     const double log_ratio = std::log(ratio);
-    const double expected = std::numbers::pi * std::exp(2 * log_ratio) * slip_coefficient(log_ratio).phi.imag();
+    const double expected =
+        std::numbers::pi * std::exp(2 * log_ratio) * slip_coefficient(log_ratio).phi.imag();
     CHECK_THAT(dissipated_energy(log_ratio), WithinRel(expected, 1e-12));
   }
   CHECK(dissipated_energy(-1) == 0);

@@ -40,7 +40,8 @@ TEST_CASE("Moments of the travelling wave agree with their closed form where tha
 
 TEST_CASE("Rods of any N reduce to the scalars (22)-(24) of the paper") {
   // Tolerance: a few roundings of the closed forms themselves.
-  const auto [n, elements] = GENERATE(table<Index, Index>({{1, 4}, {1, 30}, {3, 7}, {2, 1000}, {1, 1000000}}));
+  const auto [n, elements] =
+      GENERATE(table<Index, Index>({{1, 4}, {1, 30}, {3, 7}, {2, 1000}, {1, 1000000}}));
   SystemParameters parameters;
   parameters.model = StructureModel::rods;
   parameters.wave_number = n;
@@ -58,9 +59,10 @@ TEST_CASE("Rods of any N reduce to the scalars (22)-(24) of the paper") {
   CHECK_THAT(real(pair.base.mass(0, 0)), WithinRel(mass, 1e-15));
   CHECK_THAT(real(pair.base.stiffness(0, 0)), WithinRel(4 * stiffness_ratio * count * sine * sine, 1e-15));
   const double nn = static_cast<double>(n * n);
-  CHECK_THAT(real(pair.base.load(0)), WithinRel(2 * stiffness_ratio * count / (pi_squared() * nn) * sine * sine, 1e-15));
+  CHECK_THAT(real(pair.base.load(0)),
+             WithinRel(2 * stiffness_ratio * count / (pi_squared() * nn) * sine * sine, 1e-15));
   CHECK_THAT(imag(pair.base.load(0)), WithinAbs(0, 1e-15 * real(pair.base.load(0))));
-  CHECK_THAT(real(pair.damper.mass(0, 0)), WithinRel(mass / 5, 1e-15));                             // (25)
+  CHECK_THAT(real(pair.damper.mass(0, 0)), WithinRel(mass / 5, 1e-15));                      // (25)
   CHECK_THAT(real(pair.damper.stiffness(0, 0)), WithinRel(4 * count * sine * sine, 1e-15));  // (25)
 }
 

@@ -17,7 +17,8 @@ struct Peak {
   double eta, Y;
 };
 
-/// Compares the branch of one preload with peaks and switches found by an independent solver, to all digits printed.
+/// Compares the branch of one preload with peaks and switches found by an independent solver, to all digits
+/// printed.
 void check_branch(const SystemParameters& parameters, double to, const std::vector<Peak>& peaks,
                   const std::vector<double>& switches) {
   const ForcedResponse problem(build_system(parameters));
@@ -25,9 +26,10 @@ void check_branch(const SystemParameters& parameters, double to, const std::vect
   REQUIRE(branch.complete());
   const auto found_peaks = of_type(branch, PointType::peak);
   for (const Peak& peak : peaks) {
-    const auto nearest = std::min_element(found_peaks.begin(), found_peaks.end(), [&](const auto& a, const auto& b) {
-      return std::abs(a.parameters(0) - peak.eta) < std::abs(b.parameters(0) - peak.eta);
-    });
+    const auto nearest =
+        std::min_element(found_peaks.begin(), found_peaks.end(), [&](const auto& a, const auto& b) {
+          return std::abs(a.parameters(0) - peak.eta) < std::abs(b.parameters(0) - peak.eta);
+        });
     REQUIRE(nearest != found_peaks.end());
     CHECK_THAT(nearest->parameters(0), WithinRel(peak.eta, 1e-7));
     CHECK_THAT(quantity(problem, *nearest, ForcedResponse::Y), WithinRel(peak.Y, 1e-8));
@@ -39,14 +41,16 @@ void check_branch(const SystemParameters& parameters, double to, const std::vect
   }
 }
 
-/// Motion of a two-dof structure under a force, and the energy that its damping takes per cycle, in fifty digits.
+/// Motion of a two-dof structure under a force, and the energy that its damping takes per cycle, in fifty
+/// digits.
 struct PreciseBeam {
   ReducedStructure structure;
   double damping;  // beta: C = (beta/2 pi) K
 
   PreciseComplexVector solve(double eta, const PreciseComplexVector& force) const {
     const PreciseReal w = 2 * boost::math::constants::pi<PreciseReal>() * eta;
-    const PreciseComplexMatrix z = structure.stiffness * PreciseComplex(1, damping * eta) - structure.mass * PreciseComplex(w * w);
+    const PreciseComplexMatrix z =
+        structure.stiffness * PreciseComplex(1, damping * eta) - structure.mass * PreciseComplex(w * w);
     const PreciseComplex determinant = z(0, 0) * z(1, 1) - z(0, 1) * z(1, 0);
     PreciseComplexVector motion(2);
     motion << (z(1, 1) * force(0) - z(0, 1) * force(1)) / determinant,
@@ -64,7 +68,8 @@ struct PreciseBeam {
 
 TEST_CASE("Figure 8 has the peaks and switches of an independent solver") {
   check_branch(figure_8(0.1), 120, {{4.00000532, 2.79964423}}, {2.384417921});
-  check_branch(figure_8(1), 120, {{3.46805307, 0.00585733304}, {3.841129, 0.00718851766}, {98.2606368, 2.07352002e-06}},
+  check_branch(figure_8(1), 120,
+               {{3.46805307, 0.00585733304}, {3.841129, 0.00718851766}, {98.2606368, 2.07352002e-06}},
                {3.421960684, 4.000004101, 85.33521707, 100.9891812});
   check_branch(figure_8(50), 120, {{3.67128322, 0.257652932}, {93.6454667, 5.98201281e-05}},
                {3.668101803, 3.679431752, 93.3362192, 93.64817978});
@@ -121,7 +126,8 @@ TEST_CASE("The power put in equals the energy that friction and structures dissi
     const double s = values(ForcedResponse::S);
     const Complex r = std::polar(values(ForcedResponse::R), -values(ForcedResponse::psi));
     const Complex force = k * r * hysteresis_coefficient(values(ForcedResponse::R), s).phi;
-    // Both structures move under the load and the friction force k phi r; the energies are per cycle and node.
+    // Both structures move under the load and the friction force k phi r; the energies are per cycle and
+    // node.
     const PreciseComplexVector friction_force = contact * PreciseComplex(force.real(), force.imag());
     const PreciseComplexVector y = base.solve(eta, pair.base.load + friction_force);
     const PreciseComplexVector u = damper.solve(eta, -friction_force);
@@ -167,10 +173,11 @@ TEST_CASE("What the paper says of figure 8 in words holds") {
     const continuation::Guess guess = locked.guess(eta, 50);
     Vector values;
     locked.observe(guess.unknowns, guess.parameters, guess.regime, values);
-    return std::abs(std::remainder(values(ForcedResponse::alpha) - values(ForcedResponse::beta), 2 * std::numbers::pi));
+    return std::abs(
+        std::remainder(values(ForcedResponse::alpha) - values(ForcedResponse::beta), 2 * std::numbers::pi));
   };
-  CHECK(phase_difference(2) < 0.01);                          // in phase at low frequency
-  CHECK(phase_difference(93.5) > std::numbers::pi - 0.1);     // out of phase at the second peak
+  CHECK(phase_difference(2) < 0.01);                       // in phase at low frequency
+  CHECK(phase_difference(93.5) > std::numbers::pi - 0.1);  // out of phase at the second peak
 }
 
 TEST_CASE("A light damper far from the base's resonance leaves the base moving as if alone") {
@@ -191,7 +198,8 @@ TEST_CASE("Force and preload scaled together scale the response") {
   const ForcedResponse one(build_system(figure_8(1)));
   const ForcedResponse three(build_system(scaled));
   for (const double eta : {1.0, 3.6, 4.0, 95.0}) {
-    CHECK_THAT(three.guess(eta, 3).unknowns(0) - one.guess(eta, 1).unknowns(0), WithinAbs(std::log(3.0), 1e-12));
+    CHECK_THAT(three.guess(eta, 3).unknowns(0) - one.guess(eta, 1).unknowns(0),
+               WithinAbs(std::log(3.0), 1e-12));
   }
 }
 

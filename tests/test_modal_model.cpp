@@ -48,7 +48,9 @@ TEST_CASE("The derivatives in eta are those of the values") {
   const ModalModel modal(pair.base, 0, 1e-3);
   for (const double eta : {0.5, 3.9, 4.1, 50.0}) {
     const double h = 1e-6 * eta;
-    const auto slope = [&](auto member) { return (modal.at(eta + h).*member - modal.at(eta - h).*member) / (2 * h); };
+    const auto slope = [&](auto member) {
+      return (modal.at(eta + h).*member - modal.at(eta - h).*member) / (2 * h);
+    };
     check_close(modal.at(eta).compliance_eta, slope(&ContactResponse::compliance), 1e-7);
     check_close(modal.at(eta).free_eta, slope(&ContactResponse::free), 1e-7);
   }
@@ -62,8 +64,10 @@ TEST_CASE("Fine rings resonate where the continuous ones do: eta = n gamma for r
   const double mesh = n / static_cast<double>(parameters.elements);
   parameters.model = StructureModel::rods;
   // Error of the consistent mass: (pi n/N)^2/6 relative; beams converge as its square.
-  CHECK_THAT(build_system(parameters).base.modes().front().frequency, WithinRel(4 * n, 2 * mesh * mesh + 1e-15));
-  CHECK_THAT(build_system(parameters).damper.modes().front().frequency, WithinRel(n, 2 * mesh * mesh + 1e-15));
+  CHECK_THAT(build_system(parameters).base.modes().front().frequency,
+             WithinRel(4 * n, 2 * mesh * mesh + 1e-15));
+  CHECK_THAT(build_system(parameters).damper.modes().front().frequency,
+             WithinRel(n, 2 * mesh * mesh + 1e-15));
   parameters.model = StructureModel::beams;
   const double expected = std::pow(mesh * std::numbers::pi * 2, 4) + 1e-15;
   CHECK_THAT(build_system(parameters).base.modes().front().frequency, WithinRel(4 * n * n, expected));
@@ -78,7 +82,8 @@ TEST_CASE("A million elements lose no digit: beams of N = 10^6 respond as those 
   const FrictionSystem a = build_system(coarse);
   const FrictionSystem b = build_system(fine);
   for (const double eta : {0.5, 3.8, 4.0, 93.0}) {
-    check_close(a.contact_stiffness * a.base.at(eta).compliance, b.contact_stiffness * b.base.at(eta).compliance, 1e-9);
+    check_close(a.contact_stiffness * a.base.at(eta).compliance,
+                b.contact_stiffness * b.base.at(eta).compliance, 1e-9);
     check_close(a.base.at(eta).free, b.base.at(eta).free, 1e-9);
   }
 }
@@ -102,7 +107,8 @@ TEST_CASE("The joined frequencies are the eigenvalues of the structures joined b
   difference(2) = 1;
   stiffness += system.contact_stiffness * difference * difference.adjoint();
   const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> solver(stiffness, mass);
-  const std::vector<double> joined = joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
+  const std::vector<double> joined =
+      joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
   REQUIRE(joined.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) {
     const double expected = std::sqrt(solver.eigenvalues()(static_cast<Index>(k))) / (2 * std::numbers::pi);
@@ -117,7 +123,8 @@ TEST_CASE("Base and damper of equal frequencies have their own as a joined frequ
   parameters.frequency_ratio = 1;
   parameters.interface_stiffness = 1000;
   const FrictionSystem system = build_system(parameters);
-  const std::vector<double> joined = joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
+  const std::vector<double> joined =
+      joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
   REQUIRE(joined.size() == 2);
   CHECK_THAT(joined[0], WithinRel(system.base.modes()[0].frequency, 1e-12));
   const double relative = std::sqrt(1 + 1000 * (1 + 1 / 5.0) / (4 * std::numbers::pi * std::numbers::pi));

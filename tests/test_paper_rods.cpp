@@ -1,5 +1,5 @@
-// The closed forms (27)-(32) of the paper, as printed, for N/n -> infinity: a route to the rods' response that shares
-// nothing with the program but the parameters.
+// The closed forms (27)-(32) of the paper, as printed, for N/n -> infinity: a route to the rods' response
+// that shares nothing with the program but the parameters.
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <numbers>
@@ -16,11 +16,13 @@ namespace {
 /// (29)-(32) in the paper's own symbols.
 class PrintedRods {
  public:
-  PrintedRods(const SystemParameters& q, double eta) : force_(q.force * q.stiffness_ratio() / q.interface_stiffness) {
+  PrintedRods(const SystemParameters& q, double eta)
+      : force_(q.force * q.stiffness_ratio() / q.interface_stiffness) {
     const double pi = std::numbers::pi;
     const double n = static_cast<double>(q.wave_number);
     D1_ = 4 * pi * pi / q.interface_stiffness * (q.stiffness_ratio() * n * n - q.mass_ratio * eta * eta);
-    D2_ = 8 * pi * pi / (q.interface_stiffness * q.frequency_ratio) * q.stiffness_ratio() * q.base_damping * eta * n * n;
+    D2_ = 8 * pi * pi / (q.interface_stiffness * q.frequency_ratio) * q.stiffness_ratio() * q.base_damping *
+          eta * n * n;
     D3_ = 4 * pi * pi / q.interface_stiffness * (n * n - eta * eta);
     D4_ = 8 * pi * pi / q.interface_stiffness * q.damper_damping * eta * n * n;
     S_ = q.preload * q.stiffness_ratio() / q.interface_stiffness;
@@ -43,8 +45,9 @@ class PrintedRods {
     std::uintmax_t iterations = 200;
     double high = 2 * S_;
     while (residual(high) < 0) high *= 2;
-    const auto bracket = boost::math::tools::toms748_solve([this](double R) { return residual(R); }, S_, high,
-                                                           boost::math::tools::eps_tolerance<double>(52), iterations);
+    const auto bracket =
+        boost::math::tools::toms748_solve([this](double R) { return residual(R); }, S_, high,
+                                          boost::math::tools::eps_tolerance<double>(52), iterations);
     return bracket.first;
   }
 
@@ -62,8 +65,10 @@ class PrintedRods {
 
  private:
   double angle(double R) const { return std::acos(1 - 2 * S_ / R); }
-  double cosine(double R) const { return R * (angle(R) - 0.5 * std::sin(2 * angle(R))) / std::numbers::pi; }  // F_c
-  double sine(double R) const { return -4 * S_ * (1 - S_ / R) / std::numbers::pi; }                           // F_s
+  double cosine(double R) const {
+    return R * (angle(R) - 0.5 * std::sin(2 * angle(R))) / std::numbers::pi;
+  }                                                                                  // F_c
+  double sine(double R) const { return -4 * S_ * (1 - S_ / R) / std::numbers::pi; }  // F_s
 
   /// Y_c and Y_s of (32).
   std::pair<double, double> motion(double R) const {
@@ -93,7 +98,8 @@ TEST_CASE("Rods of very fine mesh have the response of (27), (28) and (31), (32)
     const PrintedRods printed(parameters, eta);
     const double expected = printed.slips() ? printed.Y(printed.solve_slip()) : printed.stick_Y();
     slipping += static_cast<int>(printed.slips());
-    CHECK_THAT(program_Y(parameters, 1000000, eta), WithinRel(expected, 1e-8));  // mesh: (pi/N)^2 near a resonance
+    CHECK_THAT(program_Y(parameters, 1000000, eta),
+               WithinRel(expected, 1e-8));  // mesh: (pi/N)^2 near a resonance
   }
   CHECK(slipping >= 1);
 }

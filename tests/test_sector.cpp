@@ -32,7 +32,8 @@ TEST_CASE("Without interior dofs a sector reduces to A11 + A22 + A12 e^{-ja} + A
   const Matrix a = Matrix::Random(2 * j, 2 * j);
   const Complex forward = std::polar(1.0, -0.83);
   const ComplexMatrix expected = a.topLeftCorner(j, j) + a.bottomRightCorner(j, j) +
-                                 a.topRightCorner(j, j) * forward + a.bottomLeftCorner(j, j) * std::conj(forward);
+                                 a.topRightCorner(j, j) * forward +
+                                 a.bottomLeftCorner(j, j) * std::conj(forward);
   CHECK((reduce_sector(a, j, forward) - expected).norm() < 1e-14 * expected.norm());
 }
 
@@ -53,7 +54,8 @@ TEST_CASE("A sector with interior dofs reduces to T^H A T") {
   CHECK((reduce_load(load, boundary, forward) - t.adjoint() * load).norm() < 1e-14);
 }
 
-TEST_CASE("Two elements taken as one sector with an interior node give the response of the ring of elements") {
+TEST_CASE(
+    "Two elements taken as one sector with an interior node give the response of the ring of elements") {
   const Index elements = 12;
   const Element element = beam_element(1, 1, 1, elements);
   const Complex forward = std::polar(1.0, -4 * std::numbers::pi / static_cast<double>(elements));
@@ -90,7 +92,8 @@ TEST_CASE("The reduced structure moves as node 1 of the whole ring under the tra
   for (Index e = 0; e < elements; ++e) {
     const Complex phase = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(n * e) / 13.0);
     for (Index d = 0; d < 2 * j; ++d) {
-      const Complex f(static_cast<double>(element.load(d).real()), static_cast<double>(element.load(d).imag()));
+      const Complex f(static_cast<double>(element.load(d).real()),
+                      static_cast<double>(element.load(d).imag()));
       load((e * j + d) % (elements * j)) += phase * f;
     }
   }

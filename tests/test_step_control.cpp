@@ -11,10 +11,8 @@ TEST_CASE("A step with quiet signals is kept and the next one doubles") {
 TEST_CASE("Each of the signals alone rejects a step and shortens the next one") {
   const StepLimits limits;
   const double max_step = 0.1;
-  const StepSignals signals[] = {{0.61, 0, 0, 0},
-                                 {0, 0.61, 0, 0},
-                                 {0, 0, 0.26 * max_step, 0},
-                                 {0, 0, 0, 0.11 * max_step}};
+  const StepSignals signals[] = {
+      {0.61, 0, 0, 0}, {0, 0.61, 0, 0}, {0, 0, 0.26 * max_step, 0}, {0, 0, 0, 0.11 * max_step}};
   for (const StepSignals& one : signals) {
     CHECK_FALSE(acceptable(one, limits, max_step));
     CHECK(step_factor(one, limits, max_step) <= 0.5);

@@ -34,7 +34,8 @@ class FreudensteinRoth : public Problem {
   bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
     const double x = u(0), y = u(1), z = p(0) - 1;
     if (out.residual != nullptr) {
-      *out.residual << x - y * y * y + 5 * y * y - 2 * y - 13 + 34 * z, x + y * y * y + y * y - 14 * y - 29 + 10 * z;
+      *out.residual << x - y * y * y + 5 * y * y - 2 * y - 13 + 34 * z,
+          x + y * y * y + y * y - 14 * y - 29 + 10 * z;
     }
     if (out.jacobian != nullptr) {
       *out.jacobian << 1, -3 * y * y + 10 * y - 2, 1, 3 * y * y + 2 * y - 14;
@@ -85,7 +86,8 @@ class Corner : public Problem {
   std::vector<std::string> regime_names() const override { return {"below", "above"}; }
   int border_count(int /*regime*/) const override { return 1; }
   int regime_beyond(int regime, int /*border*/) const override { return 1 - regime; }
-  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/, Gradient* gradient) const override {
+  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/,
+                Gradient* gradient) const override {
     const double sign = regime == 0 ? 1 : -1;
     if (gradient != nullptr) {
       gradient->unknowns(0) = sign;
@@ -253,7 +255,8 @@ TEST_CASE("A change of units changes neither the branch nor its folds") {
 }
 
 TEST_CASE("The discretised Bratu problem folds at a parameter that converges to 3.51383071912516") {
-  // Error of second-order differences: c h^2 with c fitted at two meshes, so that extrapolation gains two digits.
+  // Error of second-order differences: c h^2 with c fitted at two meshes, so that extrapolation gains two
+  // digits.
   const auto fold = [](Index m) {
     TraceOptions options = over("L", 0, 4);
     options.max_step = 0.3;

@@ -22,7 +22,7 @@ class InputError : public std::runtime_error {
 struct CaseBranch {
   nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
   SystemParameters system;
-  double eta = 0;                 ///< the fixed frequency where P is the continuation parameter
+  double eta = 0;  ///< the fixed frequency where P is the continuation parameter
   continuation::TraceOptions options;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Bilinear hysteresis (Jenkins element) under harmonic motion of amplitude R, slip threshold S, first harmonic
-// [paper (13)-(18), (30)]. With x = S/R and theta* = arccos(1 - 2x) the friction force is k phi r,
+// Bilinear hysteresis (Jenkins element) under harmonic motion of amplitude R, slip threshold S, first
+// harmonic [paper (13)-(18), (30)]. With x = S/R and theta* = arccos(1 - 2x) the friction force is k phi r,
 //
 //   phi = 1                                                                   R <= S   (stick)
 //   phi = (theta* - sin(2 theta*)/2)/pi + j (4/pi) x (1 - x)                  R >= S   (slip)
@@ -18,8 +18,9 @@ struct HarmonicCoefficient {
   Complex phi_log;  ///< d phi/d ln(R/S)
 };
 
-/// Slip, for ln(R/S) >= 0, to rounding for R/S from 1 to 1e12 and beyond. Just below zero, where a corrector may
-/// step before it is sent back, it is continued by the polynomial of its imaginary part and by Re phi = 1.
+/// Slip, for ln(R/S) >= 0, to rounding for R/S from 1 to 1e12 and beyond. Just below zero, where a corrector
+/// may step before it is sent back, it is continued by the polynomial of its imaginary part and by Re phi
+/// = 1.
 HarmonicCoefficient slip_coefficient(double log_ratio);
 
 /// Either regime at R > 0, S > 0.

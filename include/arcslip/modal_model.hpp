@@ -2,8 +2,8 @@
 
 // A reduced structure seen at its contact dof, as a sum over its modes.
 //
-// With damping proportional to stiffness, C = (beta/2 pi) K, and w* = 2 pi eta, the modes of (K, M) diagonalise
-// the dynamic stiffness Z(eta) = K + j w* C - w*^2 M for every eta at once:
+// With damping proportional to stiffness, C = (beta/2 pi) K, and w* = 2 pi eta, the modes of (K, M)
+// diagonalise the dynamic stiffness Z(eta) = K + j w* C - w*^2 M for every eta at once:
 //
 //   c(eta)   = e^T Z^{-1} e = sum_k a_k/d_k,      a_k = |e^T v_k|^2/(2 pi)^2
 //   y_0(eta) = e^T Z^{-1} F = sum_k b_k/d_k,      b_k = (e^T v_k)(v_k^H F)/(2 pi)^2
@@ -19,10 +19,10 @@ namespace arcslip {
 
 /// Response at the contact dof for a given eta, with its derivatives in eta.
 struct ContactResponse {
-  Complex compliance;       ///< c = e^T Z^{-1} e
-  Complex compliance_eta;   ///< dc/deta
-  Complex free;             ///< y_0 = e^T Z^{-1} F, the response without contact
-  Complex free_eta;         ///< dy_0/deta
+  Complex compliance;      ///< c = e^T Z^{-1} e
+  Complex compliance_eta;  ///< dc/deta
+  Complex free;            ///< y_0 = e^T Z^{-1} F, the response without contact
+  Complex free_eta;        ///< dy_0/deta
 };
 
 /// One mode; frequencies are in units of eta.
@@ -50,8 +50,8 @@ class ModalModel {
   double damping_;
 };
 
-/// The undamped frequencies at which 1 + k c = 0, c the sum of the compliances of `models`: the resonances of these
-/// structures joined at the contact dof through springs of stiffness k. In ascending order.
+/// The undamped frequencies at which 1 + k c = 0, c the sum of the compliances of `models`: the resonances of
+/// these structures joined at the contact dof through springs of stiffness k. In ascending order.
 std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& models, double k);
 
 }  // namespace arcslip

@@ -3,8 +3,8 @@
 // Fifty-digit arithmetic for setting a system up.
 //
 // The lowest stiffness of a reduced beam is a^4 times its largest entry (a = 2 pi n/N), so that double
-// precision loses everything from N = 10^4 on. Elements are therefore assembled, reduced and turned into modes
-// in fifty digits, once for each system, and rounded to double at the very end.
+// precision loses everything from N = 10^4 on. Elements are therefore assembled, reduced and turned into
+// modes in fifty digits, once for each system, and rounded to double at the very end.
 
 #include <Eigen/Core>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -14,9 +14,9 @@ namespace arcslip {
 
 using PreciseReal =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
-using PreciseComplex =
-    boost::multiprecision::number<boost::multiprecision::complex_adaptor<boost::multiprecision::cpp_bin_float<50>>,
-                                  boost::multiprecision::et_off>;
+using PreciseComplex = boost::multiprecision::number<
+    boost::multiprecision::complex_adaptor<boost::multiprecision::cpp_bin_float<50>>,
+    boost::multiprecision::et_off>;
 using PreciseMatrix = Eigen::Matrix<PreciseReal, Eigen::Dynamic, Eigen::Dynamic>;
 using PreciseComplexMatrix = Eigen::Matrix<PreciseComplex, Eigen::Dynamic, Eigen::Dynamic>;
 using PreciseComplexVector = Eigen::Matrix<PreciseComplex, Eigen::Dynamic, 1>;

@@ -37,8 +37,8 @@ std::vector<SpecialPoint> special_points(const TracedBranch& traced);
 /// Takes pieces of a text in order.
 using Sink = std::function<void(std::string_view)>;
 
-/// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the observables,
-/// arclength, iterations, residual.
+/// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the
+/// observables, arclength, iterations, residual.
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
 
 /// summary.json as described in the README.

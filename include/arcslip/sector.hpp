@@ -5,8 +5,8 @@
 //
 //   A(a) = T^H A T,   T : (d_L, d_I) -> (d_L, d_I, d_L e^{-ja}),   A = M, C, K
 //
-// which for an element without interior dofs is A11 + A22 + A12 e^{-ja} + A21 e^{ja}. The cost does not depend
-// on N. The functions are templates, for double precision and for the fifty digits of precise.hpp.
+// which for an element without interior dofs is A11 + A22 + A12 e^{-ja} + A21 e^{ja}. The cost does not
+// depend on N. The functions are templates, for double precision and for the fifty digits of precise.hpp.
 
 #include <Eigen/Core>
 #include <stdexcept>

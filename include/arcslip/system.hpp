@@ -16,15 +16,15 @@ std::string to_string(StructureModel model);
 /// [system] of a case file, nondimensional throughout.
 struct SystemParameters {
   StructureModel model = StructureModel::beams;
-  Index wave_number = 1;             ///< n >= 1
-  Index elements = 30;               ///< N > 2n
-  double mass_ratio = 1;             ///< M* = m_B/m_D > 0
-  double frequency_ratio = 1;        ///< gamma = sqrt(K*/M*) > 0
-  double interface_stiffness = 1;    ///< K_FD = k_F/k_D > 0
-  double base_damping = 1e-4;        ///< zeta_B
-  double damper_damping = 1e-4;      ///< zeta_D
-  double force = 1;                  ///< F = f_0/k_B > 0
-  double preload = 1;                ///< P = mu p_0/k_B > 0
+  Index wave_number = 1;           ///< n >= 1
+  Index elements = 30;             ///< N > 2n
+  double mass_ratio = 1;           ///< M* = m_B/m_D > 0
+  double frequency_ratio = 1;      ///< gamma = sqrt(K*/M*) > 0
+  double interface_stiffness = 1;  ///< K_FD = k_F/k_D > 0
+  double base_damping = 1e-4;      ///< zeta_B
+  double damper_damping = 1e-4;    ///< zeta_D
+  double force = 1;                ///< F = f_0/k_B > 0
+  double preload = 1;              ///< P = mu p_0/k_B > 0
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
@@ -34,10 +34,10 @@ double shear_interface_stiffness(double slenderness, double poisson_ratio);
 
 /// Base, damper and interface at one contact point, as the response equation needs them.
 struct FrictionSystem {
-  ModalModel base;             ///< with the travelling load
-  ModalModel damper;           ///< without load
-  double contact_stiffness;    ///< k = K_FD/N [paper (7)]
-  double slip_per_preload;     ///< S/P = K*/K_FD [paper (13)]
+  ModalModel base;           ///< with the travelling load
+  ModalModel damper;         ///< without load
+  double contact_stiffness;  ///< k = K_FD/N [paper (7)]
+  double slip_per_preload;   ///< S/P = K*/K_FD [paper (13)]
 };
 
 /// Reduced base and damper of `parameters`, before they are turned into modes.

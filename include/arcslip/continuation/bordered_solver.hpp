@@ -14,9 +14,9 @@
 
 namespace arcslip::continuation {
 
-/// Dense, by LU with partial pivoting. The matrix is filled by its blocks, then factored. Up to 16 rows, where calls
-/// would cost more than arithmetic, elimination is done in place and nothing is allocated; beyond, Eigen's blocked
-/// factorisation takes over.
+/// Dense, by LU with partial pivoting. The matrix is filled by its blocks, then factored. Up to 16 rows,
+/// where calls would cost more than arithmetic, elimination is done in place and nothing is allocated;
+/// beyond, Eigen's blocked factorisation takes over.
 class BorderedSolver {
  public:
   BorderedSolver(Index size, Index borders);
@@ -45,8 +45,8 @@ class BorderedSolver {
 
   Index size_;
   Matrix matrix_;
-  Matrix factors_;              // small: unit lower and upper triangle in one
-  std::vector<Index> pivots_;   // small: row exchanged with row i
+  Matrix factors_;             // small: unit lower and upper triangle in one
+  std::vector<Index> pivots_;  // small: row exchanged with row i
   Eigen::PartialPivLU<Matrix> lu_;
   Vector solution_;
 };

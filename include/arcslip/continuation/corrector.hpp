@@ -4,9 +4,9 @@
 //
 //   normal . (z - origin)/scale = distance,      z = (u, p_a), p_a the active parameter.
 //
-// With `normal` the tangent at the origin this is pseudo-arclength continuation [Keller 1977]; with the unit vector
-// of the parameter it keeps the parameter, which lands on a value exactly [Rheinboldt & Burkardt 1983]. Either way the
-// Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
+// With `normal` the tangent at the origin this is pseudo-arclength continuation [Keller 1977]; with the unit
+// vector of the parameter it keeps the parameter, which lands on a value exactly [Rheinboldt & Burkardt
+// 1983]. Either way the Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
 
 #include "arcslip/continuation/bordered_solver.hpp"
 #include "arcslip/continuation/problem.hpp"
@@ -18,8 +18,8 @@ struct CurvePoint {
   Vector unknowns;
   Vector parameters;
   int regime = 0;
-  Vector scale;            ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
-  Vector tangent;          ///< n + 1, unit length, dz/ds in units of `scale`
+  Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
+  Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
   double orientation = 0;  ///< sign of det [J F_p; tangent^T], which a smooth branch keeps
   double residual = 0;     ///< largest entry of F
   int iterations = 0;      ///< Newton corrections spent on it
@@ -60,11 +60,13 @@ class Corrector {
   /// point = origin + scale * displacement.
   void displace(const CurvePoint& origin, const Vector& displacement, CurvePoint& point) const;
 
-  /// Corrects `point` from where it stands. `to_rounding` goes on until the residual is at its rounding level.
+  /// Corrects `point` from where it stands. `to_rounding` goes on until the residual is at its rounding
+  /// level.
   Correction correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double distance,
                      bool to_rounding = false);
 
-  /// One Newton correction of F = 0 and of a condition with the gradient `normal` that is to change by `change`.
+  /// One Newton correction of F = 0 and of a condition with the gradient `normal` that is to change by
+  /// `change`.
   Correction correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double change);
 
   /// Contraction rate of the last corrections, |dz_2|/|dz_1|; 0 where fewer than two were needed.

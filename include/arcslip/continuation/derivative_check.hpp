@@ -13,8 +13,9 @@ struct DerivativeReport {
   std::string where;  ///< the entry it belongs to, as "dF0/du1", "dF0/dP", "d Y/du0" or "d border 0/d P"
 };
 
-/// Compares Jacobian, parameter derivatives, and the gradients of borders and observables at (u, p) with central
-/// differences, extrapolated once (error of order h^4). The point must lie at least 1e-3 of the scale inside its regime.
+/// Compares Jacobian, parameter derivatives, and the gradients of borders and observables at (u, p) with
+/// central differences, extrapolated once (error of order h^4). The point must lie at least 1e-3 of the scale
+/// inside its regime.
 DerivativeReport check_derivatives(const Problem& problem, const Vector& u, const Vector& p, int regime);
 
 }  // namespace arcslip::continuation

@@ -1,7 +1,7 @@
 #pragma once
 
-// What may happen within a step: a fold, an extremum of a tracked observable, the end of the regime. Each is a zero
-// of a function along the branch and is solved for on the branch itself, to rounding.
+// What may happen within a step: a fold, an extremum of a tracked observable, the end of the regime. Each is
+// a zero of a function along the branch and is solved for on the branch itself, to rounding.
 
 #include <optional>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace arcslip::continuation {
 
-/// Signs of the derivatives along the branch as last seen, 0 where one has vanished; an event changes a sign. They
-/// are remembered, not computed again, since just behind an extremum the sign is noise.
+/// Signs of the derivatives along the branch as last seen, 0 where one has vanished; an event changes a sign.
+/// They are remembered, not computed again, since just behind an extremum the sign is noise.
 struct Signs {
   int parameter = 0;
   std::vector<int> observables;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within each
-// of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
+// The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within
+// each of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
 
 #include <string>
 #include <vector>
@@ -29,7 +29,8 @@ struct Observable {
   bool has_gradient = false;
 };
 
-/// Only the first three have to be written. All are called from several threads and must not change the problem.
+/// Only the first three have to be written. All are called from several threads and must not change the
+/// problem.
 class Problem {
  public:
   virtual ~Problem() = default;
@@ -39,11 +40,12 @@ class Problem {
 
   virtual std::vector<std::string> parameter_names() const = 0;
 
-  /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens the step.
+  /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
+  /// the step.
   virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
 
-  /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that spans
-  /// decades gives its own value. The default is 1 for everything.
+  /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
+  /// spans decades gives its own value. The default is 1 for everything.
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
 
   virtual std::vector<std::string> regime_names() const { return {"smooth"}; }
@@ -64,8 +66,8 @@ class Problem {
   /// The value of one with has_gradient, and its gradient on the branch.
   virtual double observe(const Vector& u, const Vector& p, int regime, Index which, Gradient& gradient) const;
 
-  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any step.
-  /// The tracer puts a point on each and refines towards it.
+  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any
+  /// step. The tracer puts a point on each and refines towards it.
   virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
 };
 

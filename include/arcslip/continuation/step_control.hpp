@@ -1,16 +1,18 @@
 #pragma once
 
-// The length of the steps, from three signals: how fast the corrector contracted, how far the tangent turned, and
-// how far the corrected point lies from the predicted one. Near a smooth branch each grows at least as the square
-// of the step (the turn: as the step), so that each asks for a factor sqrt(aim/signal) (the turn: aim/signal).
+// The length of the steps, from three signals: how fast the corrector contracted, how far the tangent turned,
+// and how far the corrected point lies from the predicted one. Near a smooth branch each grows at least as
+// the square of the step (the turn: as the step), so that each asks for a factor sqrt(aim/signal) (the turn:
+// aim/signal).
 
 namespace arcslip::continuation {
 
 struct StepSignals {
-  double contraction = 0;      ///< |dz_2|/|dz_1| of Newton's method
-  double turn = 0;             ///< angle between the tangents, radians
-  double prediction_error = 0; ///< |corrected - predicted| in the problem's scale
-  double mismatch = 0;         ///< |step - (mean of the end slopes) x distance|: a branch in between that is not smooth
+  double contraction = 0;       ///< |dz_2|/|dz_1| of Newton's method
+  double turn = 0;              ///< angle between the tangents, radians
+  double prediction_error = 0;  ///< |corrected - predicted| in the problem's scale
+  double mismatch =
+      0;  ///< |step - (mean of the end slopes) x distance|: a branch in between that is not smooth
 };
 
 struct StepLimits {

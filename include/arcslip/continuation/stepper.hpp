@@ -1,9 +1,9 @@
 #pragma once
 
-// One step along a branch within one regime: prediction, correction, and the tests that the step must pass before
-// it counts. The condition that closes the step is either the tangent's (pseudo-arclength, which passes folds) or
-// the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a vertical tangent
-// misses the branch, and lands on values); the caller turns to the other when one fails.
+// One step along a branch within one regime: prediction, correction, and the tests that the step must pass
+// before it counts. The condition that closes the step is either the tangent's (pseudo-arclength, which
+// passes folds) or the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a
+// vertical tangent misses the branch, and lands on values); the caller turns to the other when one fails.
 
 #include <optional>
 #include <vector>
@@ -15,7 +15,8 @@ namespace arcslip::continuation {
 
 enum class Hold { tangent, parameter };
 
-/// Value of a function along the branch and its derivative in the step's coordinate s = normal . (z - z_here)/scale.
+/// Value of a function along the branch and its derivative in the step's coordinate s = normal . (z -
+/// z_here)/scale.
 struct Monitor {
   double value = 0;
   double slope = 0;
@@ -32,7 +33,8 @@ class Stepper {
   /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
   Correction start(const Vector& unknowns, const Vector& parameters, int regime, double forward);
 
-  /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented into it.
+  /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented
+  /// into it.
   Correction enter(int regime);
 
   /// Arclength per distance at `here`: 1 or more.
@@ -51,7 +53,8 @@ class Stepper {
   double distance() const { return distance_; }
   double chord() const { return step_.norm(); }
 
-  /// Monitors at `here`, their slopes along the unit tangent: the tracked observables first, then the borders.
+  /// Monitors at `here`, their slopes along the unit tangent: the tracked observables first, then the
+  /// borders.
   const std::vector<Monitor>& at_here() const { return at_here_; }
 
   /// Monitors at both ends of the step.
@@ -74,8 +77,8 @@ class Stepper {
   /// Ends the step at the point last probed.
   void cut(double s);
 
-  /// Moves `there`, which is next to it, onto a border of its regime, and thereby to the parameter's last bit off the
-  /// branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
+  /// Moves `there`, which is next to it, onto a border of its regime, and thereby to the parameter's last bit
+  /// off the branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
   Correction settle_on_border(int border);
 
   /// Makes `there` the new `here`.

@@ -8,8 +8,8 @@
 //
 //   g(rho, eta, P) = rho + ln|1 + k phi c| - ln|y_0| = 0
 //
-// Unknown: rho. Parameters: eta, P. Regimes: stick (R <= S, phi = 1) and slip, with the border ln(R/S) = 0. With
-// r = -y_0/(1 + k phi c) the motions are y = -r (1 + k phi c_D) and u = -r k phi c_D.
+// Unknown: rho. Parameters: eta, P. Regimes: stick (R <= S, phi = 1) and slip, with the border ln(R/S) = 0.
+// With r = -y_0/(1 + k phi c) the motions are y = -r (1 + k phi c_D) and u = -r k phi c_D.
 
 #include "arcslip/continuation/problem.hpp"
 #include "arcslip/continuation/trace.hpp"
@@ -28,7 +28,8 @@ class ForcedResponse : public continuation::Problem {
 
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime, const continuation::Evaluation& out) const override;
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   std::vector<std::string> regime_names() const override { return {"stick", "slip"}; }

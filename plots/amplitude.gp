@@ -1,0 +1,8 @@
+# Amplitude of the base.
+
+style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
+load style."/style.gp"
+quantity(row) = column("Y")
+y_title = "amplitude"
+y_symbol = "{/:Italic Y}"
+load style."/response.gp"

@@ -1,0 +1,10 @@
+# Energy lost to friction per cycle and contact point, over the stiffness of the contact.
+
+style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
+load style."/style.gp"
+quantity(row) = column("R_over_S") > 1 + 1e-5 ? column("dissipated") * column("S") ** 2 : NaN
+y_title = "dissipated"
+y_symbol = "4{/:Italic S} ({/:Italic R} − {/:Italic S})"
+stick_found = 0  # nothing is lost in stick, nor at its ends
+found[kind_of("switch")] = 0
+load style."/response.gp"

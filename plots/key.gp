@@ -1,0 +1,84 @@
+# Opens the picture, with `body` cm for the panels and, above them, the key: the branches by their labels, then how
+# stick, slip and the special points are drawn. It is set by hand, since gnuplot's own may lie over the curves.
+
+sample = 0.45  # of a line, with the blank behind it
+gap = 0.28     # between entries
+
+# Estimated from the number of characters, markup left out.
+italics(text) = sum [i = 1:strlen(text)] (text[i:i + 8] eq "{/:Italic")
+text_width(text) = (strlen(text) - 11 * italics(text)) * 0.45 * type_size / 72 * 2.54
+
+# ---- The branches, in columns ----
+
+most_named = 12  # of more branches a few are named, evenly chosen: the colours tell the order of the others
+named = strlen(word(labels, 1)) == 0 ? 0 : branches <= most_named ? branches : 6
+named_branch(i) = named < branches ? int(1 + (i - 1.0) * (branches - 1) / (named - 1) + 0.5) : i
+
+column_width = 0
+do for [i = 1:named] {
+  entry = sample + text_width(word(labels, named_branch(i))) + gap
+  column_width = entry > column_width ? entry : column_width
+}
+columns = named == 0 ? 1 : int((width - 0.2 + gap) / column_width)
+columns = columns < 1 ? 1 : columns > named ? named : columns
+branch_lines = ceil(1.0 * named / columns)
+columns = named == 0 ? 1 : ceil(1.0 * named / branch_lines)  # lines of much the same length
+
+# ---- Stick, slip and the special points: those that there are, in lines filled one after the other ----
+
+ways = 2 + kinds
+array way_title[ways] = ["stick", "slip"]
+array way_start[ways]
+array way_line[ways]
+array line_width[ways]
+do for [k = 1:kinds] { way_title[2 + k] = kind_title[k] }
+is_shown(i) = i == 1 ? stick_found : i == 2 ? slip_found : found[i - 2] > 0
+way_sample(i) = i <= 2 ? sample : 0.25
+
+way_lines = 1
+line_width[1] = 0
+do for [i = 1:ways] {
+  entry = is_shown(i) ? way_sample(i) + text_width(way_title[i]) + gap : 0
+  if (line_width[way_lines] + entry - gap > width - 0.2) {
+    way_lines = way_lines + 1
+    line_width[way_lines] = 0
+  }
+  way_start[i] = line_width[way_lines]
+  way_line[i] = way_lines
+  line_width[way_lines] = line_width[way_lines] + entry
+}
+
+# ---- Setting it, by labels and arrows that the first panel draws ----
+
+height = body + (branch_lines + way_lines) * line_height + 0.1
+height_of_line(n) = height - 0.05 - (n - 0.5) * line_height
+
+# Where a line of this width starts: centred over the panels, or in the picture if it is wider than they are.
+start(full) = full - gap <= right_edge - left_edge ? 0.5 * (left_edge + right_edge - full + gap) : 0.5 * (width - full + gap)
+
+do for [i = 1:named] {
+  x0 = start(columns * column_width) + (i - 1) % columns * column_width
+  y0 = height_of_line((i - 1) / columns + 1)
+  set arrow from screen across(x0), up(y0) to screen across(x0 + sample - 0.1), up(y0) \
+    nohead linewidth 2 * thin linecolor rgb colour(named_branch(i))
+  set label word(labels, named_branch(i)) at screen across(x0 + sample), up(y0)
+}
+do for [i = 1:ways] {
+  if (is_shown(i)) {
+    x0 = start(line_width[way_line[i]]) + way_start[i]
+    y0 = height_of_line(branch_lines + way_line[i])
+    if (i <= 2) {
+      set arrow from screen across(x0), up(y0) to screen across(x0 + sample - 0.1), up(y0) \
+        nohead linewidth (i == 1 ? thin : thick) linecolor rgb grey
+    } else {
+      set label '' at screen across(x0 + 0.08), up(y0) \
+        point pointtype symbol[i - 2] pointsize symbol_size(i - 2) linewidth frame linecolor rgb grey
+    }
+    set label way_title[i] at screen across(x0 + way_sample(i)), up(y0)
+  }
+}
+
+eval sprintf("set terminal %s size %d,%d background '#ffffff' font 'Arial,%g' fontscale %g linewidth %g rounded", \
+             is_svg ? "svg" : "pngcairo", pixels(width), pixels(height), type_size, type_scale, dot)
+set output picture
+set multiplot

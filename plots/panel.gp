@@ -1,0 +1,22 @@
+# A panel from `from` to `to` of the parameter, its edges at `l`, `r`, `b` and `t` cm, with the values that are there.
+
+eval place_panel(l, r, b, t)
+set xrange [*:*]  # since stats keeps to the ranges that are set
+set yrange [*:*]
+unset logscale
+STATS_min = 1
+STATS_max = 1
+stats csv using (column(parameter) >= from && column(parameter) <= to ? quantity(0) : NaN) nooutput
+y_low = STATS_min
+y_high = STATS_max
+
+is_labelled = 1
+axis = "x"; low = from; high = to; count = (r - l) / 0.65
+load style."/axis.gp"
+axis = "y"; low = value_at(y_low, y_high, -0.05); high = value_at(y_low, y_high, 1.07); count = (t - b) / 0.65
+load style."/axis.gp"
+if (exists("reference") && low < reference && reference < high) {
+  set arrow from graph 0, first reference to graph 1, first reference nohead back linewidth frame dashtype (10, 8)
+  if (from == x_low) { set label reference_title at graph 0.02, first reference offset 0, 0.5 }
+}
+load style."/curves.gp"

@@ -1,0 +1,10 @@
+# Relative amplitude over the slip threshold: slip above the line R = S, stick below it.
+
+style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
+load style."/style.gp"
+quantity(row) = column("R_over_S")
+y_title = "relative amplitude"
+y_symbol = "{/:Italic R}/{/:Italic S}"
+reference = 1
+reference_title = "{/:Italic R} = {/:Italic S}"
+load style."/response.gp"

@@ -1,0 +1,215 @@
+// The program as a user meets it: commands, files, exit statuses.
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "catch.hpp"
+#include "temporary_folder.hpp"
+
+using arcslip::testing::read;
+using arcslip::testing::TemporaryFolder;
+
+namespace {
+
+const std::string program = ARCSLIP_PROGRAM;
+const std::string figure_8 = std::string(ARCSLIP_SOURCE_DIR) + "/problems/figure_8.toml";
+
+struct Outcome {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+Outcome shell(const std::string& command) {
+  const TemporaryFolder folder;
+  const std::string whole =
+      "{ " + command + "; } >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'";
+  const int code = std::system(whole.c_str());
+  return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read(folder.path("out")), read(folder.path("err"))};
+}
+
+Outcome arcslip_program(const std::string& arguments) { return shell("'" + program + "' " + arguments); }
+
+bool is_one_line(const std::string& text) { return !text.empty() && text.find('\n') == text.size() - 1; }
+
+std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream in(read(path));
+  for (std::string line; std::getline(in, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("run writes both files whole, prints the special points and nothing on stderr") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + figure_8 + " -o " + folder.path("r"));
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK_THAT(outcome.out, ContainsSubstring("preload = 0.1") && ContainsSubstring("3.841129"));
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+
+  const auto rows = read_csv(folder.path("r/branches.csv"));
+  const std::vector<std::string> header = {
+      "branch", "point", "type", "regime", "eta", "P",          "R",         "S",          "R_over_S",
+      "Y",      "U",     "beta", "alpha",  "psi", "dissipated", "arclength", "iterations", "residual"};
+  REQUIRE(rows.front() == header);
+  std::set<std::string> types;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    REQUIRE(rows[i].size() == header.size());
+    types.insert(rows[i][2]);
+    CHECK(std::stod(rows[i][17]) <= 1e-9);
+    if (rows[i][2] == "switch") CHECK_THAT(std::stod(rows[i][8]), WithinAbs(1, 1e-10));
+  }
+  CHECK(types == std::set<std::string>{"start", "regular", "switch", "peak", "trough", "end"});
+
+  const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
+  CHECK(summary["title"] == "Two beams, figure 8");
+  CHECK(summary["case"]["system"]["mass_ratio"] == 5.0);
+  REQUIRE(summary["branches"].size() == 5);
+  std::size_t points = 0;
+  for (const auto& branch : summary["branches"]) {
+    CHECK(branch["stop"] == "reached_end");
+    points += branch["points"].get<std::size_t>();
+  }
+  CHECK(points == rows.size() - 1);
+  const auto& second = summary["branches"][1];
+  CHECK(second["values"]["preload"] == 1.0);
+  CHECK_THAT(second["peak"]["eta"].get<double>(), WithinRel(3.841129, 1e-7));
+  CHECK_THAT(second["peak"]["Y"].get<double>(), WithinRel(0.00718851766, 1e-8));
+}
+
+TEST_CASE("Rows of a branch start and end exactly on the values asked for") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") +
+                                          " --set continuation.stop_at=[3.9,4.1] --set branch.from=120.0 "
+                                          "--set branch.to=0.7");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.empty());
+  int users = 0;
+  for (const auto& row : read_csv(folder.path("r/branches.csv"))) {
+    if (row[2] == "start") CHECK(std::stod(row[4]) == 120.0);
+    if (row[2] == "end") CHECK(std::stod(row[4]) == 0.7);
+    if (row[2] == "user") users += static_cast<int>(std::stod(row[4]) == 3.9 || std::stod(row[4]) == 4.1);
+  }
+  CHECK(users == 10);
+}
+
+TEST_CASE("The results of two runs are the same to the last digit") {
+  const TemporaryFolder folder;
+  arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("a"));
+  arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("b"));
+  CHECK(read(folder.path("a/branches.csv")) == read(folder.path("b/branches.csv")));
+}
+
+TEST_CASE("Wrong input has status 1 and one line, and leaves nothing behind") {
+  const TemporaryFolder folder;
+  const std::string bad =
+      folder.write("bad.toml", "[system]\nmodel = 3\n[branch]\nparameter = \"eta\"\nfrom = 1\nto = 2\n");
+  const std::string no_toml = folder.write("no.toml", "\x01\x02 this is no TOML");
+  for (const std::string& path : {bad, no_toml, folder.path("missing.toml"), std::string("/")}) {
+    const Outcome outcome = arcslip_program("run " + path + " -o " + folder.path("r"));
+    INFO(outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK_THAT(outcome.err, ContainsSubstring(path));
+    CHECK_FALSE(std::filesystem::exists(folder.path("r")));
+  }
+}
+
+TEST_CASE("A wrong command line has status 2 and one line") {
+  for (const std::string arguments :
+       {"", "rum case.toml", "run", "run a.toml b.toml", "run --sett a=1 case.toml", "plot"}) {
+    const Outcome outcome = arcslip_program(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(is_one_line(outcome.err));
+  }
+}
+
+TEST_CASE("Help and version explain the program with status 0") {
+  CHECK_THAT(arcslip_program("--version").out, ContainsSubstring("arcslip 0."));
+  const Outcome help = arcslip_program("--help");
+  CHECK(help.status == 0);
+  for (const std::string word : {"run", "check", "plot", "Exit status", "Examples"}) {
+    CHECK_THAT(help.out, ContainsSubstring(word));
+  }
+  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each"));
+}
+
+TEST_CASE("check says what would run, and refuses what run would refuse") {
+  const Outcome outcome = arcslip_program("check " + figure_8);
+  CHECK(outcome.status == 0);
+  CHECK_THAT(outcome.out,
+             ContainsSubstring("branch 4: preload = 50") && ContainsSubstring("eta from 0.5 to 120"));
+  CHECK(arcslip_program("check " + figure_8 + " --set system.elements=1").status == 1);
+}
+
+TEST_CASE("A folder that cannot be written has status 4 and one line") {
+  const TemporaryFolder folder;
+  folder.write("file", "");
+  const Outcome blocked = arcslip_program("run " + figure_8 + " -o " + folder.path("file/below"));
+  CHECK(blocked.status == 4);
+  CHECK(is_one_line(blocked.err));
+  const Outcome taken = arcslip_program("run " + figure_8 + " -o " + folder.path("file"));
+  CHECK(taken.status == 4);
+  CHECK(is_one_line(taken.err));
+}
+
+TEST_CASE("A disk that fills up has status 4 and leaves no partial file, nor harms an older result") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  const std::string before = read(folder.path("r/branches.csv"));
+  // A limit on the size of files stands for the full disk: writes fail in the same place.
+  const Outcome outcome =
+      shell("ulimit -f 100; '" + program + "' run " + figure_8 + " -o " + folder.path("r"));
+  CHECK(outcome.status == 4);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring("branches.csv: cannot be written"));
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(read(folder.path("r/branches.csv")) == before);
+  const Outcome full = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("s") + " >/dev/full");
+  CHECK(full.status == 4);
+  CHECK(names_in(folder.path("s")) == std::set<std::string>{"branches.csv", "summary.json"});
+}
+
+TEST_CASE("A branch that cannot be finished has status 3, its reason, and what was traced") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") +
+                                          " --set continuation.max_points=50");
+  CHECK(outcome.status == 3);
+  CHECK_THAT(outcome.err, ContainsSubstring("branch 0: max_points"));
+  CHECK(read_csv(folder.path("r/branches.csv")).size() == 1 + 5 * 50);
+  CHECK(nlohmann::json::parse(read(folder.path("r/summary.json")))["branches"][0]["stop"] == "max_points");
+}
+
+TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
+  const TemporaryFolder folder;
+  const Outcome outcome = shell("'" + program + "' run " + figure_8 + " --quiet -o " + folder.path("r") +
+                                " --set continuation.max_step=1e-5 --set continuation.max_points=100000000 & "
+                                "sleep 0.5; kill -INT $!; wait $!");
+  CHECK(outcome.status == 3);
+  CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
+  CHECK(summary["branches"][0]["stop"] == "interrupted");
+  CHECK(summary["branches"][0]["points"].get<std::size_t>() + 1 ==
+        read_csv(folder.path("r/branches.csv")).size());
+}
