@@ -102,10 +102,8 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
       return solve_direction() ? Correction::converged : Correction::singular;
     }
     if (last) return Correction::too_many_iterations;
-    if (rounded) {  // the parameter's own rounding is what is left: hold it and correct the unknowns
-      held = true;
-      if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
-    }
+    held = held || rounded;  // the parameter's own rounding is what is left: keep it and correct the unknowns
+    if (held && !factor(origin.scale, parameter_normal_)) return Correction::singular;
     difference(point, origin, correction_);
     const double gap = held ? 0 : distance - normal.dot(correction_);
     correction_.head(size_) = -residual_;
@@ -113,7 +111,8 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     solver_.solve(correction_);
     const double length = correction_.norm();
     if (!std::isfinite(length)) return Correction::singular;
-    if (point.iterations == 1) contraction_ = length / last_length;
+    const bool telling = !held && last_residual > rounding_level(point);  // not a ratio of two roundings
+    if (point.iterations == 1 && telling) contraction_ = length / last_length;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded)
       return Correction::diverging;
     last_length = length;

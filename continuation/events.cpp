@@ -113,6 +113,10 @@ class Search {
     const Monitor from = stepper_.from()[m];
     double upper = upper_;
     double value = (*at_upper_)[m].value;
+    if (std::abs(from.value) <= 1e-12 && from.slope > 0) {  // an extremum lies on the border, to rounding
+      note(Event::Kind::crossing, b, {Zero::State::found, 0});
+      return;
+    }
     if (value <= 0) {
       if (!(from.slope > 0 && (*at_upper_)[m].slope < 0)) return;
       const Zero top = locate_extremum(m, 1);  // the border function's highest point in the step

@@ -268,22 +268,18 @@ bool Tracer::take_target(const Target& target) {
 }
 
 bool Tracer::cross(Index border) {
-  const CurvePoint before = stepper_.here();
   const Signs signs_before = signs_;
   const double length_before = length();
-  const int regime = problem_.regime_beyond(before.regime, static_cast<int>(border));
+  const double change = distance_ * std::abs(stepper_.parameter_slope(hold_));
+  const int regime = problem_.regime_beyond(stepper_.here().regime, static_cast<int>(border));
   if (stepper_.enter(regime) != Correction::converged) {
     return store(PointType::regime_switch) &&
-           stop(Stop::grazing_border,
-                fmt::format("the branch beyond the border does not leave it, at {}", place()));
+           stop(Stop::grazing_border, fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
   if (!store(PointType::regime_switch) || !corner_events(signs_before)) return false;
-  // Neither the unknowns nor the parameter may move faster beyond the corner than they did before it.
-  const Vector& after = stepper_.here().tangent;
-  const Index n = corrector_.size();
-  const double slower = std::min({1.0, before.tangent.head(n).norm() / (after.head(n).norm() + 1e-300),
-                                  std::abs(before.tangent(n)) / (std::abs(after(n)) + 1e-300)});
-  distance_ = length_before * std::max(slower, 1e-3) / stepper_.slope_length(hold_);
+  // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
+  distance_ = std::max(change / std::abs(stepper_.parameter_slope(hold_)),
+                       1e-3 * length_before / stepper_.slope_length(hold_));
   return true;
 }
 

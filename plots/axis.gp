@@ -21,8 +21,8 @@ if (is_wide(low, high)) {
 } else {
   step = 1.0 * (high - low) / count
   unit = 10.0 ** floor(log10(step))
-  round = step <= unit ? 1 : step <= 2 * unit ? 2 : step <= 5 * unit ? 5 : 10
-  eval sprintf("unset logscale %s; set %stics autofreq %.15g; set m%stics %d", axis, axis, round * unit, axis, \
-               round == 2 ? 2 : 5)
+  multiple_of_unit = step <= unit ? 1 : step <= 2 * unit ? 2 : step <= 5 * unit ? 5 : 10
+  eval sprintf("unset logscale %s; set %stics autofreq %.15g; set m%stics %d", axis, axis, multiple_of_unit * unit, axis, \
+               multiple_of_unit == 2 ? 2 : 5)
   eval sprintf("set format %s '%s'", axis, is_labelled ? "%g" : "")
 }

@@ -2,6 +2,7 @@
 
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
 load style."/style.gp"
+load style."/data.gp"
 quantity(row) = column("R_over_S") > 1 + 1e-5 ? column("dissipated") * column("S") ** 2 : NaN
 y_title = "dissipated"
 y_symbol = "4{/:Italic S} ({/:Italic R} − {/:Italic S})"

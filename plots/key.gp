@@ -20,7 +20,7 @@ do for [i = 1:named] {
   column_width = entry > column_width ? entry : column_width
 }
 columns = named == 0 ? 1 : int((width - 0.2 + gap) / column_width)
-columns = columns < 1 ? 1 : columns > named ? named : columns
+columns = columns < 1 ? 1 : columns
 branch_lines = ceil(1.0 * named / columns)
 columns = named == 0 ? 1 : ceil(1.0 * named / branch_lines)  # lines of much the same length
 

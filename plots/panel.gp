@@ -1,14 +1,15 @@
 # A panel from `from` to `to` of the parameter, its edges at `l`, `r`, `b` and `t` cm, with the values that are there.
 
 eval place_panel(l, r, b, t)
+y_inside(i) = xs[i] >= from && xs[i] <= to ? ys[i] : NaN
 set xrange [*:*]  # since stats keeps to the ranges that are set
 set yrange [*:*]
 unset logscale
 STATS_min = 1
 STATS_max = 1
-stats csv using (column(parameter) >= from && column(parameter) <= to ? quantity(0) : NaN) nooutput
-y_low = STATS_min
-y_high = STATS_max
+stats xs using (y_inside(int($1))) nooutput
+y_low = STATS_min < STATS_max ? STATS_min : STATS_min - 0.1 * abs(STATS_min)
+y_high = STATS_min < STATS_max ? STATS_max : STATS_max + 0.1 * abs(STATS_max)
 
 is_labelled = 1
 axis = "x"; low = from; high = to; count = (r - l) / 0.65

@@ -3,6 +3,7 @@
 
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
 load style."/style.gp"
+load style."/data.gp"
 
 nearest_turn(phase) = 2 * pi * floor(phase / (2 * pi) + 0.5)
 followed(phase, starts) = phase == phase ? \
@@ -12,7 +13,7 @@ array names[3] = ["beta", "alpha", "psi"]
 array titles[3] = ["base  {/:Italic β}", "damper  {/:Italic α}", "relative  {/:Italic ψ}"]
 
 name = names[1]
-load style."/special.gp"
+load style."/read.gp"
 load style."/windows.gp"
 
 left_edge = 1.75
@@ -23,8 +24,8 @@ body = top + (windows ? 0.4 : 0.1)
 load style."/key.gp"
 
 # Columns: the whole range and the windows.
-array column_left[3] = [left_edge, left_edge + (windows == 1 ? 3.4 : 2.75), right_edge - 1.75]
-column_right(c) = c <= windows ? column_left[c + 1] - 0.15 : right_edge
+array column_left[3] = [left_edge, left_edge + (windows == 1 ? 3.4 : 2.8), right_edge - 1.68]
+column_right(c) = c <= windows ? column_left[c + 1] - (c == 1 ? 0.3 : 0.15) : right_edge
 column_from(c) = c == 1 ? x_low : window_low[c - 1]
 column_to(c) = c == 1 ? x_high : window_high[c - 1]
 
@@ -36,13 +37,13 @@ set label "phase behind the excitation" at screen across(0.22), up(0.5 * (bottom
 set label x_title at screen across(0.5 * (left_edge + right_edge)), up(0.22) center
 do for [n = 1:3] {
   name = names[n]
-  if (n > 1) { load style."/special.gp" }
+  if (n > 1) { load style."/read.gp" }
   set xrange [*:*]  # since stats keeps to the ranges that are set
   set yrange [*:*]
   unset logscale
   STATS_min = 0
   STATS_max = 1
-  stats csv using (quantity(0)) nooutput
+  stats ys using (ys[int($1)]) nooutput
   y_low = STATS_min
   y_high = STATS_max > y_low ? STATS_max : y_low + 1
   do for [c = 1:1 + windows] {

@@ -2,6 +2,7 @@
 
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
 load style."/style.gp"
+load style."/data.gp"
 quantity(row) = column("R_over_S")
 y_title = "relative amplitude"
 y_symbol = "{/:Italic R}/{/:Italic S}"

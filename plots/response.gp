@@ -1,7 +1,7 @@
 # quantity(0) over the parameter: the whole range in one panel and, below it, the ranges where peaks crowd. The axes are
 # called `y_title` and, for short, `y_symbol`; a line is drawn at `reference`, if that is given, and called so.
 
-load style."/special.gp"
+load style."/read.gp"
 load style."/windows.gp"
 
 bottom = 0.95

@@ -1,6 +1,4 @@
-# What the pictures share: sizes, colours, symbols, and a first look at the data.
-#
-# A script names its arguments, then loads this file:
+# How the pictures look: sizes, colours, symbols. A script names its arguments before it loads the files of this folder:
 #
 #   style      this folder
 #   csv        branches.csv of `arcslip run`
@@ -8,15 +6,9 @@
 #   format     png or svg
 #   parameter  the continuation parameter, eta or P: the axis that the panels share
 #   labels     one word in double quotes for each branch, "" for a branch without a name
-#
-# The time taken grows with the number of rows, not with that of the branches times the rows: a branch is read by its
-# row numbers, and gnuplot leaves the other rows unparsed.
 
 set encoding utf8
 set minussign
-set datafile separator comma
-set datafile columnheaders
-branches = words(labels)
 
 # ---- Sizes: lengths in cm from the lower left corner, type and lines in typographic points, whatever the format ----
 
@@ -32,7 +24,8 @@ thick = 1.4
 is_svg = format eq "svg"
 dot = is_svg ? 96 / 72.0 : 300 / 72.0  # for each point: CSS pixels, or 300 dots per inch
 type_scale = is_svg ? dot : dot * 72 / 96  # pngcairo takes a point of type for 96/72 dots
-pixels(cm) = int(cm / 2.54 * 72 * dot + 0.5)
+round(v) = int(v + 0.5)
+pixels(cm) = round(cm / 2.54 * 72 * dot)
 across(cm) = 1.0 * cm / width
 up(cm) = 1.0 * cm / height
 
@@ -50,6 +43,7 @@ channel(rgb, shift) = (rgb >> shift) & 255
 mix(a, b, t, shift) = int(channel(a, shift) + t * (channel(b, shift) - channel(a, shift)) + 0.5) << shift
 blend(a, b, t) = mix(a, b, t, 16) | mix(a, b, t, 8) | mix(a, b, t, 0)
 on_scale(s) = blend(scale[int(s) + 1], scale[int(s) + 2], s - int(s))
+branches = words(labels)
 colour(b) = branches <= |few| ? few[b] : on_scale((b - 1.0) / (branches - 1) * (|scale| - 1 - 1e-9))
 grey = 0x606060
 shade = 0xEAEAEA
@@ -63,31 +57,6 @@ array symbol[kinds] = [6, 2, 13, 5, 9, 11]
 array backing[kinds] = [7, 7, 13, 5, 9, 11]
 symbol_size(k) = is_svg ? 0.5 : symbol[k] == 9 || symbol[k] == 11 ? 1.5 : 1.25
 kind_of(type) = type eq "regular" ? 0 : sum [k = 1:kinds] (kind_type[k] eq type ? k : 0)
-
-# ---- Of the row that is read ----
-
-branch(row) = int(column("branch")) + 1
-kind(row) = kind_of(strcol("type"))
-slips(row) = strcol("regime") eq "slip"
-ends_slip(row) = strcol("type") eq "switch"  # the last point of a stretch of slip, though it enters stick
-
-# ---- A first look: the rows of each branch, the range of the parameter, the regimes and special points there are ----
-
-array first_row[branches]
-array last_row[branches]
-array found[kinds]
-do for [b = 1:branches] { first_row[b] = 0; last_row[b] = -1 }
-do for [k = 1:kinds] { found[k] = 0 }
-stick_found = 0
-slip_found = 0
-note_row(b, row) = b > branches ? 0 : (last_row[b] < 0 ? first_row[b] = row : 0, last_row[b] = row)
-note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
-note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
-stats csv using (note_row(branch(0), int(column(0))), note_regime(slips(0)), note_kind(kind(0)), column(parameter)) \
-  nooutput
-x_low = STATS_min
-x_high = STATS_max
-x_title = parameter eq "eta" ? "frequency  {/:Italic η} = {/:Italic ω}/{/:Italic Ω}_D" : "preload  {/:Italic P}"
 
 # ---- Ranges ----
 

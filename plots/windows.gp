@@ -1,19 +1,21 @@
-# Finds the one or two ranges where the peaks in $special crowd, too narrow to be seen in the whole: `windows` of them,
-# from window_low[n] to window_high[n], from left to right.
+# Finds the ranges where peaks crowd, too narrow to be seen in the whole: `windows` of them, two at most, from left to
+# right, from window_low[n] to window_high[n].
 
 bins = 500
 crowd = 35  # bins: 7 % of the axis
 array peaks[bins]
 array leftmost[bins]
 array rightmost[bins]
-do for [i = 1:bins] { peaks[i] = 0 }
+do for [i = 1:bins] { peaks[i] = 0; leftmost[i] = 1; rightmost[i] = 0 }
 bin(s) = s <= 0 ? 1 : s >= 1 ? bins : int(s * bins) + 1
-note_peak(i, s) = (leftmost[i] = peaks[i] && leftmost[i] < s ? leftmost[i] : s, \
-                   rightmost[i] = peaks[i] && rightmost[i] > s ? rightmost[i] : s, peaks[i] = peaks[i] + 1)
-note_place(s) = note_peak(bin(s), s)
-peak = kind_of("peak")
-if (found[peak] > 1 && x_high > x_low) {
-  stats $special using (column("kind") == peak ? note_place(place_of(x_low, x_high, column("x"))) : 0) nooutput
+do for [i = 1:specials] {
+  if (special_kinds[i] == kind_of("peak")) {
+    s = place_of(x_low, x_high, xs[special_points[i]])
+    j = bin(s)
+    peaks[j] = peaks[j] + 1
+    leftmost[j] = s < leftmost[j] ? s : leftmost[j]
+    rightmost[j] = s > rightmost[j] ? s : rightmost[j]
+  }
 }
 
 windows = 0
@@ -29,13 +31,13 @@ do for [n = 1:2] {
     low = 1
     high = 0
     do for [j = begin:begin + crowd - 1] {
-      low = peaks[j] && leftmost[j] < low ? leftmost[j] : low
-      high = peaks[j] && rightmost[j] > high ? rightmost[j] : high
+      low = leftmost[j] < low ? leftmost[j] : low
+      high = rightmost[j] > high ? rightmost[j] : high
     }
     margin = 0.6 * (high - low) > 0.004 ? 0.6 * (high - low) : 0.004
     low = low - margin < 0 ? 0 : low - margin
     high = high + margin > 1 ? 1 : high + margin
-    do for [j = bin(low):bin(high)] { peaks[j] = 0 }
+    do for [j = bin(low):bin(high)] { peaks[j] = 0; leftmost[j] = 1; rightmost[j] = 0 }
     windows = n
     window_low[n] = value_at(x_low, x_high, low)
     window_high[n] = value_at(x_low, x_high, high)
@@ -45,8 +47,6 @@ if (windows == 2 && window_low[1] > window_low[2]) {
   low = window_low[1]; window_low[1] = window_low[2]; window_low[2] = low
   high = window_high[1]; window_high[1] = window_high[2]; window_high[2] = high
 }
-in_window(v) = sum [n = 1:windows] (v >= window_low[n] && v <= window_high[n])
-
 in_window(v) = sum [n = 1:windows] (v >= window_low[n] && v <= window_high[n])
 
 # How a panel of the whole range shows the windows: by shaded bands with the letters of their own panels over them.

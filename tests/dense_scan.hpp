@@ -198,6 +198,7 @@ struct Sample {
   Real log_R;
   Real log_Y;
   Real log_Y_slope;
+  Real gain;  ///< d ln(R |1 + k phi c|)/d ln R
 };
 
 class Response {
@@ -305,14 +306,15 @@ class Response {
     const Complex closed = 1.0L + phi.value * local.c.value;
     const Complex closed_damper = 1.0L + phi.value * local.c_damper.value;
     const Real threshold_slope = local.along_preload ? 1 : 0;
+    const Real gain = 1 + std::real(phi.slope * local.c.value / closed);
     const Real t_slope =
-        (local.log_free_slope - threshold_slope - std::real(phi.value * local.c.slope / closed)) /
-        (1 + std::real(phi.slope * local.c.value / closed));
+        (local.log_free_slope - threshold_slope - std::real(phi.value * local.c.slope / closed)) / gain;
     const Complex damper_slope =
         phi.value * local.c_damper.slope + t_slope * phi.slope * local.c_damper.value;
     Sample result{};
     result.at = local.at;
     result.slip = slip;
+    result.gain = gain;
     result.log_ratio = t;
     result.log_ratio_slope = t_slope;
     result.log_R = t + local.log_threshold;

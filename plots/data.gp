@@ -1,0 +1,38 @@
+# What there is to draw. Every row is read once to see how much there is, and once for each quantity, by read.gp, into
+# arrays from which the panels are drawn: the time grows with the rows, not with the rows times the branches.
+
+set datafile separator comma
+set datafile columnheaders
+
+# Of the row that is being read:
+branch(row) = int(column("branch")) + 1
+kind(row) = kind_of(strcol("type"))
+slips(row) = strcol("regime") eq "slip"
+ends_slip(row) = strcol("type") eq "switch"  # the last point of a stretch of slip, though it enters stick
+
+# How many rows there are, which of them are a branch, the regimes, the kinds of special points, the range of x.
+array first[branches]
+array last[branches]
+array found[kinds]
+do for [b = 1:branches] { first[b] = 1; last[b] = 0 }
+do for [k = 1:kinds] { found[k] = 0 }
+stick_found = 0
+slip_found = 0
+note_branch(b) = b > branches ? 0 : (last[b] == 0 ? first[b] = rows : 0, last[b] = rows)
+note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
+note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
+rows = 0
+stats csv using (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), column(parameter)) \
+  nooutput
+x_low = STATS_min < STATS_max ? STATS_min : STATS_min - 0.01 * abs(STATS_min)
+x_high = STATS_min < STATS_max ? STATS_max : STATS_max + 0.01 * abs(STATS_max)
+x_title = parameter eq "eta" ? "frequency  {/:Italic η} = {/:Italic ω}/{/:Italic Ω}_D" : "preload  {/:Italic P}"
+
+# A point for each row; and which of them are special, with their kinds.
+array xs[rows]
+array ys[rows]
+array slip_ys[rows]  # undefined where there is no slip
+specials = int(sum [k = 1:kinds] found[k])
+array special_points[specials + 1]
+array special_kinds[specials + 1]
+array special_branches[specials + 1]
