@@ -184,6 +184,7 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
+  const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
     const Monitor& b = at_s[i];
@@ -191,7 +192,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const bool tracked = i < tracked_.size();
     const double size = tracked ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
     if (std::abs(change - 0.5 * s * (a.slope + b.slope)) > 0.1 * size) return false;
-    if (hides_extrema(a.slope * s, b.slope * s, change, 1e-9 * size)) return false;
+    if (hides_extrema(a.slope * s, b.slope * s, change, shallow * size)) return false;
   }
   return true;
 }

@@ -13,7 +13,7 @@ plot keyentry, \
     with lines linewidth thin linecolor rgb colour(b), \
   for [b = 1:branches] [i = first[b]:last[b] + 0.5:1] '+' using (xs[round(i)]):(slip_ys[round(i)]) \
     with lines linewidth thick linecolor rgb colour(b), \
-  for [n = 1:2 * kinds] [s = 1:specials + 0.5:1] '+' using (xs[special_points[round(s)]]): \
+  for [n = 1:2 * kinds] [s = 1:specials + 1.5:1] '+' using (xs[special_points[round(s)]]): \
     (special_y(round(s), nth_kind(n))):(is_backing(n) ? 0xFFFFFF : special_colour(round(s))) \
     with points pointtype (is_backing(n) ? backing[nth_kind(n)] : symbol[nth_kind(n)]) \
     pointsize symbol_size(nth_kind(n)) * (is_backing(n) ? 1.35 : 1) linewidth frame linecolor rgb variable

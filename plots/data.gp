@@ -14,16 +14,17 @@ ends_slip(row) = strcol("type") eq "switch"  # the last point of a stretch of sl
 array first[branches]
 array last[branches]
 array found[kinds]
-do for [b = 1:branches] { first[b] = 1; last[b] = 0 }
+do for [b = 1:branches] { first[b] = 0; last[b] = 0 }
 do for [k = 1:kinds] { found[k] = 0 }
 stick_found = 0
 slip_found = 0
-note_branch(b) = b > branches ? 0 : (last[b] == 0 ? first[b] = rows : 0, last[b] = rows)
+note_branch(b) = b > branches ? 0 : (first[b] == 0 ? first[b] = rows : 0, last[b] = rows)
 note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
 note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
 rows = 0
 stats csv using (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), column(parameter)) \
   nooutput
+do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # a single point draws no line
 x_low = STATS_min < STATS_max ? STATS_min : STATS_min - 0.01 * abs(STATS_min)
 x_high = STATS_min < STATS_max ? STATS_max : STATS_max + 0.01 * abs(STATS_max)
 x_title = parameter eq "eta" ? "frequency  {/:Italic η} = {/:Italic ω}/{/:Italic Ω}_D" : "preload  {/:Italic P}"
@@ -33,6 +34,7 @@ array xs[rows]
 array ys[rows]
 array slip_ys[rows]  # undefined where there is no slip
 specials = int(sum [k = 1:kinds] found[k])
-array special_points[specials + 1]
+array special_points[specials + 1]  # one more, of no kind, since an array may not be empty
 array special_kinds[specials + 1]
 array special_branches[specials + 1]
+do for [s = 1:specials + 1] { special_points[s] = 1; special_kinds[s] = 0; special_branches[s] = 1 }

@@ -5,11 +5,14 @@ y_inside(i) = xs[i] >= from && xs[i] <= to ? ys[i] : NaN
 set xrange [*:*]  # since stats keeps to the ranges that are set
 set yrange [*:*]
 unset logscale
-STATS_min = 1
-STATS_max = 1
 stats xs using (y_inside(int($1))) nooutput
-y_low = STATS_min < STATS_max ? STATS_min : STATS_min - 0.1 * abs(STATS_min)
-y_high = STATS_min < STATS_max ? STATS_max : STATS_max + 0.1 * abs(STATS_max)
+if (exists("STATS_min")) {
+  y_low = STATS_min < STATS_max ? STATS_min : 0.9 * STATS_min
+  y_high = STATS_min < STATS_max ? STATS_max : 1.1 * STATS_max
+} else {
+  y_low = 0.1
+  y_high = 1
+}
 
 is_labelled = 1
 axis = "x"; low = from; high = to; count = (r - l) / 0.65

@@ -41,11 +41,9 @@ do for [n = 1:3] {
   set xrange [*:*]  # since stats keeps to the ranges that are set
   set yrange [*:*]
   unset logscale
-  STATS_min = 0
-  STATS_max = 1
   stats ys using (ys[int($1)]) nooutput
-  y_low = STATS_min
-  y_high = STATS_max > y_low ? STATS_max : y_low + 1
+  y_low = exists("STATS_min") ? STATS_min : 0
+  y_high = exists("STATS_max") && STATS_max > y_low ? STATS_max : y_low + 1
   do for [c = 1:1 + windows] {
     l = column_left[c]; r = column_right(c); t = top - (n - 1) * row; b = t - row
     eval place_panel(l, r, b, t)

@@ -47,6 +47,7 @@ class Corrector {
 
   Index size() const { return size_; }
   Index parameter() const { return parameter_; }
+  double tolerance() const { return options_.tolerance; }
 
   /// An unset point of the right sizes.
   CurvePoint make_point() const;
