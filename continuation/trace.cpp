@@ -136,7 +136,7 @@ bool Tracer::start(const Guess& guess) {
     return stop(Stop::no_start, fmt::format("no solution was found from the guess at {} = {:.10g}",
                                             options_.parameter, options_.from));
   }
-  for (std::size_t b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size();
+  for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size();
        ++b) {
     if (stepper_.at_here()[b].value > 0) {
       return stop(Stop::no_start,

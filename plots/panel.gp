@@ -1,4 +1,4 @@
-# A panel from `from` to `to` of the parameter, its edges at `l`, `r`, `b` and `t` cm, with the values that are there.
+# A panel from `from` to `to` of the parameter, its edges at `l`, `r`, `b` and `t` cm, as high as the values there are.
 
 eval place_panel(l, r, b, t)
 y_inside(i) = xs[i] >= from && xs[i] <= to ? ys[i] : NaN
@@ -12,15 +12,21 @@ if (exists("STATS_min")) {
 } else {
   y_low = 0.1
   y_high = 1
+  set label "nothing to show" at graph 0.5, graph 0.5 center
 }
 
 is_labelled = 1
-axis = "x"; low = from; high = to; count = (r - l) / 0.65
+axis = "x"; low = from; high = to; length = r - l
 load style."/axis.gp"
-axis = "y"; low = value_at(y_low, y_high, -0.05); high = value_at(y_low, y_high, 1.07); count = (t - b) / 0.65
+axis = "y"; low = value_at(y_low, y_high, -0.05); high = value_at(y_low, y_high, 1.07); length = t - b
 load style."/axis.gp"
+if (common_power) {
+  set label sprintf("×10^{%s%d}", common_power < 0 ? "−" : "", abs(common_power)) at screen across(l), up(t + 0.2)
+}
 if (exists("reference") && low < reference && reference < high) {
   set arrow from graph 0, first reference to graph 1, first reference nohead back linewidth frame dashtype (10, 8)
-  if (from == x_low) { set label reference_title at graph 0.02, first reference offset 0, 0.5 }
+  if (from == x_low) {
+    set label reference_title at graph 0.02, first reference offset 0, place_of(low, high, reference) < 0.85 ? 0.5 : -0.5
+  }
 }
 load style."/curves.gp"

@@ -42,17 +42,17 @@ do for [n = 1:3] {
   set yrange [*:*]
   unset logscale
   stats ys using (ys[int($1)]) nooutput
-  y_low = exists("STATS_min") ? STATS_min : 0
-  y_high = exists("STATS_max") && STATS_max > y_low ? STATS_max : y_low + 1
+  y_low = exists("STATS_min") ? floor(2 * STATS_min + 0.1) / 2.0 : 0  # at a label, but for rounding errors
+  y_high = exists("STATS_max") ? ceil(2 * STATS_max - 0.1) / 2.0 : 1
+  y_high = y_high > y_low ? y_high : y_low + 0.5
   do for [c = 1:1 + windows] {
     l = column_left[c]; r = column_right(c); t = top - (n - 1) * row; b = t - row
     eval place_panel(l, r, b, t)
-    axis = "x"; low = column_from(c); high = column_to(c); count = (r - l) / 0.65; is_labelled = n == 3
+    axis = "x"; low = column_from(c); high = column_to(c); length = r - l; is_labelled = n == 3
     load style."/axis.gp"
     set yrange [y_low - 0.09 * (y_high - y_low):y_high + 0.09 * (y_high - y_low)]
-    set ytics format "" 0.25
     set ytics ("" 0)
-    do for [k = floor(2 * y_low):ceil(2 * y_high)] {
+    do for [k = round(2 * y_low):round(2 * y_high)] {
       set ytics add ((c == 1 && (y_high - y_low < 3 || k % 2 == 0) ? angle(k) : "") 0.5 * k)
     }
     if (c == 1) { set label titles[n] at screen across(0.65), up(0.5 * (b + t)) center rotate }

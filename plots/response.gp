@@ -7,7 +7,7 @@ load style."/windows.gp"
 bottom = 0.95
 below = windows ? bottom + 3.1 + 1.0 : bottom  # lower edge of the upper panel
 top = below + (windows ? 4.2 : 5.4)
-body = top + (windows ? 0.4 : 0.1)
+body = top + 0.4  # for the letters of the panels, or a power of ten
 load style."/key.gp"
 
 set label y_title."  ".y_symbol at screen across(0.25), up(0.5 * (below + top)) center rotate

@@ -24,7 +24,7 @@ thick = 1.4
 is_svg = format eq "svg"
 dot = is_svg ? 96 / 72.0 : 300 / 72.0  # for each point: CSS pixels, or 300 dots per inch
 type_scale = is_svg ? dot : dot * 72 / 96  # pngcairo takes a point of type for 96/72 dots
-round(v) = int(v + 0.5)
+round(v) = int(floor(v + 0.5))
 pixels(cm) = round(cm / 2.54 * 72 * dot)
 across(cm) = 1.0 * cm / width
 up(cm) = 1.0 * cm / height
@@ -52,7 +52,7 @@ shade = 0xEAEAEA
 
 kinds = 6
 array kind_type[kinds] = ["switch", "user", "branch_point", "fold", "peak", "trough"]
-array kind_title[kinds] = ["{/:Italic R} = {/:Italic S}", "asked for", "branch point", "fold", "peak", "trough"]
+array kind_title[kinds] = ["{/:Italic R} = {/:Italic S}", "requested", "branch point", "fold", "peak", "trough"]
 array symbol[kinds] = [6, 2, 13, 5, 9, 11]
 array backing[kinds] = [7, 7, 13, 5, 9, 11]
 symbol_size(k) = is_svg ? 0.5 : symbol[k] == 9 || symbol[k] == 11 ? 1.5 : 1.25

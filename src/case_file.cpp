@@ -35,7 +35,7 @@ ForEach read_for_each(const TomlDocument& document, const TomlSection& branch) {
   if (!branch.has("for_each")) return result;
   const TomlSection section(document, "branch.for_each");
   std::vector<std::string> allowed = system_keys;
-  allowed.push_back("eta");
+  allowed.emplace_back("eta");
   section.allow_only(allowed);
   for (const auto& [key, node] : *section.table()) {
     const std::string name(key.str());

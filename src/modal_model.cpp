@@ -24,7 +24,7 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, dou
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness,
                                                                               structure.mass);
-  const PreciseReal two_pi = boost::math::constants::two_pi<PreciseReal>();
+  const PreciseReal& two_pi = boost::math::constants::two_pi<PreciseReal>();
   for (Index k = 0; k < structure.load.size(); ++k) {
     const PreciseComplexVector shape = solver.eigenvectors().col(k);
     const PreciseComplex at_contact = shape(contact_dof) / two_pi;

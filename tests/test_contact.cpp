@@ -17,7 +17,7 @@ struct PreciseCoefficient {
 
 /// The formulas of the header in fifty digits, in terms of 1 - x = -expm1(-ln(R/S)).
 PreciseCoefficient precise_coefficient(double log_ratio) {
-  const PreciseReal pi = boost::math::constants::pi<PreciseReal>();
+  const PreciseReal& pi = boost::math::constants::pi<PreciseReal>();
   const PreciseReal x = exp(PreciseReal(-log_ratio));
   const PreciseReal theta = 2 * asin(sqrt(x));
   return {(theta - sin(2 * theta) / 2) / pi, 4 / pi * x * (1 - x), -8 / pi * x * sqrt(x * (1 - x)),

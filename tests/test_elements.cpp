@@ -58,7 +58,7 @@ TEST_CASE("Rods of any N reduce to the scalars (22)-(24) of the paper") {
   const double mass = 5 / (6 * count) * (2 + 4 * std::cos(half) * std::cos(half));
   CHECK_THAT(real(pair.base.mass(0, 0)), WithinRel(mass, 1e-15));
   CHECK_THAT(real(pair.base.stiffness(0, 0)), WithinRel(4 * stiffness_ratio * count * sine * sine, 1e-15));
-  const double nn = static_cast<double>(n * n);
+  const auto nn = static_cast<double>(n * n);
   CHECK_THAT(real(pair.base.load(0)),
              WithinRel(2 * stiffness_ratio * count / (pi_squared() * nn) * sine * sine, 1e-15));
   CHECK_THAT(imag(pair.base.load(0)), WithinAbs(0, 1e-15 * real(pair.base.load(0))));

@@ -203,6 +203,19 @@ TEST_CASE("Force and preload scaled together scale the response") {
   }
 }
 
+TEST_CASE("The work of a branch does not depend on N, from 4 to a million elements") {
+  const bool beams = GENERATE(false, true);
+  std::vector<double> evaluations;
+  for (const Index elements : {4, 30, 1000, 1000000}) {
+    SystemParameters parameters = beams ? figure_8(1) : rods(1);
+    parameters.elements = elements;
+    const continuation::Branch branch = trace_over_eta(ForcedResponse(build_system(parameters)), 1, 0.5, 20);
+    REQUIRE(branch.complete());
+    evaluations.push_back(static_cast<double>(branch.work.evaluations));
+  }
+  for (const double count : evaluations) CHECK_THAT(count, WithinRel(evaluations.back(), 0.2));
+}
+
 TEST_CASE("Parameters that are not positive cannot be evaluated") {
   const ForcedResponse problem(build_system(figure_8(1)));
   Vector residual(1);

@@ -19,7 +19,7 @@ class PrintedRods {
   PrintedRods(const SystemParameters& q, double eta)
       : force_(q.force * q.stiffness_ratio() / q.interface_stiffness) {
     const double pi = std::numbers::pi;
-    const double n = static_cast<double>(q.wave_number);
+    const auto n = static_cast<double>(q.wave_number);
     D1_ = 4 * pi * pi / q.interface_stiffness * (q.stiffness_ratio() * n * n - q.mass_ratio * eta * eta);
     D2_ = 8 * pi * pi / (q.interface_stiffness * q.frequency_ratio) * q.stiffness_ratio() * q.base_damping *
           eta * n * n;
