@@ -184,14 +184,19 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
+  if (s * slope_from_.norm() < 1e-7 * max_step_)
+    return true;                                        // what is still unlike a curve here is rounding
   const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
     const Monitor& b = at_s[i];
     const double change = b.value - a.value;
-    const bool tracked = i < tracked_.size();
-    const double size = tracked ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
-    if (std::abs(change - 0.5 * s * (a.slope + b.slope)) > 0.1 * size) return false;
+    const double size = i < tracked_.size() ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
+    // The mean of the end slopes is to give the change, or else the function bends more often than these can
+    // tell.
+    const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
+    const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
+    if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
     if (hides_extrema(a.slope * s, b.slope * s, change, shallow * size)) return false;
   }
   return true;

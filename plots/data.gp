@@ -22,12 +22,14 @@ note_branch(b) = b > branches ? 0 : (first[b] == 0 ? first[b] = rows : 0, last[b
 note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
 note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
 rows = 0
-stats csv using (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), column(parameter)) \
-  nooutput
+note(row) = (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)))
+stats csv using (note(0), column(parameter)) nooutput
 do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # a single point draws no line
-x_low = STATS_min < STATS_max ? STATS_min : STATS_min - 0.01 * abs(STATS_min)
-x_high = STATS_min < STATS_max ? STATS_max : STATS_max + 0.01 * abs(STATS_max)
-x_title = parameter eq "eta" ? "frequency  {/:Italic η} = {/:Italic ω}/{/:Italic Ω}_D" : "preload  {/:Italic P}"
+x_low = STATS_min < STATS_max ? STATS_min : 0.99 * STATS_min
+x_high = STATS_min < STATS_max ? STATS_max : 1.01 * STATS_max
+x_title = parameter eq "eta" ? \
+  "frequency".blank.blank."{/:Italic η}".blank."=".blank."{/:Italic ω}/{/:Italic Ω}_D" : \
+  "preload".blank.blank."{/:Italic P}"
 
 # A point for each row; and which of them are special, with their kinds.
 array xs[rows]

@@ -5,7 +5,7 @@ load style."/style.gp"
 load style."/data.gp"
 quantity(row) = column("R_over_S") > 1 + 1e-5 ? column("dissipated") * column("S") ** 2 : NaN
 y_title = "dissipated"
-y_symbol = "4{/:Italic S} ({/:Italic R} − {/:Italic S})"
+y_symbol = "4{/:Italic S}".blank."({/:Italic R}".blank."−".blank."{/:Italic S})"
 stick_found = 0  # nothing is lost in stick, nor at its ends
 found[kind_of("switch")] = 0
 load style."/response.gp"

@@ -10,8 +10,8 @@ text_width(text) = (strlen(text) - 11 * italics(text)) * 0.45 * type_size / 72 *
 
 # ---- The branches, in columns ----
 
-most_named = 12  # of more branches a few are named, evenly chosen: the colours tell the order of the others
-named = strlen(word(labels, 1)) == 0 ? 0 : branches <= most_named ? branches : 6
+# Of many branches six are named, evenly chosen: the colours tell the order of the others.
+named = strlen(word(labels, 1)) == 0 ? 0 : are_many ? 6 : branches
 named_branch(i) = named < branches ? int(1 + (i - 1.0) * (branches - 1) / (named - 1) + 0.5) : i
 
 column_width = 0
@@ -53,8 +53,8 @@ do for [i = 1:ways] {
 height = body + (branch_lines + way_lines) * line_height + 0.1
 height_of_line(n) = height - 0.05 - (n - 0.5) * line_height
 
-# Where a line of this width starts: centred over the panels, or in the picture if it is wider than they are.
-start(full) = full - gap <= right_edge - left_edge ? 0.5 * (left_edge + right_edge - full + gap) : 0.5 * (width - full + gap)
+# Where a line starts that is `full` wide, with a gap at its end: centred over the panels, or else in the picture.
+start(full) = 0.5 * (gap - full + (full - gap <= right_edge - left_edge ? left_edge + right_edge : width))
 
 do for [i = 1:named] {
   x0 = start(columns * column_width) + (i - 1) % columns * column_width
@@ -79,6 +79,6 @@ do for [i = 1:ways] {
 }
 
 eval sprintf("set terminal %s size %d,%d background '#ffffff' font 'Arial,%g' fontscale %g linewidth %g rounded", \
-             is_svg ? "svg" : "pngcairo", pixels(width), pixels(height), type_size, type_scale, dot)
+             is_svg ? "svg name 'arcslip'" : "pngcairo", pixels(width), pixels(height), type_size, type_scale, dot)
 set output picture
 set multiplot

@@ -26,7 +26,8 @@ if (common_power) {
 if (exists("reference") && low < reference && reference < high) {
   set arrow from graph 0, first reference to graph 1, first reference nohead back linewidth frame dashtype (10, 8)
   if (from == x_low) {
-    set label reference_title at graph 0.02, first reference offset 0, place_of(low, high, reference) < 0.85 ? 0.5 : -0.5
+    side = place_of(low, high, reference) < 0.85 ? 0.5 : -0.5  # above the line, if there is room
+    set label reference_title at graph 0.02, first reference offset 0, side
   }
 }
 load style."/curves.gp"

@@ -5,12 +5,14 @@ style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; label
 load style."/style.gp"
 load style."/data.gp"
 
+last_phase = 0
 nearest_turn(phase) = 2 * pi * floor(phase / (2 * pi) + 0.5)
 followed(phase, starts) = phase == phase ? \
   (last_phase = starts ? (phase < -pi / 2 ? phase + 2 * pi : phase) : phase - nearest_turn(phase - last_phase)) : NaN
 quantity(row) = followed(column(name), column("point") == 0) / pi
 array names[3] = ["beta", "alpha", "psi"]
-array titles[3] = ["base  {/:Italic β}", "damper  {/:Italic α}", "relative  {/:Italic ψ}"]
+array titles[3] = ["base", "damper", "relative"]
+array symbols[3] = ["β", "α", "ψ"]
 
 name = names[1]
 load style."/read.gp"
@@ -29,8 +31,8 @@ column_right(c) = c <= windows ? column_left[c + 1] - (c == 1 ? 0.3 : 0.15) : ri
 column_from(c) = c == 1 ? x_low : window_low[c - 1]
 column_to(c) = c == 1 ? x_high : window_high[c - 1]
 
-# Labels at multiples of pi / 2, of which k is the number; where there are many, of pi.
-multiple(k, unit) = k == 0 ? "0" : sprintf("%s%s%s", k < 0 ? "−" : "", abs(k) == 1 ? "" : sprintf("%d", abs(k)), unit)
+# Labels at multiples of pi / 2, k being their number; where those are many, of a multiple of pi.
+multiple(k, unit) = k == 0 ? "0" : (k < 0 ? "−" : "").(abs(k) == 1 ? "" : sprintf("%d", abs(k))).unit
 angle(k) = k % 2 ? multiple(k, "π/2") : multiple(k / 2, "π")
 
 set label "phase behind the excitation" at screen across(0.22), up(0.5 * (bottom + top)) center rotate
@@ -45,6 +47,7 @@ do for [n = 1:3] {
   y_low = exists("STATS_min") ? floor(2 * STATS_min + 0.1) / 2.0 : 0  # at a label, but for rounding errors
   y_high = exists("STATS_max") ? ceil(2 * STATS_max - 0.1) / 2.0 : 1
   y_high = y_high > y_low ? y_high : y_low + 0.5
+  every = y_high - y_low < 3 ? 1 : 2 * ceil((y_high - y_low) / 6)
   do for [c = 1:1 + windows] {
     l = column_left[c]; r = column_right(c); t = top - (n - 1) * row; b = t - row
     eval place_panel(l, r, b, t)
@@ -53,10 +56,15 @@ do for [n = 1:3] {
     set yrange [y_low - 0.09 * (y_high - y_low):y_high + 0.09 * (y_high - y_low)]
     set ytics ("" 0)
     do for [k = round(2 * y_low):round(2 * y_high)] {
-      set ytics add ((c == 1 && (y_high - y_low < 3 || k % 2 == 0) ? angle(k) : "") 0.5 * k)
+      set ytics add ((c == 1 && k % every == 0 ? angle(k) : "") 0.5 * k)
     }
-    if (c == 1) { set label titles[n] at screen across(0.65), up(0.5 * (b + t)) center rotate }
-    if (n == 1 && windows) { set label letter(c - 1) at screen across(c == 1 ? l + 0.1: 0.5 * (l + r)), up(t + 0.2) center }
+    if (c == 1) {
+      y_title = titles[n].blank.blank."{/:Italic ".symbols[n]."}"
+      set label y_title at screen across(0.65), up(0.5 * (b + t)) center rotate
+    }
+    if (n == 1 && windows) {
+      set label letter(c - 1) at screen across(c == 1 ? l + 0.1 : 0.5 * (l + r)), up(t + 0.2) center
+    }
     is_marked(x0) = c > 1 || !in_window(x0)
     do for [w = 1:(c == 1 ? windows : 0)] { eval shade_window(w) }
     load style."/curves.gp"

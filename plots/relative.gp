@@ -7,5 +7,5 @@ quantity(row) = column("R_over_S")
 y_title = "relative amplitude"
 y_symbol = "{/:Italic R}/{/:Italic S}"
 reference = 1
-reference_title = "{/:Italic R} = {/:Italic S}"
+reference_title = r_equals_s
 load style."/response.gp"

@@ -1,5 +1,6 @@
-# quantity(0) over the parameter: the whole range in one panel and, below it, the ranges where peaks crowd. The axes are
-# called `y_title` and, for short, `y_symbol`; a line is drawn at `reference`, if that is given, and called so.
+# quantity(0) over the parameter: the whole range in one panel and, below it, the ranges where peaks crowd. The
+# vertical axis is called `y_title` and `y_symbol`. At `reference`, if there is one, a line is drawn, and called
+# `reference_title`.
 
 load style."/read.gp"
 load style."/windows.gp"
@@ -10,7 +11,7 @@ top = below + (windows ? 4.2 : 5.4)
 body = top + 0.4  # for the letters of the panels, or a power of ten
 load style."/key.gp"
 
-set label y_title."  ".y_symbol at screen across(0.25), up(0.5 * (below + top)) center rotate
+set label y_title.blank.blank.y_symbol at screen across(0.25), up(0.5 * (below + top)) center rotate
 set label x_title at screen across(0.5 * (left_edge + right_edge)), up(0.22) center
 if (windows) { set label letter(0) at screen across(0.25), up(top + 0.2) center }
 do for [n = 1:windows] { eval shade_window(n); eval letter_window(n, top) }

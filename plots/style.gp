@@ -1,4 +1,4 @@
-# How the pictures look: sizes, colours, symbols. A script names its arguments before it loads the files of this folder:
+# How the pictures look: sizes, colours, symbols. A script names its arguments before it loads other files:
 #
 #   style      this folder
 #   csv        branches.csv of `arcslip run`
@@ -9,6 +9,7 @@
 
 set encoding utf8
 set minussign
+blank = "\302\240"  # unbreakable, since readers of SVG drop others beside markup
 
 # ---- Sizes: lengths in cm from the lower left corner, type and lines in typographic points, whatever the format ----
 
@@ -17,9 +18,11 @@ left_edge = 1.4
 right_edge = width - 0.32
 line_height = 0.38
 type_size = 8.5
+branches = words(labels)
+are_many = branches > 12  # branches that are many are drawn more finely, and only a few of them are named
 frame = 0.5
-thin = 0.55
-thick = 1.4
+thin = are_many ? 0.4 : 0.55
+thick = are_many ? 0.9 : 1.4
 
 is_svg = format eq "svg"
 dot = is_svg ? 96 / 72.0 : 300 / 72.0  # for each point: CSS pixels, or 300 dots per inch
@@ -43,7 +46,6 @@ channel(rgb, shift) = (rgb >> shift) & 255
 mix(a, b, t, shift) = int(channel(a, shift) + t * (channel(b, shift) - channel(a, shift)) + 0.5) << shift
 blend(a, b, t) = mix(a, b, t, 16) | mix(a, b, t, 8) | mix(a, b, t, 0)
 on_scale(s) = blend(scale[int(s) + 1], scale[int(s) + 2], s - int(s))
-branches = words(labels)
 colour(b) = branches <= |few| ? few[b] : on_scale((b - 1.0) / (branches - 1) * (|scale| - 1 - 1e-9))
 grey = 0x606060
 shade = 0xEAEAEA
@@ -52,10 +54,11 @@ shade = 0xEAEAEA
 
 kinds = 6
 array kind_type[kinds] = ["switch", "user", "branch_point", "fold", "peak", "trough"]
-array kind_title[kinds] = ["{/:Italic R} = {/:Italic S}", "requested", "branch point", "fold", "peak", "trough"]
+r_equals_s = "{/:Italic R}".blank."=".blank."{/:Italic S}"
+array kind_title[kinds] = [r_equals_s, "requested", "branch point", "fold", "peak", "trough"]
 array symbol[kinds] = [6, 2, 13, 5, 9, 11]
 array backing[kinds] = [7, 7, 13, 5, 9, 11]
-symbol_size(k) = is_svg ? 0.5 : symbol[k] == 9 || symbol[k] == 11 ? 1.5 : 1.25
+symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : symbol[k] == 9 || symbol[k] == 11 ? 1.5 : 1.25)
 kind_of(type) = type eq "regular" ? 0 : sum [k = 1:kinds] (kind_type[k] eq type ? k : 0)
 
 # ---- Ranges ----
@@ -66,7 +69,6 @@ is_wide(low, high) = low > 0 && high > 4 * low  # worth a logarithmic axis
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
 value_at(low, high, s) = is_wide(low, high) ? low * (1.0 * high / low) ** s : low + s * (high - low)
 
-# ---- Commands, for `eval` ----
-
-place_panel(left, right, bottom, top) = \
-  sprintf("set margins at screen %g, screen %g, screen %g, screen %g", across(left), across(right), up(bottom), up(top))
+# To be used as `eval place_panel(...)`.
+place_panel(left, right, bottom, top) = sprintf("set margins at screen %g, screen %g, screen %g, screen %g", \
+                                                across(left), across(right), up(bottom), up(top))

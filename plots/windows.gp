@@ -47,6 +47,10 @@ if (windows == 2 && window_low[1] > window_low[2]) {
   low = window_low[1]; window_low[1] = window_low[2]; window_low[2] = low
   high = window_high[1]; window_high[1] = window_high[2]; window_high[2] = high
 }
+if (windows == 2 && window_high[1] > window_low[2]) {
+  window_low[2] = 0.5 * (window_high[1] + window_low[2])
+  window_high[1] = window_low[2]
+}
 in_window(v) = sum [n = 1:windows] (v >= window_low[n] && v <= window_high[n])
 
 # How a panel of the whole range shows the windows: by shaded bands with the letters of their own panels over them.

@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::array pictures = {"amplitude", "relative", "phases",
-                                 "dissipated"};  // a script for each in plots/
+/// Each has a script in plots/ of its name.
+constexpr std::array pictures = {"amplitude", "relative", "phases", "dissipated"};
 constexpr std::array formats = {"png", "svg"};
 
 /// What the scripts are told of a run.
@@ -141,8 +141,7 @@ struct GnuplotNotFound {};
 /// gnuplot as it writes one picture: under a temporary name beside the final one until it is done.
 class Drawing {
  public:
-  /// Starts gnuplot. Throws GnuplotNotFound, OutputError.
-  Drawing(fs::path script, const Run& run, fs::path picture, const std::string& format);
+  explicit Drawing(fs::path picture);
   /// Stops gnuplot, and removes what it has written, unless the picture is finished.
   ~Drawing();
   Drawing(const Drawing&) = delete;
@@ -150,13 +149,16 @@ class Drawing {
   Drawing(Drawing&&) = delete;
   Drawing& operator=(Drawing&&) = delete;
 
+  /// Starts gnuplot. Throws GnuplotNotFound, OutputError.
+  void start(const fs::path& script, const Run& run);
+
   /// Waits for gnuplot and gives the picture its name. Throws OutputError.
   void finish();
 
   const fs::path& picture() const { return picture_; }
 
  private:
-  void start(std::vector<std::string> arguments);
+  std::string format() const { return picture_.extension().string().substr(1); }
   std::string read_complaints();
   [[noreturn]] void fail(const std::string& reason) const;
 
@@ -166,13 +168,8 @@ class Drawing {
   int complaints_ = -1;  ///< what gnuplot writes to its stderr
 };
 
-Drawing::Drawing(fs::path script, const Run& run, fs::path picture, const std::string& format)
-    : picture_(std::move(picture)), temporary_(fmt::format("{}.{}.tmp", picture_.string(), getpid())) {
-  // Absolute paths: gnuplot would take one that begins with "<" or "|" for a command, with "-" for an option.
-  start({"gnuplot", "-d", "-c", script.string(), script.parent_path().string(),
-         fs::absolute(run.table).string(), fs::absolute(temporary_).string(), format, run.parameter,
-         run.labels});
-}
+Drawing::Drawing(fs::path picture)
+    : picture_(std::move(picture)), temporary_(fmt::format("{}.{}.tmp", picture_.string(), getpid())) {}
 
 Drawing::~Drawing() {
   if (process_ > 0) {
@@ -184,7 +181,18 @@ Drawing::~Drawing() {
   fs::remove(temporary_, ignored);
 }
 
-void Drawing::start(std::vector<std::string> arguments) {
+void Drawing::start(const fs::path& script, const Run& run) {
+  // Absolute paths: gnuplot would take one that begins with "<" or "|" for a command, with "-" for an option.
+  std::array<std::string, 10> arguments = {"gnuplot",
+                                           "-d",  // without the user's own settings
+                                           "-c",
+                                           script.string(),
+                                           script.parent_path().string(),
+                                           fs::absolute(run.table).string(),
+                                           fs::absolute(temporary_).string(),
+                                           format(),
+                                           run.parameter,
+                                           run.labels};
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -247,7 +255,7 @@ void Drawing::finish() {
   process_ = -1;
   if (WIFSIGNALED(state)) fail(fmt::format("gnuplot was ended by signal {}", WTERMSIG(state)));
   if (WEXITSTATUS(state) != 0) fail(fmt::format("gnuplot failed: {}", last_line(text)));
-  if (!is_whole(temporary_, picture_.extension().string().substr(1))) fail("gnuplot wrote only a part of it");
+  if (!is_whole(temporary_, format())) fail("gnuplot wrote only a part of it");
   if (std::rename(temporary_.c_str(), picture_.c_str()) != 0) fail(std::generic_category().message(errno));
 }
 
@@ -259,10 +267,10 @@ void Drawing::fail(const std::string& reason) const {
 void draw(const fs::path& folder, const Run& run) {
   const fs::path scripts = scripts_folder();
   std::vector<std::unique_ptr<Drawing>> drawings;
-  for (const std::string picture : pictures) {
-    for (const std::string format : formats) {
-      drawings.push_back(std::make_unique<Drawing>(scripts / (picture + ".gp"), run,
-                                                   folder / (picture + "." + format), format));
+  for (const char* picture : pictures) {
+    for (const char* format : formats) {
+      drawings.push_back(std::make_unique<Drawing>(folder / fmt::format("{}.{}", picture, format)));
+      drawings.back()->start(scripts / fmt::format("{}.gp", picture), run);
     }
   }
   for (const auto& drawing : drawings) {

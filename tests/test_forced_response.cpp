@@ -206,7 +206,7 @@ TEST_CASE("Force and preload scaled together scale the response") {
 TEST_CASE("The work of a branch does not depend on N, from 4 to a million elements") {
   const bool beams = GENERATE(false, true);
   std::vector<double> evaluations;
-  for (const Index elements : {4, 30, 1000, 1000000}) {
+  for (const Index elements : {beams ? 10 : 4, 30, 1000, 1000000}) {  // a coarser beam has a mode in range
     SystemParameters parameters = beams ? figure_8(1) : rods(1);
     parameters.elements = elements;
     const continuation::Branch branch = trace_over_eta(ForcedResponse(build_system(parameters)), 1, 0.5, 20);
