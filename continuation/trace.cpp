@@ -55,17 +55,15 @@ void check(const TraceOptions& options) {
 }
 
 std::vector<Index> tracked_observables(const Problem& problem, const TraceOptions& options) {
+  const std::vector<Observable> observables = problem.observables();
   std::vector<std::string> names;
-  for (const Observable& observable : problem.observables()) {
-    if (observable.has_gradient) names.push_back(observable.name);
-  }
+  for (const Observable& observable : observables) names.push_back(observable.name);
   std::vector<Index> tracked;
   for (const std::string& name : options.extrema_of) {
-    index_of(names, name);  // throws where it has no gradient
-    const std::vector<Observable> all = problem.observables();
-    tracked.push_back(
-        std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; }) -
-        all.begin());
+    tracked.push_back(index_of(names, name));
+    if (!observables[static_cast<std::size_t>(tracked.back())].has_gradient) {
+      throw std::invalid_argument(fmt::format("extrema_of: '{}' has no gradient", name));
+    }
   }
   return tracked;
 }
@@ -104,10 +102,9 @@ class Tracer {
   bool cross(Index border);
   bool corner_events(const Signs& before);
   const Target* target_ahead(double reach) const;
-  bool overshoots() const;
+  bool passes_target(const CurvePoint& point) const;
   double length() const { return distance_ * stepper_.slope_length(hold_); }
   void use(Hold hold);
-  void shrink(double factor);
   bool store(PointType type);
   bool stop(Stop reason, std::string explanation);
   std::string place() const;
@@ -136,9 +133,8 @@ bool Tracer::start(const Guess& guess) {
     return stop(Stop::no_start, fmt::format("no solution was found from the guess at {} = {:.10g}",
                                             options_.parameter, options_.from));
   }
-  for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size();
-       ++b) {
-    if (stepper_.at_here()[b].value > 0) {
+  for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
+    if (stepper_.at_here()[b].value > 1e-12) {
       return stop(Stop::no_start,
                   fmt::format("the start lies outside the regime '{}' that was given for it",
                               problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
@@ -156,7 +152,7 @@ bool Tracer::step() {
   while (!try_step()) {
     ++corrector_.work().rejected_steps;
     if (length() < options_.min_step) {
-      return stop(Stop::min_step, fmt::format("no step of at least min_step = {:g} converges from {}",
+      return stop(Stop::min_step, fmt::format("no step of at least min_step = {:g} is acceptable from {}",
                                               options_.min_step, place()));
     }
   }
@@ -169,8 +165,7 @@ bool Tracer::try_step() {
   if (landing_ != nullptr) {
     if (stepper_.attempt_landing(landing_->value) && find_event()) return true;
     use(Hold::parameter);
-    distance_ = stepper_.distance();
-    shrink(0.5);
+    distance_ = 0.5 * stepper_.distance();
     return false;
   }
   if (!stepper_.attempt(hold_, distance_)) {
@@ -179,19 +174,21 @@ bool Tracer::try_step() {
     use(hold_ == Hold::tangent ? Hold::parameter : Hold::tangent);
     if (!stepper_.attempt(hold_, distance_)) {
       use(held);
-      shrink(factor);
+      distance_ *= factor;
       return false;
     }
   }
-  if (!overshoots() && find_event()) return true;
-  shrink(0.5);
+  if (!passes_target(stepper_.there()) && find_event()) return true;
+  distance_ *= 0.5;
   return false;
 }
 
 bool Tracer::find_event() {
   const EventSearch search = find_first_event(stepper_, signs_);
   event_ = search.first;
-  return search.solved;
+  if (!search.solved || !event_ || event_->kind != Event::Kind::fold) return search.solved;
+  return stepper_.probe(event_->s) &&
+         !passes_target(stepper_.probed_point());  // a fold's tip reaches farthest
 }
 
 /// The nearest target within `reach` (in the parameter's scale) in the direction of travel.
@@ -209,10 +206,10 @@ const Target* Tracer::target_ahead(double reach) const {
   return nearest;
 }
 
-/// Whether the step passed a target instead of landing on it.
-bool Tracer::overshoots() const {
+/// Whether a target lies between here and a point of the step, which then has to land on it first.
+bool Tracer::passes_target(const CurvePoint& point) const {
   const double a = stepper_.here().parameters(parameter_);
-  const double b = stepper_.there().parameters(parameter_);
+  const double b = point.parameters(parameter_);
   return std::any_of(targets_.begin(), targets_.end(),
                      [&](const Target& target) { return (target.value - a) * (target.value - b) < 0; });
 }
@@ -222,8 +219,6 @@ void Tracer::use(Hold hold) {
   hold_ = hold;
   distance_ = now / stepper_.slope_length(hold);
 }
-
-void Tracer::shrink(double factor) { distance_ *= factor; }
 
 bool Tracer::take() {
   const bool whole = landing_ == nullptr && !event_;
@@ -274,7 +269,8 @@ bool Tracer::cross(Index border) {
   const int regime = problem_.regime_beyond(stepper_.here().regime, static_cast<int>(border));
   if (stepper_.enter(regime) != Correction::converged) {
     return store(PointType::regime_switch) &&
-           stop(Stop::grazing_border, fmt::format("the branch beyond the border does not leave it, at {}", place()));
+           stop(Stop::grazing_border,
+                fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
   if (!store(PointType::regime_switch) || !corner_events(signs_before)) return false;
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "arcslip/case_file.hpp"
-#include "atomic_file.hpp"
 #include "commands.hpp"
+#include "output.hpp"
 
 namespace arcslip {
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "arcslip/case_file.hpp"
-#include "atomic_file.hpp"
 #include "commands.hpp"
+#include "output.hpp"
 
 namespace arcslip {
 namespace {

@@ -9,8 +9,8 @@
 #include "arcslip/case_file.hpp"
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/results.hpp"
-#include "atomic_file.hpp"
 #include "commands.hpp"
+#include "output.hpp"
 
 namespace arcslip {
 namespace {

@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "arcslip/case_file.hpp"
-#include "atomic_file.hpp"
 #include "commands.hpp"
+#include "output.hpp"
 
 namespace {
 

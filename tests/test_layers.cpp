@@ -25,7 +25,7 @@ enum class Layer { types, continuation, mechanics, problems, files, command_line
 
 const std::set<std::string, std::less<>> mechanics{
     "contact", "dynamic_stiffness", "elements", "modal_model", "precise", "sector", "system"};
-const std::set<std::string, std::less<>> files{"atomic_file", "case_file", "results", "toml_reader"};
+const std::set<std::string, std::less<>> files{"output", "case_file", "results", "toml_reader"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {

@@ -70,6 +70,16 @@ TEST_CASE("A branch that turns back to its first value ends there and says so") 
   CHECK_THAT(branch.points.back().unknowns(0), WithinAbs(0, 1e-10));  // the middle sheet
 }
 
+TEST_CASE("A branch that ends just before a fold does not end behind it") {
+  const double fold = 2 / (3 * std::sqrt(3.0));
+  const double gap = GENERATE(1e-2, 1e-4, 1e-7);
+  const Branch branch = trace(Cusp(), guess_of({-1.5}, -2), over("mu", -2, fold - gap));
+  REQUIRE(branch.complete());
+  CHECK(branch.points.back().parameters(0) == fold - gap);
+  CHECK(branch.points.back().unknowns(0) < -1 / std::sqrt(3.0));
+  CHECK(of_type(branch, PointType::fold).empty());
+}
+
 TEST_CASE("Freudenstein and Roth's branch has its published folds") {
   const Branch branch = trace(FreudensteinRoth(), guess_of({22.8, -2.59}, -0.9), over("x3", -0.9, 1));
   REQUIRE(branch.complete());

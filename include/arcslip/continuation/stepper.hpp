@@ -69,6 +69,7 @@ class Stepper {
   /// The branch at 0 <= s <= distance within the step, solved to rounding: false if that fails.
   bool probe(double s);
   const std::vector<Monitor>& probed() const { return probed_; }
+  const CurvePoint& probed_point() const { return probe_; }
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
 
   /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.

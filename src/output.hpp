@@ -1,6 +1,7 @@
 #pragma once
 
-// Files that appear whole or not at all: written under a temporary name beside the target, then renamed.
+// What the program writes: files that appear whole or not at all (written under a temporary name, then
+// renamed), and standard output.
 
 #include <cstdio>
 #include <memory>

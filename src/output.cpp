@@ -1,4 +1,4 @@
-#include "atomic_file.hpp"
+#include "output.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
