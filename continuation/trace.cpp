@@ -23,7 +23,7 @@ std::vector<Target> collect_targets(const Problem& problem, Index parameter, con
   const double high = std::max(options.from, options.to);
   std::vector<Target> targets{{options.to, Target::Kind::end}, {options.from, Target::Kind::bound}};
   for (const double value : options.stop_at) {
-    if (!(value > low && value < high)) {
+    if (!(value >= low && value <= high)) {
       throw std::invalid_argument(fmt::format("stop_at: {} is not between {} and {}", value, low, high));
     }
     targets.push_back({value, Target::Kind::user});

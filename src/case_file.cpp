@@ -133,7 +133,7 @@ continuation::TraceOptions read_continuation(const TomlDocument& document) {
   const TomlSection section(document, "continuation");
   section.allow_only(continuation_keys);
   continuation::TraceOptions options;
-  options.tolerance = section.number("tolerance", between(0, 1e-2), options.tolerance);
+  options.tolerance = section.number("tolerance", inside(0, 1e-2), options.tolerance);
   options.max_step = section.number("max_step", {[](double h) { return h > 0 && h <= 1; }, " > 0 and <= 1"},
                                     options.max_step);
   options.min_step = section.number(
@@ -153,7 +153,7 @@ void read_range(const TomlDocument& document, const TomlSection& branch,
   if (options.from == options.to) branch.mismatch("to", "a number that differs from branch.from");
   const double low = std::min(options.from, options.to);
   const double high = std::max(options.from, options.to);
-  options.stop_at = TomlSection(document, "continuation").numbers("stop_at", between(low, high));
+  options.stop_at = TomlSection(document, "continuation").numbers("stop_at", within(low, high));
 }
 
 /// The input as it is understood, defaults included.

@@ -1,7 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -129,7 +130,7 @@ Run read_run(const fs::path& folder) {
 fs::path scripts_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path folder = program.parent_path().parent_path() / "share/arcslip/plots";
+  fs::path folder = program.parent_path().parent_path() / "share/arcslip/plots";
   if (error || !fs::exists(folder / "style.gp", error)) {
     throw OutputError(fmt::format("{}: holds no gnuplot scripts; install arcslip anew", folder.string()));
   }
@@ -194,6 +195,7 @@ void Drawing::start(const fs::path& script, const Run& run) {
                                            run.parameter,
                                            run.labels};
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
 
@@ -275,7 +277,7 @@ void draw(const fs::path& folder, const Run& run) {
   }
   for (const auto& drawing : drawings) {
     drawing->finish();
-    fmt::print("{}\n", drawing->picture().string());
+    print(drawing->picture().string() + "\n");
   }
 }
 

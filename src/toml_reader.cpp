@@ -110,9 +110,14 @@ NumberRule positive() {
   return {[](double value) { return value > 0; }, " > 0"};
 }
 
-NumberRule between(double low, double high) {
+NumberRule inside(double low, double high) {
   return {[low, high](double value) { return value > low && value < high; },
           fmt::format(" > {} and < {}", low, high)};
+}
+
+NumberRule within(double low, double high) {
+  return {[low, high](double value) { return value >= low && value <= high; },
+          fmt::format(" >= {} and <= {}", low, high)};
 }
 
 TomlSection::TomlSection(const TomlDocument& document, std::string path, const Replacements* replacements)

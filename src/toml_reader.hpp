@@ -50,7 +50,8 @@ struct NumberRule {
 };
 
 NumberRule positive();
-NumberRule between(double low, double high);  ///< open interval
+NumberRule inside(double low, double high);  ///< between the two
+NumberRule within(double low, double high);  ///< between the two or equal to one
 
 /// One table of the document.
 class TomlSection {

@@ -86,7 +86,7 @@ TEST_CASE("for_each gives one branch for each value, and lists of several keys a
   CHECK(sweep.branches[1].eta == 4.0);
 }
 
-TEST_CASE("--set replaces and adds values; bare words need no quotes") {
+TEST_CASE("Settings on the command line replace and add values; bare words need no quotes") {
   const Case input = read_text(good, {"system.preload=7", "continuation.stop_at=[3.9, 4.1]", "title=other",
                                       "system.damping.base=0.01"});
   CHECK(input.branches[0].system.preload == 7);
@@ -149,7 +149,7 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"to = 120.0", "to = 120.0\n[continuation]\nmax_step = 0", ":17:12", "continuation.max_step", "> 0",
        "got 0"},
       {"to = 120.0", "to = 120.0\n[continuation]\nstop_at = [3, 200]", ":17:", "continuation.stop_at[1]",
-       "> 0.5 and < 120", "got 200"},
+       ">= 0.5 and <= 120", "got 200"},
       {"to = 120.0", "to = 120.0\n[continuation]\nmax_points = 1", ":17:14", "continuation.max_points",
        ">= 2", "got 1"},
       {"to = 120.0", "to = 120.0\n[contination]\n", ":16:", "contination", "did you mean 'continuation'?",

@@ -63,8 +63,9 @@ void require_pictures(const std::string& folder, std::size_t least_size) {
   std::set<std::string> expected = results;
   for (const std::string& picture : pictures) {
     CAPTURE(picture);
-    const std::string png = read(folder + "/" + picture + ".png");
-    const std::string svg = read(folder + "/" + picture + ".svg");
+    const fs::path path = fs::path(folder) / picture;
+    const std::string png = read(path.string() + ".png");
+    const std::string svg = read(path.string() + ".svg");
     CHECK(png.size() > least_size);
     CHECK(svg.size() > least_size);
     CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
@@ -89,17 +90,18 @@ std::string path_with_gnuplot(const TemporaryFolder& folder, const std::string& 
 TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[plots]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
-  const std::string results_folder = folder.path("figure 8's \"own\"");
-  const std::string quoted = "\"" + folder.path("figure 8's \\\"own\\\"") + "\"";
-  run("figure_8", folder.path("figure 8's \\\"own\\\""));
-  const Outcome outcome = arcslip_program("plot " + quoted);
+  const std::string results_folder = folder.path(R"(figure 8's "own")");
+  const std::string quoted = folder.path(R"(figure 8's \"own\")");  // for the shell, between double quotes
+  run("figure_8", quoted);
+  const Outcome outcome = arcslip_program("plot \"" + quoted + "\"");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   require_pictures(results_folder, 40'000);
   std::string listed;
   for (const std::string& picture : pictures) {
-    for (const std::string ending : {".png", ".svg"})
-      listed += results_folder + "/" + picture + ending + "\n";
+    for (const char* ending : {".png", ".svg"}) {
+      listed.append(results_folder).append("/").append(picture).append(ending).append("\n");
+    }
   }
   CHECK(outcome.out == listed);
 }
