@@ -75,6 +75,33 @@ TEST_CASE("Figure 8 has the peaks and switches of an independent solver") {
                {3.668101803, 3.679431752, 93.3362192, 93.64817978});
 }
 
+TEST_CASE("At every peak and trough the slope of Y along the branch vanishes, to 1e-10 in eta") {
+  const double preload = GENERATE(0.1, 1.0, 5.0, 50.0);
+  const ForcedResponse problem(build_system(figure_8(preload)));
+  const auto slope = [&](double eta) {  // dY/d eta = Y_eta - Y_rho g_eta/g_rho
+    const continuation::Guess at = problem.guess(eta, preload);
+    Matrix by_rho(1, 1);
+    Matrix by_parameters(1, 2);
+    problem.evaluate(at.unknowns, at.parameters, at.regime, {nullptr, &by_rho, &by_parameters});
+    continuation::Gradient gradient{Vector(1), Vector(2)};
+    problem.observe(at.unknowns, at.parameters, at.regime, ForcedResponse::Y, gradient);
+    return gradient.parameters(0) - gradient.unknowns(0) * by_parameters(0, 0) / by_rho(0, 0);
+  };
+  const continuation::Branch branch = trace_over_eta(problem, preload, 0.5, 120);
+  int checked = 0;
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    const continuation::BranchPoint& point = branch.points[i];
+    if (point.type != PointType::peak && point.type != PointType::trough) continue;
+    if (point.arclength == branch.points[i - 1].arclength) continue;  // a corner: the slope jumps
+    const double eta = point.parameters(0);
+    const double h = 1e-8 * eta;
+    const double curvature = (slope(eta + h) - slope(eta - h)) / (2 * h);
+    CHECK(std::abs(slope(eta) / curvature) < 1e-10 * eta);
+    ++checked;
+  }
+  CHECK(checked >= 3);
+}
+
 TEST_CASE("The rods have the peaks and switches of an independent solver") {
   check_branch(rods(1), 20, {{3.20898337, 0.14659864}, {5.7601505, 0.0364682334}},
                {3.203034808, 4.00398297, 5.154137971, 6.519723608});
