@@ -57,6 +57,7 @@ void check(const TraceOptions& options) {
 std::vector<Index> tracked_observables(const Problem& problem, const TraceOptions& options) {
   const std::vector<Observable> observables = problem.observables();
   std::vector<std::string> names;
+  names.reserve(observables.size());
   for (const Observable& observable : observables) names.push_back(observable.name);
   std::vector<Index> tracked;
   for (const std::string& name : options.extrema_of) {

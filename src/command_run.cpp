@@ -116,6 +116,8 @@ int run_command(const RunOptions& options) {
   write_branches(traced, [&](std::string_view text) { branches.write(text); });
   summary.write(summarize(input, traced, seconds).dump(2));
   summary.write("\n");
+  branches.sync();
+  summary.sync();
   branches.commit();
   summary.commit();
   if (!options.quiet) print(tables(input, traced, folder, seconds));

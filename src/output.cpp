@@ -41,8 +41,12 @@ void AtomicFile::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::sync() {
   if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail();
+}
+
+void AtomicFile::commit() {
+  sync();
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
   file_.reset();
 }

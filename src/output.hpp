@@ -36,7 +36,11 @@ class AtomicFile {
 
   void write(std::string_view text);
 
-  /// Brings the content to the disk and gives the file its name. Throws OutputError.
+  /// Brings the content to the disk. Throws OutputError.
+  void sync();
+
+  /// The same, then gives the file its name. Files that belong together are all synced before the first
+  /// commit.
   void commit();
 
  private:

@@ -230,6 +230,25 @@ TEST_CASE("Force and preload scaled together scale the response") {
   }
 }
 
+TEST_CASE("A branch has the same special points in either direction") {
+  const double preload = GENERATE(0.1, 1.0, 50.0);
+  const ForcedResponse problem(build_system(figure_8(preload)));
+  const auto special = [&](double from, double to) {
+    std::vector<std::pair<PointType, double>> found;
+    for (const auto& point : trace_over_eta(problem, preload, from, to).points) {
+      const bool inner = point.type == PointType::regime_switch || point.type == PointType::peak ||
+                         point.type == PointType::trough;
+      if (inner) found.emplace_back(point.type, point.parameters(0));
+    }
+    if (from > to) std::reverse(found.begin(), found.end());
+    return found;
+  };
+  const auto up = special(0.5, 120);
+  const auto down = special(120, 0.5);
+  REQUIRE(up.size() == down.size());
+  for (std::size_t i = 0; i < up.size(); ++i) CHECK_THAT(up[i].second, WithinRel(down[i].second, 1e-10));
+}
+
 TEST_CASE("The work of a branch does not depend on N, from 4 to a million elements") {
   const bool beams = GENERATE(false, true);
   std::vector<double> evaluations;
