@@ -192,6 +192,8 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const Monitor& b = at_s[i];
     const double change = b.value - a.value;
     const double size = i < tracked_.size() ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
+    // No more than a factor of two at a time: the observable is wanted as a curve, too.
+    if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
     // The mean of the end slopes is to give the change, or else the function bends more often than these can
     // tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));

@@ -20,7 +20,7 @@ class OutputError : public std::runtime_error {
 /// Creates the folder and its parents. Throws OutputError.
 void create_folder(const std::string& path);
 
-/// Prints on standard output, at once. Throws OutputError.
+/// Prints on standard output, at once; a reader that has gone is no error. Throws OutputError.
 void print(std::string_view text);
 
 class AtomicFile {
