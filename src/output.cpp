@@ -19,6 +19,7 @@ void create_folder(const std::string& path) {
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) return;  // the reader has seen enough
   throw OutputError(
       fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
 }

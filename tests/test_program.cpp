@@ -190,6 +190,13 @@ TEST_CASE("A disk that fills up has status 4 and leaves no partial file, nor har
   CHECK(names_in(folder.path("s")) == std::set<std::string>{"branches.csv", "summary.json"});
 }
 
+TEST_CASE("A reader that has seen enough of the table is no error") {
+  const TemporaryFolder folder;
+  const Outcome outcome = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("r") + " | true");
+  CHECK(outcome.err.empty());
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+}
+
 TEST_CASE("A branch that cannot be finished has status 3, its reason, and what was traced") {
   const TemporaryFolder folder;
   const Outcome outcome = arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") +
