@@ -1,10 +1,10 @@
-#include <fmt/color.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 
 #include "arcslip/case_file.hpp"
 #include "arcslip/problems/forced_response.hpp"

@@ -5,7 +5,6 @@
 // passes folds) or the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a
 // vertical tangent misses the branch, and lands on values); the caller turns to the other when one fails.
 
-#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/corrector.hpp"

@@ -3,7 +3,6 @@
 // Pseudo-arclength continuation of F(u, p) = 0 in one parameter, through regimes with located borders.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
