@@ -52,34 +52,39 @@ Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int 
   const Correction result = corrector_.correct(here_, there_, normal_, 0, true);
   if (result != Correction::converged) return result;
   here_.parameters = parameters;
-  slope_to_ = corrector_.direction();
-  corrector_.set_tangent(here_, there_);
-  monitor(here_, here_.scale, here_.tangent, at_here_);
-  bend_.setZero();
+  begin_piece(there_);
   return result;
 }
 
 Correction Stepper::enter(int regime) {
   here_.regime = regime;
-  const Index n = corrector_.size();
   double nearest = std::numeric_limits<double>::infinity();
-  for (int b = 0; b < problem_.border_count(regime);
-       ++b) {  // the border of the new regime on which the point lies
+  // The border of the new regime on which the point lies; the new piece leaves it against its gradient.
+  for (int b = 0; b < problem_.border_count(regime); ++b) {
     const double value = problem_.border(here_.unknowns, here_.parameters, regime, b, &gradient_);
     if (std::abs(value) >= nearest) continue;
     nearest = std::abs(value);
-    normal_.head(n) = -gradient_.unknowns.cwiseProduct(here_.scale.head(n));
-    normal_(n) = -gradient_.parameters(corrector_.parameter()) * here_.scale(n);
+    scale_gradient(here_.scale, normal_);
   }
   const double length = normal_.norm();
   if (!std::isfinite(nearest) || !(length > 0)) return Correction::singular;
-  normal_ /= length;
+  normal_ /= -length;
   const Correction result = corrector_.linearise(here_, normal_);
   if (result != Correction::converged) return result;
-  corrector_.set_tangent(here_, here_);
+  begin_piece(here_);
+  return result;
+}
+
+void Stepper::begin_piece(const CurvePoint& origin) {
+  corrector_.set_tangent(here_, origin);
   monitor(here_, here_.scale, here_.tangent, at_here_);
   bend_.setZero();
-  return result;
+}
+
+void Stepper::scale_gradient(const Vector& scale, Vector& out) const {
+  const Index n = corrector_.size();
+  out.head(n) = gradient_.unknowns.cwiseProduct(scale.head(n));
+  out(n) = gradient_.parameters(corrector_.parameter()) * scale(n);
 }
 
 double Stepper::slope_length(Hold hold) const {
@@ -157,7 +162,7 @@ bool Stepper::finish(bool lands, double value) {
     return false;
   }
   next_bend_.array() *= here_.scale.array() / there_.scale.array();
-  next_bend_ /= (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().squaredNorm();
+  next_bend_ /= arc_rate() * arc_rate();
   from_ = at_here_;
   for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
@@ -184,8 +189,8 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
-  if (s * slope_from_.norm() < 1e-7 * max_step_)
-    return true;                                        // what is still unlike a curve here is rounding
+  // What is still unlike a curve on so short a step is rounding.
+  if (s * slope_from_.norm() < 1e-7 * max_step_) return true;
   const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
@@ -194,8 +199,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const double size = i < tracked_.size() ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
     // No more than a factor of two at a time: the observable is wanted as a curve, too.
     if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
-    // The mean of the end slopes is to give the change, or else the function bends more often than these can
-    // tell.
+    // The mean of the end slopes is to give the change, or else there is more between than these can tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
     if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
@@ -225,22 +229,24 @@ void Stepper::cut(double s) {
 }
 
 Correction Stepper::settle_on_border(int border) {
-  const Index n = corrector_.size();
   for (int i = 0; i < 3; ++i) {
     const double value =
         problem_.border(there_.unknowns, there_.parameters, there_.regime, border, &gradient_);
-    work_.head(n) = gradient_.unknowns.cwiseProduct(here_.scale.head(n));
-    work_(n) = gradient_.parameters(corrector_.parameter()) * here_.scale(n);
+    scale_gradient(here_.scale, work_);
     const Correction result = corrector_.correct_once(there_, here_, work_, -value);
     if (result != Correction::converged) return result;
   }
   return Correction::converged;
 }
 
+double Stepper::arc_rate() const {
+  return (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().norm();
+}
+
 void Stepper::advance() {
-  const double length = (slope_to_.array() * here_.scale.array() / there_.scale.array()).matrix().norm();
+  const double rate = arc_rate();
   at_here_ = to_;
-  for (Monitor& monitor : at_here_) monitor.slope /= length;
+  for (Monitor& monitor : at_here_) monitor.slope /= rate;
   std::swap(here_, there_);
   bend_ = next_bend_;
 }

@@ -85,6 +85,9 @@ class Stepper {
   void advance();
 
  private:
+  void begin_piece(const CurvePoint& origin);
+  void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
+  double arc_rate() const;                                      // arclength per distance at there_
   void set_condition(Hold hold);
   void predict();
   bool finish(bool lands, double value);
