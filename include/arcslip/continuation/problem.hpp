@@ -12,9 +12,10 @@ namespace arcslip::continuation {
 
 /// What `Problem::evaluate` is asked for; a null is not wanted. Every target comes with its size.
 struct Evaluation {
-  Vector* residual = nullptr;            ///< F, n, scaled by the problem so that 1 is large
-  Matrix* jacobian = nullptr;            ///< dF/du, n x n
-  Matrix* parameter_jacobian = nullptr;  ///< dF/dp, n x (number of parameters)
+  Vector* residual = nullptr;               ///< F, n, scaled by the problem so that 1 is large
+  Matrix* jacobian = nullptr;               ///< dF/du, n x n, of a problem that is not sparse
+  Matrix* parameter_jacobian = nullptr;     ///< dF/dp, n x (number of parameters)
+  SparseMatrix* sparse_jacobian = nullptr;  ///< dF/du of a sparse problem, compressed, always of one pattern
 };
 
 /// A scalar function of (u, p) with its exact gradient.
@@ -43,6 +44,13 @@ class Problem {
   /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
   /// the step.
   virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
+
+  /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
+  virtual bool sparse() const { return false; }
+
+  /// Whether F is the right-hand side of u' = F(u, p), so that eigenvalues of dF/du tell stability and pairs
+  /// of them that cross the imaginary axis are Hopf points.
+  virtual bool is_equilibrium() const { return false; }
 
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
   /// spans decades gives its own value. The default is 1 for everything.
