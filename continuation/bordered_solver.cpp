@@ -1,101 +1,31 @@
 #include "arcslip/continuation/bordered_solver.hpp"
 
-#include <cmath>
-#include <utility>
+#include <stdexcept>
+
+#include "arcslip/continuation/dense_bordered_solver.hpp"
+#include "arcslip/continuation/sparse_bordered_solver.hpp"
 
 namespace arcslip::continuation {
-namespace {
-
-double sign_of(double value) { return static_cast<double>(value > 0) - static_cast<double>(value < 0); }
-
-}  // namespace
 
 BorderedSolver::BorderedSolver(Index size, Index borders)
-    : size_(size),
-      matrix_(Matrix::Zero(size + borders, size + borders)),
-      factors_(matrix_),
-      pivots_(static_cast<std::size_t>(size + borders)),
-      lu_(small() ? 1 : size + borders),
-      solution_(size + borders) {}
+    : columns_(Matrix::Zero(size, borders)),
+      rows_(Matrix::Zero(borders, size)),
+      corner_(Matrix::Zero(borders, borders)) {}
 
-double BorderedSolver::factor() {
-  if (small()) return factor_small();
-  lu_.compute(matrix_);
-  double sign = permutation_sign();
-  for (const double pivot : lu_.matrixLU().diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
-  return sign;
+void BorderedSolver::set_jacobian(const Matrix& /*jacobian*/, const Vector& /*column_scale*/) {
+  throw std::logic_error("set_jacobian: a sparse solver was given a dense Jacobian");
 }
 
-double BorderedSolver::factor_small() {
-  const Index n = matrix_.rows();
-  factors_ = matrix_;
-  double sign = 1;
-  for (Index k = 0; k < n; ++k) {
-    Index best = k;
-    for (Index i = k + 1; i < n; ++i) {
-      if (std::abs(factors_(i, k)) > std::abs(factors_(best, k))) best = i;
-    }
-    pivots_[static_cast<std::size_t>(k)] = best;
-    if (best != k) {
-      for (Index c = 0; c < n; ++c) std::swap(factors_(k, c), factors_(best, c));
-      sign = -sign;
-    }
-    const double pivot = factors_(k, k);
-    if (pivot == 0 || !std::isfinite(pivot)) return 0;
-    sign *= sign_of(pivot);
-    for (Index i = k + 1; i < n; ++i) {
-      const double factor = factors_(i, k) /= pivot;
-      for (Index c = k + 1; c < n; ++c) factors_(i, c) -= factor * factors_(k, c);
-    }
-  }
-  return sign;
+void BorderedSolver::set_jacobian(const SparseMatrix& /*jacobian*/, const Vector& /*column_scale*/) {
+  throw std::logic_error("set_jacobian: a dense solver was given a sparse Jacobian");
 }
 
-void BorderedSolver::solve(Vector& right_hand_side) {
-  Vector& x = right_hand_side;
-  if (!small()) {
-    solution_.noalias() = lu_.permutationP() * x;
-    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(solution_);
-    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(solution_);
-    x = solution_;
-    return;
+std::unique_ptr<BorderedSolver> make_bordered_solver(Index size, Index borders, bool sparse) {
+  if (size < 0 || borders < 0) {
+    throw std::invalid_argument("make_bordered_solver: neither size nor borders may be negative");
   }
-  const Index n = x.size();
-  for (Index k = 0; k < n; ++k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
-  for (Index k = 0; k < n; ++k) {
-    for (Index i = k + 1; i < n; ++i) x(i) -= factors_(i, k) * x(k);
-  }
-  for (Index k = n - 1; k >= 0; --k) {
-    x(k) /= factors_(k, k);
-    for (Index i = 0; i < k; ++i) x(i) -= factors_(i, k) * x(k);
-  }
-}
-
-void BorderedSolver::solve_transposed(Vector& right_hand_side) {
-  Vector& x = right_hand_side;
-  const auto& factors = small() ? factors_ : lu_.matrixLU();
-  factors.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
-  factors.triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
-  if (small()) {
-    for (Index k = x.size() - 1; k >= 0; --k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
-  } else {
-    solution_.noalias() = lu_.permutationP().inverse() * x;
-    x = solution_;
-  }
-}
-
-double BorderedSolver::permutation_sign() {
-  const auto& image = lu_.permutationP().indices();
-  solution_.setZero();  // marks what has been seen
-  double sign = 1;
-  for (Index start = 0; start < image.size(); ++start) {
-    for (Index i = image(start); i != start && solution_(start) == 0;
-         i = image(i)) {  // a cycle of length l: l - 1
-      solution_(i) = 1;
-      sign = -sign;
-    }
-  }
-  return sign;
+  if (sparse) return std::make_unique<SparseBorderedSolver>(size, borders);
+  return std::make_unique<DenseBorderedSolver>(size, borders);
 }
 
 }  // namespace arcslip::continuation

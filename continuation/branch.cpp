@@ -2,29 +2,21 @@
 
 namespace arcslip::continuation {
 
-std::string_view to_string(PointType type) {
-  switch (type) {
-    case PointType::regular: return "regular";
-    case PointType::start: return "start";
-    case PointType::end: return "end";
-    case PointType::regime_switch: return "switch";
-    case PointType::fold: return "fold";
-    case PointType::peak: return "peak";
-    case PointType::trough: return "trough";
-    case PointType::user: return "user";
-  }
-  return "";
-}
-
 std::string_view to_string(Stop stop) {
   switch (stop) {
     case Stop::reached_end: return "reached_end";
+    case Stop::closed_loop: return "closed_loop";
+    case Stop::requested: return "requested";
     case Stop::left_range: return "left_range";
+    case Stop::left_regime: return "left_regime";
+    case Stop::unbounded: return "unbounded";
     case Stop::max_points: return "max_points";
-    case Stop::min_step: return "min_step";
+    case Stop::time_limit: return "time_limit";
     case Stop::interrupted: return "interrupted";
-    case Stop::no_start: return "no_start";
+    case Stop::no_value: return "no_value";
+    case Stop::min_step: return "min_step";
     case Stop::grazing_border: return "grazing_border";
+    case Stop::no_start: return "no_start";
   }
   return "";
 }

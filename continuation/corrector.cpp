@@ -5,25 +5,29 @@
 
 namespace arcslip::continuation {
 
+Work operator+(const Work& a, const Work& b) {
+  return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
+          a.rejected_steps + b.rejected_steps};
+}
+
 Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options)
     : problem_(problem),
       size_(problem.size()),
       parameter_(parameter),
       options_(options),
-      solver_(size_, 1),
-      residual_(size_),
-      jacobian_(size_, size_),
-      parameter_jacobian_(size_, static_cast<Index>(problem.parameter_names().size())),
+      linearization_(problem),
+      solver_(make_bordered_solver(size_, 1, problem.sparse())),
       correction_(size_ + 1),
       direction_(size_ + 1),
       unknown_scale_(size_),
-      parameter_scale_(parameter_jacobian_.cols()),
+      magnitudes_(size_),
+      parameter_scale_(linearization_.parameter_jacobian().cols()),
       parameter_normal_(Vector::Unit(size_ + 1, size_)) {}
 
 CurvePoint Corrector::make_point() const {
   CurvePoint point;
   point.unknowns = Vector::Zero(size_);
-  point.parameters = Vector::Zero(parameter_jacobian_.cols());
+  point.parameters = Vector::Zero(parameter_scale_.size());
   point.scale = Vector::Ones(size_ + 1);
   point.tangent = Vector::Zero(size_ + 1);
   return point;
@@ -49,39 +53,33 @@ void Corrector::displace(const CurvePoint& origin, const Vector& displacement, C
 
 bool Corrector::evaluate(CurvePoint& point) {
   ++work_.evaluations;
-  if (!problem_.evaluate(point.unknowns, point.parameters, point.regime,
-                         {&residual_, &jacobian_, &parameter_jacobian_})) {
-    return false;
-  }
-  point.residual = residual_.lpNorm<Eigen::Infinity>();
-  return std::isfinite(point.residual);
+  if (!linearization_.evaluate(point.unknowns, point.parameters, point.regime)) return false;
+  point.residual = linearization_.residual().lpNorm<Eigen::Infinity>();
+  return true;
 }
 
 bool Corrector::factor(const Vector& scale, const Vector& normal) {
   ++work_.factorizations;
-  solver_.jacobian() = jacobian_ * scale.head(size_).asDiagonal();
-  solver_.columns() = parameter_jacobian_.col(parameter_) * scale(size_);
-  solver_.rows() = normal.head(size_).transpose();
-  solver_.corner()(0, 0) = normal(size_);
-  border_sign_ = solver_.factor();
+  linearization_.fill(*solver_, scale);
+  solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
+  solver_->rows() = normal.head(size_).transpose();
+  solver_->corner()(0, 0) = normal(size_);
+  border_sign_ = solver_->factor();
   return border_sign_ != 0;
 }
 
 bool Corrector::solve_direction() {
   direction_.setZero();
   direction_(size_) = 1;
-  solver_.solve(direction_);
+  solver_->solve(direction_);
   return direction_.allFinite();
 }
 
-double Corrector::rounding_level(const CurvePoint& point) const {
-  double level = 0;
-  for (Index i = 0; i < size_; ++i) {
-    const double terms = jacobian_.row(i).cwiseAbs().dot(point.unknowns.cwiseAbs()) +
-                         std::abs(parameter_jacobian_(i, parameter_) * point.parameters(parameter_));
-    level = std::max(level, terms);
-  }
-  return 4 * std::numeric_limits<double>::epsilon() * (1 + level);
+double Corrector::rounding_level(const CurvePoint& point) {
+  linearization_.multiply_absolute(point.unknowns, magnitudes_);
+  magnitudes_ +=
+      (linearization_.parameter_jacobian().col(parameter_) * point.parameters(parameter_)).cwiseAbs();
+  return 4 * std::numeric_limits<double>::epsilon() * (1 + magnitudes_.maxCoeff());
 }
 
 Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
@@ -106,13 +104,13 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (held && !factor(origin.scale, parameter_normal_)) return Correction::singular;
     difference(point, origin, correction_);
     const double gap = held ? 0 : distance - normal.dot(correction_);
-    correction_.head(size_) = -residual_;
+    correction_.head(size_) = -linearization_.residual();
     correction_(size_) = gap;
-    solver_.solve(correction_);
+    solver_->solve(correction_);
     const double length = correction_.norm();
     if (!std::isfinite(length)) return Correction::singular;
-    const bool telling = !held && last_residual > rounding_level(point);  // not a ratio of two roundings
-    if (point.iterations == 1 && telling) contraction_ = length / last_length;
+    const auto telling = [&] { return last_residual > rounding_level(point); };  // no ratio of two roundings
+    if (point.iterations == 1 && !held && telling()) contraction_ = length / last_length;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded)
       return Correction::diverging;
     last_length = length;
@@ -125,9 +123,9 @@ Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, 
                                    double change) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
   if (!factor(origin.scale, normal)) return Correction::singular;
-  correction_.head(size_) = -residual_;
+  correction_.head(size_) = -linearization_.residual();
   correction_(size_) = change;
-  solver_.solve(correction_);
+  solver_->solve(correction_);
   if (!correction_.allFinite()) return Correction::singular;
   apply(point, origin);
   return Correction::converged;
@@ -144,6 +142,15 @@ Correction Corrector::linearise(CurvePoint& point, const Vector& normal) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
   if (!factor(point.scale, normal) || !solve_direction()) return Correction::singular;
   return Correction::converged;
+}
+
+bool Corrector::nearly_singular() {
+  // A solution with a right-hand side of unit length and no preference is as long as the inverse is large.
+  correction_.setConstant(1 / std::sqrt(static_cast<double>(size_ + 1)));
+  for (Index i = 0; i <= size_; i += 2) correction_(i) *= 0.7;
+  solver_->solve(correction_);
+  linearization_.multiply_absolute(Vector::Ones(size_), magnitudes_);
+  return !(correction_.norm() * magnitudes_.maxCoeff() < 1e11);
 }
 
 void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {

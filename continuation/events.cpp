@@ -1,12 +1,11 @@
 #include "arcslip/continuation/events.hpp"
 
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
 namespace arcslip::continuation {
 namespace {
-
-int sign_of(double value) { return (value > 0) - (value < 0); }
 
 struct Zero {
   enum class State { found, absent, failed };
@@ -55,12 +54,13 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   return {solved ? Zero::State::found : Zero::State::failed, at_a < at_b ? a : b};
 }
 
-/// Looks for the end of the regime first: what lies beyond it is not the branch, so that extrema and folds
-/// are looked for up to there only.
+/// Looks for the end of the regime first: what lies beyond it is not the branch, so that everything else is
+/// looked for up to there only.
 class Search {
  public:
-  Search(Stepper& stepper, const Signs& signs)
+  Search(Stepper& stepper, Watch& watch, const Signs& signs)
       : stepper_(stepper),
+        watch_(watch),
         signs_(signs),
         upper_(stepper.distance()),
         at_upper_(&stepper.to()),
@@ -69,29 +69,49 @@ class Search {
   EventSearch run() {
     const auto borders = static_cast<Index>(at_upper_->size()) - stepper_.tracked_count();
     for (Index b = 0; b < borders; ++b) border(b);
-    if (result_.solved && result_.first) {
-      upper_ = result_.first->s;
+    if (result_.solved && !result_.events.empty()) {
+      for (const Event& event : result_.events) upper_ = std::min(upper_, event.s);
       result_.solved = stepper_.probe(upper_) && stepper_.resolved(upper_, stepper_.probed());
       cut_ = stepper_.probed();
       at_upper_ = &cut_;
       rate_at_upper_ = stepper_.probed_parameter_rate();
     }
     if (!result_.solved) return result_;
+    look_at_upper();
     fold();
     for (Index i = 0; i < stepper_.tracked_count(); ++i) extremum(i);
+    if (stepper_.crossing() && stepper_.crossing()->s <= upper_)
+      note(Event::Kind::crossing, PointType::branch_point, 0, {Zero::State::found, stepper_.crossing()->s});
+    for (std::size_t i = 0; i < functions_at_upper_.size(); ++i) function(i);
+    eigenvalues();
+    keep_first();
     return result_;
   }
 
  private:
-  void note(Event::Kind kind, Index index, const Zero& zero) {
+  void note(Event::Kind kind, PointType type, Index index, const Zero& zero) {
     if (zero.state == Zero::State::failed) result_.solved = false;
-    if (zero.state != Zero::State::found) return;
-    if (!result_.first || zero.s < result_.first->s) result_.first = Event{kind, index, zero.s};
+    if (zero.state == Zero::State::found) result_.events.push_back({kind, type, index, zero.s});
+  }
+
+  /// Keeps the first event and those at the very same point. A fold beside a branch point or a cusp, where
+  /// what it is located by is noise, is that point.
+  void keep_first() {
+    auto& events = result_.events;
+    std::erase_if(events, [&](const Event& event) {
+      return event.type == PointType::fold &&
+             std::any_of(events.begin(), events.end(), [&](const Event& other) {
+               return explains_fold(other.type) && std::abs(other.s - event.s) < 1e-4 * stepper_.distance();
+             });
+    });
+    double first = upper_;
+    for (const Event& event : events) first = std::min(first, event.s);
+    std::erase_if(events, [&](const Event& event) { return event.s > first + 1e-12 * stepper_.distance(); });
   }
 
   void fold() {
     if (signs_.parameter * sign_of(rate_at_upper_) >= 0) return;
-    note(Event::Kind::fold, 0,
+    note(Event::Kind::fold, PointType::fold, 0,
          locate(stepper_, {upper_, stepper_.parameter_rate_from(), signs_.parameter, rate_at_upper_},
                 [](Stepper& s) { return s.probed_parameter_rate(); }));
   }
@@ -105,7 +125,8 @@ class Search {
     const auto m = static_cast<std::size_t>(i);
     const int before = signs_.observables[m];
     if (before * sign_of_slope((*at_upper_)[m]) >= 0) return;
-    note(Event::Kind::extremum, i, locate_extremum(m, before));
+    note(Event::Kind::extremum, before > 0 ? PointType::peak : PointType::trough, i,
+         locate_extremum(m, before));
   }
 
   void border(Index b) {
@@ -114,7 +135,7 @@ class Search {
     double upper = upper_;
     double value = (*at_upper_)[m].value;
     if (std::abs(from.value) <= 1e-12 && from.slope > 0) {  // an extremum lies on the border, to rounding
-      note(Event::Kind::crossing, b, {Zero::State::found, 0});
+      note(Event::Kind::border, PointType::regime_switch, b, {Zero::State::found, 0});
       return;
     }
     if (value <= 0) {
@@ -132,38 +153,75 @@ class Search {
         locate(stepper_, {upper, from.value, -1, value}, [m](Stepper& s) { return s.probed()[m].value; });
     if (zero.state == Zero::State::absent)
       result_.solved = false;  // beyond the border, yet nowhere across it
-    note(Event::Kind::crossing, b, zero);
+    note(Event::Kind::border, PointType::regime_switch, b, zero);
+  }
+
+  void look_at_upper() {
+    if (watch_.empty()) return;
+    watch_.look(at_upper_ == &cut_ ? stepper_.probed_point() : stepper_.there());
+    functions_at_upper_ = watch_.functions();
+    eigenvalues_at_upper_ = watch_.eigenvalues();
+  }
+
+  /// Zeros of tests and user's functions. A function may jump instead; then there is no zero.
+  void function(std::size_t i) {
+    const int before = signs_.functions[i];
+    const double at_upper = functions_at_upper_[i];
+    if (before * sign_of(at_upper) >= 0) return;
+    const auto value = [&](Stepper& stepper) {
+      watch_.look(stepper.probed_point());
+      return watch_.functions()[i];
+    };
+    watch_.look(stepper_.here());
+    const Zero zero = locate(stepper_, {upper_, watch_.functions()[i], before, at_upper}, value);
+    if (zero.state == Zero::State::found && stepper_.probe(zero.s) &&
+        std::abs(value(stepper_)) > 1e-6 * std::abs(at_upper)) {
+      return;
+    }
+    note(Event::Kind::function, watch_.type(i), static_cast<Index>(i), zero);
+  }
+
+  /// Pairs of eigenvalues on the imaginary axis: sorted by their real parts, each real part is continuous
+  /// along the branch, and those between the old and the new number of unstable ones have crossed.
+  void eigenvalues() {
+    const auto after = static_cast<int>((eigenvalues_at_upper_.real().array() > 0).count());
+    if (signs_.unstable < 0 || eigenvalues_at_upper_.size() == 0) return;
+    for (int i = std::min(signs_.unstable, after); i < std::max(signs_.unstable, after); ++i) {
+      const auto value = [&](Stepper& stepper) {
+        watch_.look(stepper.probed_point());
+        return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;
+      };
+      const int before = after > signs_.unstable ? -1 : 1;
+      const Zero zero = locate(stepper_, {upper_, 0, before, eigenvalues_at_upper_(i).real()}, value);
+      if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
+      value(stepper_);
+      const Complex at_zero = watch_.eigenvalues()(i);
+      if (std::abs(at_zero.real()) > 1e-6 * std::abs(at_zero.imag())) continue;  // a real one: a fold
+      note(Event::Kind::pair, watch_.pair_crossing(), i, zero);
+      return;
+    }
   }
 
   Stepper& stepper_;
+  Watch& watch_;
   const Signs& signs_;
   double upper_;
   const std::vector<Monitor>* at_upper_;
   std::vector<Monitor> cut_;  // the monitors at the crossing
   double rate_at_upper_;
+  std::vector<double> functions_at_upper_;
+  ComplexVector eigenvalues_at_upper_;
   EventSearch result_;
 };
 
 }  // namespace
 
-int sign_of_slope(const Monitor& monitor) {
-  return std::abs(monitor.slope) <= 1e-14 * std::abs(monitor.value) ? 0 : sign_of(monitor.slope);
+bool explains_fold(PointType type) {
+  return type == PointType::branch_point || type == PointType::cusp || type == PointType::bogdanov_takens;
 }
 
-void Signs::reset(const std::vector<Monitor>& monitors, Index tracked, double parameter_rate) {
-  parameter = sign_of(parameter_rate);
-  observables.clear();
-  for (Index i = 0; i < tracked; ++i)
-    observables.push_back(sign_of_slope(monitors[static_cast<std::size_t>(i)]));
+EventSearch find_first_events(Stepper& stepper, Watch& watch, const Signs& signs) {
+  return Search(stepper, watch, signs).run();
 }
-
-void Signs::update(const std::vector<Monitor>& monitors, double parameter_rate) {
-  if (sign_of(parameter_rate) != 0) parameter = sign_of(parameter_rate);
-  for (std::size_t i = 0; i < observables.size(); ++i) {
-    if (const int sign = sign_of_slope(monitors[i]); sign != 0) observables[i] = sign;
-  }
-}
-
-EventSearch find_first_event(Stepper& stepper, const Signs& signs) { return Search(stepper, signs).run(); }
 
 }  // namespace arcslip::continuation

@@ -2,14 +2,29 @@
 
 #include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 
 namespace arcslip::continuation {
 
-void Problem::scale(const Vector& /*u*/, const Vector& /*p*/, Vector& unknowns, Vector& parameters) const {
-  unknowns.setOnes();
-  parameters.setOnes();
+void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+  unknowns = u.cwiseAbs().cwiseMax(1);
+  parameters = p.cwiseAbs().cwiseMax(1);
+}
+
+bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+  if (!is_equilibrium() || sparse()) return false;
+  Matrix jacobian(size(), size());
+  Evaluation out;
+  out.jacobian = &jacobian;
+  if (!evaluate(u, p, regime, out) || !jacobian.allFinite()) return false;
+  values = Eigen::EigenSolver<Matrix>(jacobian, false).eigenvalues();
+  return values.allFinite();
+}
+
+void Problem::test(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+  values.resize(0);
 }
 
 int Problem::border_count(int /*regime*/) const { return 0; }

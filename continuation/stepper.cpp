@@ -56,6 +56,41 @@ Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int 
   return result;
 }
 
+Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters, int regime,
+                                const Vector& direction) {
+  here_.unknowns = unknowns;
+  here_.parameters = parameters;
+  here_.regime = regime;
+  corrector_.set_scale(here_);
+  normal_ = direction.cwiseQuotient(here_.scale);
+  normal_.normalize();
+  if (!normal_.allFinite()) return Correction::singular;
+  there_ = here_;
+  Correction result = corrector_.linearise(here_, normal_);
+  const bool solved = here_.residual <= corrector_.tolerance() && result != Correction::cannot_evaluate;
+  if (!solved) {
+    result = corrector_.correct(here_, there_, normal_, 0, true);
+    if (result != Correction::converged) return result;
+    begin_piece(there_);
+    return result;
+  }
+  here_.tangent = normal_;
+  here_.orientation = 0;
+  if (result == Correction::converged && !corrector_.nearly_singular()) {
+    begin_piece(here_);
+  } else {  // a branch point: the direction is all there is
+    monitor(here_, here_.scale, here_.tangent, at_here_);
+    bend_.setZero();
+  }
+  return Correction::converged;
+}
+
+void Stepper::restore(const Checkpoint& checkpoint) {
+  here_ = checkpoint.here;
+  bend_ = checkpoint.bend;
+  at_here_ = checkpoint.monitors;
+}
+
 Correction Stepper::enter(int regime) {
   here_.regime = regime;
   double nearest = std::numeric_limits<double>::infinity();
@@ -142,6 +177,8 @@ bool Stepper::finish(bool lands, double value) {
   if (lands) there_.parameters(corrector_.parameter()) = value;
   const Correction result = corrector_.correct(there_, here_, normal_, distance_, lands);
   signals_.contraction = corrector_.contraction();
+  last_correction_ = result;
+  crossing_.reset();
   if (result != Correction::converged) {
     signals_.contraction = 1;
     return false;
@@ -157,7 +194,8 @@ bool Stepper::finish(bool lands, double value) {
   next_bend_ = (slope_to_ - slope_from_) / distance_;
   if ((slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm()) next_bend_.setZero();
   corrector_.set_tangent(there_, here_);
-  if (there_.orientation != here_.orientation) {  // the corrector jumped to a piece that runs the other way
+  // Either a branch point lies in between, or the corrector jumped to a piece that runs the other way.
+  if (there_.orientation * here_.orientation < 0 && !find_crossing()) {
     signals_.turn = limits_.turn_limit * 4;
     return false;
   }
@@ -208,10 +246,14 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
   return true;
 }
 
-bool Stepper::probe(double s) {
+void Stepper::interpolate(double s, Vector& out) const {
   const double x = s / distance_;
   const double y = 1 - x;
-  work_ = x * x * (3 - 2 * x) * step_ + distance_ * (x * y * y * slope_from_ - x * x * y * slope_to_);
+  out = x * x * (3 - 2 * x) * step_ + distance_ * (x * y * y * slope_from_ - x * x * y * slope_to_);
+}
+
+bool Stepper::probe(double s) {
+  interpolate(s, work_);
   corrector_.displace(here_, work_, probe_);
   if (corrector_.correct(probe_, here_, normal_, s, true) != Correction::converged) return false;
   probe_slope_ = corrector_.direction();

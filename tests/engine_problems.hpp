@@ -134,9 +134,9 @@ class Rescaled : public FreudensteinRoth {
     if (out.parameter_jacobian != nullptr) *out.parameter_jacobian *= residuals_;
     return true;
   }
-  void scale(const Vector& /*u*/, const Vector& /*p*/, Vector& unknowns, Vector& parameters) const override {
-    unknowns.setConstant(unknowns_);
-    parameters.setOnes();
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    FreudensteinRoth::scale(u / unknowns_, p, unknowns, parameters);
+    unknowns *= unknowns_;
   }
 
  private:

@@ -161,7 +161,8 @@ TEST_CASE("A corner of any angle is turned at the border itself") {
 TEST_CASE("A corner at which the parameter turns back is a fold of its own kind") {
   const Branch branch = trace(Corner(1, -2), guess_of({-1}, -1), over("p", -1, 1));
   CHECK(branch.stop == Stop::left_range);
-  const auto folds = of_type(branch, PointType::fold);
+  CHECK(of_type(branch, PointType::fold).empty());
+  const auto folds = of_type(branch, PointType::corner_fold);
   REQUIRE(folds.size() == 1);
   CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-14));
   CHECK_THAT(branch.points.back().unknowns(0), WithinRel(0.5, 1e-10));
@@ -216,7 +217,7 @@ TEST_CASE("Each end of a branch has its reason") {
     }
   };
   const Branch wall = trace(Wall(), guess_of({1.2}, 0.5), over("mu", 0.5, 2));
-  CHECK(wall.stop == Stop::min_step);
+  CHECK(wall.stop == Stop::no_value);
   CHECK_THAT(wall.points.back().parameters(0), WithinAbs(1, 1e-8));
   CHECK_THAT(wall.explanation, ContainsSubstring("min_step"));
 
@@ -229,7 +230,7 @@ TEST_CASE("Each end of a branch has its reason") {
     }
   };
   const Branch broken = trace(Broken(), guess_of({1.2}, 0.5), over("mu", 0.5, 2));
-  CHECK(broken.stop == Stop::min_step);
+  CHECK(broken.stop == Stop::no_value);
   for (const BranchPoint& point : broken.points) CHECK(std::isfinite(point.unknowns(0)));
 }
 

@@ -5,50 +5,52 @@
 //   [ J    B ] [x]   [f]
 //   [ C^T  D ] [y] = [g]
 //
-// with J n x n and 1 to 3 borders, factored whole, so that J itself may be singular.
+// with J n x n, dense or sparse, and a few borders, factored whole, so that J itself may be singular.
 
-#include <Eigen/LU>
-#include <vector>
+#include <memory>
 
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
 
-/// Dense, by LU with partial pivoting. The matrix is filled by its blocks, then factored. Up to 16 rows,
-/// where calls would cost more than arithmetic, elimination is done in place and nothing is allocated;
-/// beyond, Eigen's blocked factorisation takes over.
+/// Set the blocks, factor, solve. Blocks stay as they were set until they are set again.
 class BorderedSolver {
  public:
-  BorderedSolver(Index size, Index borders);
+  virtual ~BorderedSolver() = default;
 
-  Index size() const { return size_; }
-  Index borders() const { return matrix_.rows() - size_; }
+  Index size() const { return rows_.cols(); }
+  Index borders() const { return rows_.rows(); }
 
-  auto jacobian() { return matrix_.topLeftCorner(size_, size_); }            ///< J, n x n
-  auto columns() { return matrix_.topRightCorner(size_, borders()); }        ///< B, n x borders
-  auto rows() { return matrix_.bottomLeftCorner(borders(), size_); }         ///< C^T, borders x n
-  auto corner() { return matrix_.bottomRightCorner(borders(), borders()); }  ///< D, borders x borders
+  Matrix& columns() { return columns_; }  ///< B, n x borders
+  Matrix& rows() { return rows_; }        ///< C^T, borders x n
+  Matrix& corner() { return corner_; }    ///< D, borders x borders
 
-  /// Factors the matrix and returns the sign of its determinant: 0 if it is singular or not finite.
-  double factor();
+  /// Sets J = `jacobian` diag(`column_scale`), n x n; of the scale, the first n entries count. The two throw
+  /// std::logic_error in a solver of the other kind.
+  virtual void set_jacobian(const Matrix& jacobian, const Vector& column_scale);
+  virtual void set_jacobian(const SparseMatrix& jacobian, const Vector& column_scale);
 
-  /// Overwrites (f, g) by (x, y), after `factor` has returned a sign.
-  void solve(Vector& right_hand_side);
+  /// Factors the whole and returns the sign of its determinant: 0 if it is singular or not finite.
+  virtual double factor() = 0;
+
+  /// Overwrites (f, g), n + borders, by (x, y), after `factor` has returned a sign.
+  virtual void solve(Vector& right_hand_side) = 0;
 
   /// The same with the transposed matrix.
-  void solve_transposed(Vector& right_hand_side);
+  virtual void solve_transposed(Vector& right_hand_side) = 0;
+
+ protected:
+  BorderedSolver(Index size, Index borders);
+  BorderedSolver(const BorderedSolver&) = delete;
+  BorderedSolver& operator=(const BorderedSolver&) = delete;
 
  private:
-  bool small() const { return matrix_.rows() <= 16; }
-  double factor_small();
-  double permutation_sign();
-
-  Index size_;
-  Matrix matrix_;
-  Matrix factors_;             // small: unit lower and upper triangle in one
-  std::vector<Index> pivots_;  // small: row exchanged with row i
-  Eigen::PartialPivLU<Matrix> lu_;
-  Vector solution_;
+  Matrix columns_;
+  Matrix rows_;
+  Matrix corner_;
 };
+
+/// A solver for n = `size` unknowns; throws std::invalid_argument for a negative number of either.
+std::unique_ptr<BorderedSolver> make_bordered_solver(Index size, Index borders, bool sparse);
 
 }  // namespace arcslip::continuation

@@ -2,30 +2,46 @@
 
 // A traced branch: plain data.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "arcslip/continuation/corrector.hpp"
+#include "arcslip/continuation/checkpoint.hpp"
+#include "arcslip/continuation/point_type.hpp"
 
 namespace arcslip::continuation {
 
-enum class PointType { regular, start, end, regime_switch, fold, peak, trough, user };
-
-/// As written to files: `regular`, `start`, `end`, `switch`, `fold`, `peak`, `trough`, `user`.
-std::string_view to_string(PointType type);
-
 struct BranchPoint {
   PointType type = PointType::regular;
-  int regime = 0;        ///< at a switch, the regime that the branch enters
-  Vector unknowns;       ///< n
-  Vector parameters;     ///< all of the problem's
-  double arclength = 0;  ///< from the start, in the problem's scale
-  int iterations = 0;    ///< Newton corrections spent on the point
-  double residual = 0;   ///< largest entry of F
+  int regime = 0;             ///< at a switch, the regime that the branch enters
+  Vector unknowns;            ///< n
+  Vector parameters;          ///< all of the problem's
+  double arclength = 0;       ///< from the start, in the problem's scale
+  int iterations = 0;         ///< Newton corrections spent on the point
+  double residual = 0;        ///< largest entry of F
+  Vector tangent;             ///< n + 1: d(u, p_a)/d arclength, of the piece that leaves
+  Vector arrival;             ///< the same of the piece that arrives, at a switch; else empty
+  ComplexVector eigenvalues;  ///< of an equilibrium; else empty
+  int unstable = -1;          ///< how many of them have a positive real part; -1 where there are none
+  std::string label;          ///< the name of a user's event
 };
 
-enum class Stop { reached_end, left_range, max_points, min_step, interrupted, no_start, grazing_border };
+enum class Stop {
+  reached_end,     ///< the last value was reached
+  closed_loop,     ///< the branch came back to its start
+  requested,       ///< `stop_after` was satisfied
+  left_range,      ///< the branch came back to its first value
+  left_regime,     ///< it ended on a border that nothing lies beyond
+  unbounded,       ///< an unknown grew beyond `bound`
+  max_points,      ///< as many points as allowed were stored
+  time_limit,      ///< `max_seconds` have passed
+  interrupted,     ///< the observer asked for it
+  no_value,        ///< the problem cannot be evaluated further on
+  min_step,        ///< no step of at least `min_step` is acceptable
+  grazing_border,  ///< the piece beyond a border does not leave it
+  no_start         ///< there is no solution near the guess
+};
 
 /// As written to files: `reached_end`, `left_range`, and so on.
 std::string_view to_string(Stop stop);
@@ -34,9 +50,16 @@ struct Branch {
   std::vector<BranchPoint> points;  ///< in the order traced
   Stop stop = Stop::no_start;
   std::string explanation;  ///< the reason of the stop, a sentence
+  /// Why the part before the start ended, of a branch traced in both directions.
+  std::optional<Stop> first_stop;
   Work work;
+  /// From where `resume` goes on; empty if there is nothing further.
+  std::optional<Checkpoint> checkpoint;
 
-  bool complete() const { return stop == Stop::reached_end; }
+  /// Whether the branch ended as asked: on its last value, as a closed loop or by `stop_after`.
+  bool complete() const {
+    return stop == Stop::reached_end || stop == Stop::closed_loop || stop == Stop::requested;
+  }
 };
 
 }  // namespace arcslip::continuation

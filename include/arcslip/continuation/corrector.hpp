@@ -9,7 +9,7 @@
 // 1983]. Either way the Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
 
 #include "arcslip/continuation/bordered_solver.hpp"
-#include "arcslip/continuation/problem.hpp"
+#include "arcslip/continuation/linearization.hpp"
 
 namespace arcslip::continuation {
 
@@ -40,7 +40,9 @@ struct Work {
   long rejected_steps = 0;
 };
 
-/// Owns its work space: nothing is allocated after construction.
+Work operator+(const Work& a, const Work& b);
+
+/// Owns its work space: nothing is allocated after construction, but for what a sparse factorisation needs.
 class Corrector {
  public:
   Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options);
@@ -83,6 +85,9 @@ class Corrector {
   /// Factors the problem at a point that is already on the branch, with its own scale, for `direction()`.
   Correction linearise(CurvePoint& point, const Vector& normal);
 
+  /// Whether the bordered Jacobian last factored is singular but for rounding.
+  bool nearly_singular();
+
   Work& work() { return work_; }
 
  private:
@@ -90,22 +95,21 @@ class Corrector {
   bool factor(const Vector& scale, const Vector& normal);
   bool solve_direction();
   void apply(CurvePoint& point, const CurvePoint& origin);
-  double rounding_level(const CurvePoint& point) const;
+  double rounding_level(const CurvePoint& point);
 
   const Problem& problem_;
   Index size_;
   Index parameter_;
   CorrectorOptions options_;
-  BorderedSolver solver_;
+  Linearization linearization_;
+  std::unique_ptr<BorderedSolver> solver_;
   Work work_;
   double contraction_ = 0;
   double border_sign_ = 0;  // sign of det [J F_p; normal^T]
-  Vector residual_;
-  Matrix jacobian_;
-  Matrix parameter_jacobian_;
   Vector correction_;
   Vector direction_;
   Vector unknown_scale_;
+  Vector magnitudes_;  // of the terms of F
   Vector parameter_scale_;
   Vector parameter_normal_;  // the condition that keeps the parameter
 };

@@ -1,43 +1,31 @@
 #pragma once
 
-// What may happen within a step: a fold, an extremum of a tracked observable, the end of the regime. Each is
+// What may happen within a step: a fold, an extremum of a tracked observable, a branch point, a pair of
+// eigenvalues on the imaginary axis, a zero of a test or of a user's function, the end of the regime. Each is
 // a zero of a function along the branch and is solved for on the branch itself, to rounding.
 
-#include <optional>
 #include <vector>
 
-#include "arcslip/continuation/stepper.hpp"
+#include "arcslip/continuation/watch.hpp"
 
 namespace arcslip::continuation {
 
-/// Signs of the derivatives along the branch as last seen, 0 where one has vanished; an event changes a sign.
-/// They are remembered, not computed again, since just behind an extremum the sign is noise.
-struct Signs {
-  int parameter = 0;
-  std::vector<int> observables;
-
-  /// The signs at the start of a piece.
-  void reset(const std::vector<Monitor>& monitors, Index tracked, double parameter_rate);
-
-  /// Takes over the signs at the end of a step.
-  void update(const std::vector<Monitor>& monitors, double parameter_rate);
-};
-
-/// Sign of a derivative, 0 below rounding of the value it belongs to.
-int sign_of_slope(const Monitor& monitor);
+/// Whether the parameter may turn at a point of this type without a fold of its own.
+bool explains_fold(PointType type);
 
 struct Event {
-  enum class Kind { fold, extremum, crossing };
+  enum class Kind { border, fold, extremum, crossing, function, pair };
   Kind kind;
-  Index index;  ///< of the tracked observable or of the border
+  PointType type;
+  Index index;  ///< of the border, observable, function or eigenvalue
   double s;     ///< where in the step
 };
 
 struct EventSearch {
-  bool solved = true;          ///< false if an event is there but could not be located: take a shorter step
-  std::optional<Event> first;  ///< the first one in the step
+  bool solved = true;         ///< false if an event is there but could not be located: take a shorter step
+  std::vector<Event> events;  ///< the first one in the step, and those that fall together with it
 };
 
-EventSearch find_first_event(Stepper& stepper, const Signs& signs);
+EventSearch find_first_events(Stepper& stepper, Watch& watch, const Signs& signs);
 
 }  // namespace arcslip::continuation

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/continuation/point_type.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -52,8 +53,20 @@ class Problem {
   /// of them that cross the imaginary axis are Hopf points.
   virtual bool is_equilibrium() const { return false; }
 
+  /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
+  /// takes those of a dense equilibrium's Jacobian.
+  virtual bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const;
+
+  /// What a pair of these that crosses the imaginary axis is called.
+  virtual PointType pair_crossing() const { return PointType::hopf; }
+
+  /// Functions along a branch whose zeros are special points: the types of these points, and the functions'
+  /// values, in the same order.
+  virtual std::vector<PointType> test_types() const { return {}; }
+  virtual void test(const Vector& u, const Vector& p, int regime, Vector& values) const;
+
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
-  /// spans decades gives its own value. The default is 1 for everything.
+  /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
 
   virtual std::vector<std::string> regime_names() const { return {"smooth"}; }
@@ -62,7 +75,7 @@ class Problem {
   /// Value of a border function, negative inside `regime`, and its gradient where that is not null.
   virtual double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const;
 
-  /// The regime that a branch enters across this border.
+  /// The regime that a branch enters across this border; -1 where the branch ends on it.
   virtual int regime_beyond(int regime, int border) const;
 
   /// What is written beside each point, besides u and p.

@@ -5,21 +5,14 @@
 // passes folds) or the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a
 // vertical tangent misses the branch, and lands on values); the caller turns to the other when one fails.
 
+#include <optional>
 #include <vector>
 
+#include "arcslip/continuation/checkpoint.hpp"
 #include "arcslip/continuation/corrector.hpp"
 #include "arcslip/continuation/step_control.hpp"
 
 namespace arcslip::continuation {
-
-enum class Hold { tangent, parameter };
-
-/// Value of a function along the branch and its derivative in the step's coordinate s = normal . (z -
-/// z_here)/scale.
-struct Monitor {
-  double value = 0;
-  double slope = 0;
-};
 
 class Stepper {
  public:
@@ -31,6 +24,18 @@ class Stepper {
 
   /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
   Correction start(const Vector& unknowns, const Vector& parameters, int regime, double forward);
+
+  /// Starts at a point along a direction, n + 1 of (u, p_a). A point that already solves the problem stays
+  /// as it is, so that the start may be a branch point.
+  Correction start_along(const Vector& unknowns, const Vector& parameters, int regime,
+                         const Vector& direction);
+
+  /// Puts back what a checkpoint holds.
+  void restore(const Checkpoint& checkpoint);
+  const Vector& bend() const { return bend_; }
+
+  /// Why the last attempt was not kept, where the corrector failed.
+  Correction last_correction() const { return last_correction_; }
 
   /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented
   /// into it.
@@ -81,11 +86,28 @@ class Stepper {
   /// off the branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
   Correction settle_on_border(int border);
 
+  /// The branch point within the step, if the step passes one.
+  struct Crossing {
+    double s = 0;
+    CurvePoint point;
+  };
+  const std::optional<Crossing>& crossing() const { return crossing_; }
+
+  /// Ends the step at the branch point in it.
+  void cut_at_crossing();
+
+  /// Whether a point of the branch's past lies within the step, passed in the same direction; the step then
+  /// ends there if `cut` is called with the value.
+  std::optional<double> passes(const CurvePoint& past);
+
   /// Makes `there` the new `here`.
   void advance();
 
  private:
   void begin_piece(const CurvePoint& origin);
+  void interpolate(double s, Vector& out) const;
+  bool find_crossing();
+  bool locate_crossing(double s);
   void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
   double arc_rate() const;                                      // arclength per distance at there_
   void set_condition(Hold hold);
@@ -115,6 +137,8 @@ class Stepper {
   Vector bend_;  // d^2 z/ds^2 over the last step, along the arc, in here_'s scale
   Vector next_bend_;
   StepSignals signals_;
+  Correction last_correction_ = Correction::converged;
+  std::optional<Crossing> crossing_;
   std::vector<Monitor> at_here_;  // with slopes along the unit tangent
   std::vector<Monitor> from_;
   std::vector<Monitor> to_;

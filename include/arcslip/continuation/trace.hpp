@@ -3,6 +3,7 @@
 // Pseudo-arclength continuation of F(u, p) = 0 in one parameter, through regimes with located borders.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,25 @@ struct Guess {
   Vector unknowns;
   Vector parameters;
   int regime = 0;
+  /// n + 1, in (u, p_a), of any length: the branch starts right here and goes this way. Empty: it starts at
+  /// `TraceOptions::from` and goes towards `to`.
+  Vector direction = {};
+};
+
+/// A stored point as a guess, to restart from: `forward` goes on as the branch did.
+Guess restart(const BranchPoint& point, bool forward = true);
+
+/// A function whose zeros along the branch become `event` points.
+struct UserEvent {
+  std::string name;
+  std::function<double(const Vector& u, const Vector& p, int regime)> function;
+};
+
+/// Ends the branch at the count-th special point of a type; of an `event`, of those with this label.
+struct StopAfter {
+  PointType type;
+  long count = 1;
+  std::string label;
 };
 
 struct TraceOptions {
@@ -24,18 +44,40 @@ struct TraceOptions {
   double to = 1;                        ///< its last value, on which the branch ends exactly
   std::vector<double> stop_at;          ///< values to put a `user` point on, in any order
   std::vector<std::string> extrema_of;  ///< observables whose extrema become `peak` and `trough` points
+  std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
+  std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
   double tolerance = 1e-10;             ///< on the largest entry of F
   double max_step = 0.1;                ///< largest step, in scaled arclength
   double min_step = 1e-10;              ///< smallest step; a branch that asks for less has ended
   long max_points = 100000;
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock
+  double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
 };
 
 /// Called at each point stored; false ends the branch as `interrupted`.
 using Observer = std::function<bool(const BranchPoint&)>;
 
-/// Traces the branch from `options.from` to `options.to`. A branch that cannot be traced to its end holds
-/// what was traced and says why. Throws std::invalid_argument for options that do not fit the problem.
+/// Traces the branch from `options.from` to `options.to`, or from a guess with a direction until it reaches
+/// one of the two. A branch that cannot be traced to its end holds what was traced and says why. Throws
+/// std::invalid_argument for options that do not fit the problem.
 Branch trace(const Problem& problem, const Guess& guess, const TraceOptions& options,
              const Observer& observer = {});
+
+/// Traces one way from a guess that may lie anywhere between `from` and `to`, setting out towards `to` or
+/// towards `from`; a guess with a direction goes along it or against it.
+Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to, const TraceOptions& options,
+                     const Observer& observer = {});
+
+/// Both ways: the part that sets out towards `from` comes first, reversed, with negative arclength. A closed
+/// loop is traced once.
+Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,
+                  const Observer& observer = {});
+
+/// Two parts from one start as one branch, the first reversed.
+Branch join(Branch first, Branch second);
+
+/// Goes on from a checkpoint as if the branch had never been left; the points are those that were to follow.
+Branch resume(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
+              const Observer& observer = {});
 
 }  // namespace arcslip::continuation

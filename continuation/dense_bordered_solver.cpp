@@ -1,0 +1,120 @@
+#include "arcslip/continuation/dense_bordered_solver.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+double sign_of(double value) { return static_cast<double>(value > 0) - static_cast<double>(value < 0); }
+
+}  // namespace
+
+DenseBorderedSolver::DenseBorderedSolver(Index size, Index borders)
+    : BorderedSolver(size, borders),
+      matrix_(Matrix::Zero(size + borders, size + borders)),
+      factors_(matrix_),
+      pivots_(static_cast<std::size_t>(size + borders)),
+      lu_(small() ? 1 : size + borders),
+      solution_(size + borders) {}
+
+void DenseBorderedSolver::set_jacobian(const Matrix& jacobian, const Vector& column_scale) {
+  const Index n = size();
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) matrix_(i, j) = jacobian(i, j) * column_scale(j);
+  }
+}
+
+void DenseBorderedSolver::set_borders() {
+  const Index n = size();
+  for (Index k = 0; k < borders(); ++k) {
+    for (Index i = 0; i < n; ++i) {
+      matrix_(i, n + k) = columns()(i, k);
+      matrix_(n + k, i) = rows()(k, i);
+    }
+    for (Index i = 0; i < borders(); ++i) matrix_(n + i, n + k) = corner()(i, k);
+  }
+}
+
+double DenseBorderedSolver::factor() {
+  set_borders();
+  if (small()) return factor_small();
+  lu_.compute(matrix_);
+  double sign = permutation_sign();
+  for (const double pivot : lu_.matrixLU().diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
+  return sign;
+}
+
+double DenseBorderedSolver::factor_small() {
+  const Index n = matrix_.rows();
+  factors_ = matrix_;
+  double sign = 1;
+  for (Index k = 0; k < n; ++k) {
+    Index best = k;
+    for (Index i = k + 1; i < n; ++i) {
+      if (std::abs(factors_(i, k)) > std::abs(factors_(best, k))) best = i;
+    }
+    pivots_[static_cast<std::size_t>(k)] = best;
+    if (best != k) {
+      for (Index c = 0; c < n; ++c) std::swap(factors_(k, c), factors_(best, c));
+      sign = -sign;
+    }
+    const double pivot = factors_(k, k);
+    if (pivot == 0 || !std::isfinite(pivot)) return 0;
+    sign *= sign_of(pivot);
+    for (Index i = k + 1; i < n; ++i) {
+      const double factor = factors_(i, k) /= pivot;
+      for (Index c = k + 1; c < n; ++c) factors_(i, c) -= factor * factors_(k, c);
+    }
+  }
+  return sign;
+}
+
+void DenseBorderedSolver::solve(Vector& right_hand_side) {
+  Vector& x = right_hand_side;
+  if (!small()) {
+    solution_.noalias() = lu_.permutationP() * x;
+    lu_.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(solution_);
+    lu_.matrixLU().triangularView<Eigen::Upper>().solveInPlace(solution_);
+    x = solution_;
+    return;
+  }
+  const Index n = x.size();
+  for (Index k = 0; k < n; ++k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
+  for (Index k = 0; k < n; ++k) {
+    for (Index i = k + 1; i < n; ++i) x(i) -= factors_(i, k) * x(k);
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    x(k) /= factors_(k, k);
+    for (Index i = 0; i < k; ++i) x(i) -= factors_(i, k) * x(k);
+  }
+}
+
+void DenseBorderedSolver::solve_transposed(Vector& right_hand_side) {
+  Vector& x = right_hand_side;
+  const auto& factors = small() ? factors_ : lu_.matrixLU();
+  factors.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+  factors.triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
+  if (small()) {
+    for (Index k = x.size() - 1; k >= 0; --k) std::swap(x(k), x(pivots_[static_cast<std::size_t>(k)]));
+  } else {
+    solution_.noalias() = lu_.permutationP().inverse() * x;
+    x = solution_;
+  }
+}
+
+double DenseBorderedSolver::permutation_sign() {
+  const auto& image = lu_.permutationP().indices();
+  solution_.setZero();  // marks what has been seen
+  double sign = 1;
+  for (Index start = 0; start < image.size(); ++start) {
+    for (Index i = image(start); i != start && solution_(start) == 0;
+         i = image(i)) {  // a cycle of length l: l - 1
+      solution_(i) = 1;
+      sign = -sign;
+    }
+  }
+  return sign;
+}
+
+}  // namespace arcslip::continuation

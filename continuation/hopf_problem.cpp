@@ -1,0 +1,127 @@
+#include "arcslip/continuation/hopf_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "arcslip/continuation/borders.hpp"
+
+namespace arcslip::continuation {
+
+HopfProblem::HopfProblem(const Problem& base, Index active)
+    : ExtendedProblem(base, active, 2),
+      solver_(make_bordered_solver(2 * base.size(), 2, false)),
+      column_(spread(2 * base.size(), 1)),
+      row_(spread(2 * base.size(), 2)),
+      doubled_(Matrix::Zero(2 * base.size(), 2 * base.size())),
+      second_(base),
+      right_(2 * base.size() + 2),
+      left_{right_, right_} {
+  if (base.sparse()) throw std::invalid_argument("HopfProblem: only for dense problems");
+}
+
+bool HopfProblem::solve_borders(double omega) const {
+  const Index n = base().size();
+  doubled_.topLeftCorner(n, n) = at_.jacobian();
+  doubled_.bottomRightCorner(n, n) = at_.jacobian();
+  doubled_.topRightCorner(n, n).diagonal().setConstant(omega);
+  doubled_.bottomLeftCorner(n, n).diagonal().setConstant(-omega);
+  solver_->set_jacobian(doubled_, Vector::Ones(2 * n));
+  solver_->columns() << column_.head(n), -column_.tail(n), column_.tail(n), column_.head(n);
+  solver_->rows() << row_.head(n).transpose(), row_.tail(n).transpose(), -row_.tail(n).transpose(),
+      row_.head(n).transpose();
+  solver_->corner().setZero();
+  if (solver_->factor() == 0) return false;
+  right_.setUnit(2 * n);
+  solver_->solve(right_);
+  for (Index j = 0; j < 2; ++j) {
+    left_[j].setUnit(2 * n + j);
+    solver_->solve_transposed(left_[j]);
+  }
+  return right_.allFinite() && left_[0].allFinite() && left_[1].allFinite();
+}
+
+bool HopfProblem::adapt(const BasePoint& point) {
+  if (!ExtendedProblem::adapt(point)) return false;
+  const Index n = base().size();
+  const double size = at_.jacobian().cwiseAbs().rowwise().sum().maxCoeff() + std::abs(point.extras(0));
+  for (int i = 0; i < 3; ++i) {  // inverse iteration
+    if (!solve_borders(point.extras(0))) return false;
+    column_ = left_[0].head(2 * n) * (size / left_[0].head(2 * n).norm());
+    row_ = right_.head(2 * n).normalized();
+  }
+  return true;
+}
+
+bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
+  if (!solve_borders(point.extras(0))) return false;
+  const Index n = base().size();
+  values = right_.tail(2);
+  if (gradients == nullptr) return true;
+  const Vector none = Vector::Zero(point.parameters.size());
+  const Vector real = right_.head(n);
+  const Vector imaginary = right_.segment(n, n);
+  Vector row;
+  for (Index j = 0; j < 2; ++j) {
+    const auto a = left_[j].head(n);
+    const auto b = left_[j].segment(n, n);
+    gradients->row(j).setZero();
+    for (const bool first : {true, false}) {
+      if (!second_.contract(point.unknowns, point.parameters, point.regime, first ? a : b,
+                            first ? real : imaginary, none, row)) {
+        return false;
+      }
+      gradients->row(j).head(row.size()) -= row.transpose();
+    }
+    (*gradients)(j, row.size()) = b.dot(real) - a.dot(imaginary);
+  }
+  return true;
+}
+
+std::vector<Observable> HopfProblem::observables() const {
+  std::vector<Observable> result = ExtendedProblem::observables();
+  result.push_back({"omega"});
+  return result;
+}
+
+void HopfProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  ExtendedProblem::observe(u, p, regime, values);
+  values.conservativeResize(values.size() + 1);
+  values(values.size() - 1) = u(u.size() - 1);
+}
+
+bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+  const BasePoint point = split(u, p, regime);
+  ComplexVector all;
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, all)) return false;
+  const Complex critical(0, point.extras(0));
+  for (const Complex& away : {critical, std::conj(critical)}) {
+    const auto nearest = std::min_element(all.begin(), all.end(), [&](const Complex& x, const Complex& y) {
+      return std::norm(x - away) < std::norm(y - away);
+    });
+    std::swap(*nearest, all(all.size() - 1));
+    all.conservativeResize(all.size() - 1);
+  }
+  values = all;
+  return true;
+}
+
+void HopfProblem::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  values.resize(2);
+  values(0) = u(u.size() - 1);
+  values(1) = 1;
+  ComplexVector others;
+  if (!eigenvalues(u, p, regime, others)) return;
+  // The real eigenvalue next to zero, with the sign of the product of all.
+  double least = std::numeric_limits<double>::infinity();
+  double sign = 1;
+  for (const Complex& value : others) {
+    if (value.imag() != 0) continue;
+    least = std::min(least, std::abs(value.real()));
+    if (value.real() < 0) sign = -sign;
+  }
+  if (std::isfinite(least)) values(1) = sign * least;
+}
+
+}  // namespace arcslip::continuation

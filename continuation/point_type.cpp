@@ -1,0 +1,27 @@
+#include "arcslip/continuation/point_type.hpp"
+
+namespace arcslip::continuation {
+
+std::string_view to_string(PointType type) {
+  switch (type) {
+    case PointType::regular: return "regular";
+    case PointType::start: return "start";
+    case PointType::end: return "end";
+    case PointType::regime_switch: return "switch";
+    case PointType::fold: return "fold";
+    case PointType::corner_fold: return "corner_fold";
+    case PointType::branch_point: return "branch_point";
+    case PointType::hopf: return "hopf";
+    case PointType::peak: return "peak";
+    case PointType::trough: return "trough";
+    case PointType::user: return "user";
+    case PointType::event: return "event";
+    case PointType::cusp: return "cusp";
+    case PointType::bogdanov_takens: return "bogdanov_takens";
+    case PointType::zero_hopf: return "zero_hopf";
+    case PointType::hopf_hopf: return "hopf_hopf";
+  }
+  return "";
+}
+
+}  // namespace arcslip::continuation

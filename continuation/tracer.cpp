@@ -1,0 +1,341 @@
+#include "arcslip/continuation/tracer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/corner.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double rounding = 1e-13;
+
+std::vector<Index> tracked_observables(const Problem& problem, const TraceOptions& options) {
+  const std::vector<Observable> observables = problem.observables();
+  std::vector<std::string> names;
+  names.reserve(observables.size());
+  for (const Observable& observable : observables) names.push_back(observable.name);
+  std::vector<Index> tracked;
+  for (const std::string& name : options.extrema_of) {
+    tracked.push_back(index_of(names, name));
+    if (!observables[static_cast<std::size_t>(tracked.back())].has_gradient) {
+      throw std::invalid_argument(fmt::format("extrema_of: '{}' has no gradient", name));
+    }
+  }
+  return tracked;
+}
+
+}  // namespace
+
+Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observer& observer)
+    : problem_(problem),
+      options_(options),
+      observer_(observer),
+      parameter_(index_of(problem.parameter_names(), options.parameter)),
+      corrector_(problem, parameter_, {options.tolerance}),
+      stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step),
+      watch_(problem, options.events),
+      targets_(problem, parameter_, options) {
+  state_.distance = 0.1 * options.max_step;
+  branch_.points.reserve(256);
+}
+
+Branch Tracer::run(const Guess& guess, double forward) {
+  start(guess, forward);
+  return go_on();
+}
+
+Branch Tracer::run(const Checkpoint& checkpoint) {
+  state_ = checkpoint;
+  stepper_.restore(checkpoint);
+  watch_.look(stepper_.here());
+  return go_on();
+}
+
+Branch Tracer::go_on() {
+  while (!stopped_) {
+    check_limits();
+    if (!stopped_) step();
+  }
+  branch_.work = corrector_.work();
+  const bool further = branch_.stop == Stop::max_points || branch_.stop == Stop::time_limit ||
+                       branch_.stop == Stop::interrupted || branch_.stop == Stop::requested;
+  if (further && !branch_.points.empty()) {
+    state_.here = stepper_.here();
+    state_.bend = stepper_.bend();
+    state_.monitors = stepper_.at_here();
+    branch_.checkpoint = std::move(state_);
+  }
+  return std::move(branch_);
+}
+
+void Tracer::check_limits() {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
+  const CurvePoint& here = stepper_.here();
+  const Index n = corrector_.size();
+  if (interrupted_) return stop(Stop::interrupted, fmt::format("interrupted at {}", place()));
+  if (satisfied_) return stop(Stop::requested, fmt::format("stop_after was satisfied at {}", place()));
+  if (static_cast<long>(branch_.points.size()) >= options_.max_points) {
+    return stop(Stop::max_points, fmt::format("max_points = {} points were stored; the branch stands at {}",
+                                              options_.max_points, place()));
+  }
+  if (spent.count() >= options_.max_seconds) {
+    return stop(Stop::time_limit, fmt::format("max_seconds = {:g} have passed; the branch stands at {}",
+                                              options_.max_seconds, place()));
+  }
+  const double largest = here.unknowns.cwiseQuotient(state_.start.scale.head(n)).lpNorm<Eigen::Infinity>();
+  if (largest > options_.bound) {
+    stop(Stop::unbounded,
+         fmt::format("an unknown grew beyond bound = {:g} times its scale at the start, at {}",
+                     options_.bound, place()));
+  }
+}
+
+void Tracer::step() {
+  while (!try_step()) {
+    ++corrector_.work().rejected_steps;
+    if (length() >= options_.min_step) continue;
+    const Correction last = stepper_.last_correction();
+    return stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
+                fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}",
+                            options_.min_step, place(), reason(last)));
+  }
+  take();
+}
+
+bool Tracer::try_step() {
+  double& distance = state_.distance;
+  distance = std::min(distance, options_.max_step / stepper_.slope_length(state_.hold));
+  const double rate = stepper_.parameter_slope(state_.hold);
+  landing_ = targets_.ahead(value(), rate > 0 ? 1 : -1, 1.1 * distance * std::abs(rate) * parameter_scale(),
+                            rounding * parameter_scale());
+  if (landing_ != nullptr) return try_landing();
+  if (!stepper_.attempt(state_.hold, distance)) {
+    const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
+    const Hold held = state_.hold;
+    use(state_.hold == Hold::tangent ? Hold::parameter : Hold::tangent);
+    if (!stepper_.attempt(state_.hold, distance)) {
+      use(held);
+      distance *= factor;
+      return false;
+    }
+  }
+  if (find_events()) return true;
+  distance *= 0.5;
+  return false;
+}
+
+bool Tracer::try_landing() {
+  if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
+  // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
+  const double distance = stepper_.distance();
+  const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
+  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) return true;
+  use(Hold::parameter);
+  state_.distance = 0.5 * distance;
+  return false;
+}
+
+/// Looks for events in the step; false if it has to be shorter. A target must not be passed, but by a step
+/// that ends before it.
+bool Tracer::find_events() {
+  closing_.reset();
+  if (!watch_.empty()) watch_.look(stepper_.there());
+  EventSearch search = find_first_events(stepper_, watch_, state_.signs);
+  events_ = std::move(search.events);
+  if (!search.solved) return false;
+  if (branch_.points.size() > 2 || state_.arclength > 0) closing_ = stepper_.passes(state_.start);
+  if (closing_ && !events_.empty() && events_.front().s < *closing_) closing_.reset();
+  if (closing_) events_.clear();
+  if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there());
+  const double s = closing_ ? *closing_ : events_.front().s;
+  if (stepper_.crossing() && stepper_.crossing()->s == s) return !passes_target(stepper_.crossing()->point);
+  return stepper_.probe(s) && !passes_target(stepper_.probed_point());
+}
+
+/// Whether a target lies between here and a point of the step, which then has to land on it first.
+bool Tracer::passes_target(const CurvePoint& point) const {
+  return targets_.between(value(), point.parameters(parameter_), same_value * parameter_scale());
+}
+
+void Tracer::use(Hold hold) {
+  const double now = length();
+  state_.hold = hold;
+  state_.distance = now / stepper_.slope_length(hold);
+}
+
+void Tracer::take() {
+  const bool whole = landing_ == nullptr && events_.empty() && !closing_;
+  const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
+  const int sign_beyond = sign_of(stepper_.parameter_rate_to());
+  if (!events_.empty() || closing_) {
+    const double s = closing_ ? *closing_ : events_.front().s;
+    if (stepper_.crossing() && stepper_.crossing()->s == s) {
+      stepper_.cut_at_crossing();
+    } else {
+      stepper_.probe(s);
+      stepper_.cut(s);
+    }
+    for (const Event& event : events_) {
+      if (event.kind == Event::Kind::border) stepper_.settle_on_border(static_cast<int>(event.index));
+    }
+  }
+  state_.arclength += stepper_.chord();
+  stepper_.advance();
+  if (whole) state_.distance *= factor;
+  const Signs before = state_.signs;
+  if (!watch_.empty()) watch_.look(stepper_.here());
+  update(state_.signs, stepper_, watch_);
+  if (closing_) {
+    store(PointType::end);
+    return stop(Stop::closed_loop, "the branch came back to its start");
+  }
+  if (!events_.empty()) return take_events(before, sign_beyond);
+  if (landing_ != nullptr) return take_target(*landing_);
+  store(PointType::regular);
+}
+
+void Tracer::take_events(const Signs& before, int sign_beyond) {
+  const auto is_border = [](const Event& event) { return event.kind == Event::Kind::border; };
+  const auto borders = std::count_if(events_.begin(), events_.end(), is_border);
+  for (const Event& event : events_) take_event(event, before, sign_beyond);
+  if (borders > 0) {
+    cross(static_cast<int>(std::find_if(events_.begin(), events_.end(), is_border)->index), borders > 1);
+  }
+  if (stopped_) return;
+  if (const Target* target = targets_.at(value(), same_value * parameter_scale());
+      target != nullptr && state_.arclength > 0) {
+    if (target->kind == Target::Kind::end || target->kind == Target::Kind::user) take_target(*target);
+  }
+}
+
+void Tracer::take_event(const Event& event, const Signs& before, int sign_beyond) {
+  const auto index = static_cast<std::size_t>(event.index);
+  Signs& signs = state_.signs;
+  switch (event.kind) {
+    case Event::Kind::fold:
+      signs.parameter = -before.parameter;
+      count_unstable(before, false);
+      break;
+    case Event::Kind::extremum: signs.observables[index] = -before.observables[index]; break;
+    case Event::Kind::crossing:
+      signs.parameter = sign_beyond != 0 ? sign_beyond : before.parameter;
+      count_unstable(before, signs.parameter != before.parameter);
+      break;
+    case Event::Kind::pair:
+      signs.unstable = before.unstable + (event.index < before.unstable ? -2 : 2);
+      break;
+    case Event::Kind::function:
+      signs.functions[index] = -before.functions[index];
+      if (explains_fold(event.type) && sign_beyond != 0) signs.parameter = sign_beyond;
+      return store(event.type, watch_.label(index));
+    case Event::Kind::border: return;
+  }
+  store(event.type);
+}
+
+/// At a fold or a branch point one real eigenvalue vanishes. It changes sign unless the branch turns at a
+/// branch point: then it only touches zero.
+void Tracer::count_unstable(const Signs& before, bool turns) {
+  if (before.unstable < 0) return;
+  state_.signs.unstable = before.unstable;
+  if (turns) return;
+  Index nearest = 0;
+  watch_.eigenvalues().cwiseAbs().minCoeff(&nearest);
+  state_.signs.unstable += nearest < before.unstable ? -1 : 1;
+}
+
+void Tracer::take_target(const Target& target) {
+  switch (target.kind) {
+    case Target::Kind::landmark: return store(PointType::regular);
+    case Target::Kind::user: return store(PointType::user);
+    case Target::Kind::end:
+      store(PointType::end);
+      return stop(Stop::reached_end, "the last value was reached");
+    case Target::Kind::bound:
+      store(PointType::end);
+      return stop(Stop::left_range, "the branch came back to its first value");
+  }
+}
+
+Correction Tracer::leave(int border, bool several) {
+  if (!several) return stepper_.enter(problem_.regime_beyond(stepper_.here().regime, border));
+  const CurvePoint& here = stepper_.here();
+  const Vector arrival = raw_tangent().cwiseQuotient(here.scale);
+  const Guess corner{here.unknowns, here.parameters, here.regime, {}};
+  const Guess* best = nullptr;
+  double straightest = -0.999999;  // the piece that the branch came on is none of them
+  const std::vector<Guess> pieces = leaving_pieces(problem_, parameter_, corner);
+  for (const Guess& piece : pieces) {
+    const double along = piece.direction.cwiseQuotient(here.scale).normalized().dot(arrival);
+    if (along > straightest) {
+      straightest = along;
+      best = &piece;
+    }
+  }
+  if (best == nullptr) return Correction::singular;
+  const Guess next = *best;
+  return stepper_.start_along(next.unknowns, next.parameters, next.regime, next.direction);
+}
+
+void Tracer::cross(int border, bool several) {
+  if (!several && problem_.regime_beyond(stepper_.here().regime, border) < 0) {
+    store(PointType::end);
+    return stop(Stop::left_regime,
+                fmt::format("the branch ends on the border of its regime, at {}", place()));
+  }
+  const Signs before = state_.signs;
+  const double length_before = length();
+  const double change = state_.distance * std::abs(stepper_.parameter_slope(state_.hold));
+  const Vector arrival = raw_tangent();
+  if (leave(border, several) != Correction::converged) {
+    store(PointType::regime_switch, {}, arrival);
+    return stop(Stop::grazing_border,
+                fmt::format("the branch beyond the border does not leave it, at {}", place()));
+  }
+  if (!watch_.empty()) watch_.look(stepper_.here());
+  store(PointType::regime_switch, {}, arrival);
+  corner_events(before);
+  // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
+  state_.distance = std::max(change / std::abs(stepper_.parameter_slope(state_.hold)),
+                             1e-3 * length_before / stepper_.slope_length(state_.hold));
+}
+
+/// Extrema and folds that are corners: a derivative jumps from one sign to the other.
+void Tracer::corner_events(const Signs& before) {
+  state_.signs = signs_at_start(stepper_, watch_);
+  if (before.parameter * state_.signs.parameter < 0) store(PointType::corner_fold);
+  for (std::size_t i = 0; i < state_.signs.observables.size(); ++i) {
+    if (before.observables[i] * state_.signs.observables[i] >= 0) continue;
+    store(state_.signs.observables[i] < 0 ? PointType::peak : PointType::trough);
+  }
+}
+
+/// d(u, p_a)/d arclength.
+Vector Tracer::raw_tangent() const { return stepper_.here().tangent.cwiseProduct(stepper_.here().scale); }
+
+std::string Tracer::place() const { return fmt::format("{} = {:.10g}", options_.parameter, value()); }
+
+void Tracer::store(PointType type, const std::string& label, const Vector& arrival) {
+  const CurvePoint& here = stepper_.here();
+  branch_.points.push_back({type, here.regime, here.unknowns, here.parameters, state_.arclength,
+                            here.iterations, here.residual, raw_tangent(), arrival, watch_.eigenvalues(),
+                            watch_.unstable(), label});
+  if (type != PointType::regular && (type != PointType::start) && !options_.stop_after.empty()) {
+    const long found = ++state_.found[std::string(to_string(type)) + label];
+    for (const StopAfter& rule : options_.stop_after)
+      satisfied_ = satisfied_ || (rule.type == type && rule.label == label && found >= rule.count);
+  }
+  if (observer_ && !observer_(branch_.points.back())) interrupted_ = true;
+}
+
+void Tracer::stop(Stop reason, std::string explanation) {
+  if (stopped_) return;
+  stopped_ = true;
+  branch_.stop = reason;
+  branch_.explanation = std::move(explanation);
+}
+
+}  // namespace arcslip::continuation

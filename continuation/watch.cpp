@@ -1,0 +1,67 @@
+#include "arcslip/continuation/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+int sign_of_slope(const Monitor& monitor) {
+  return std::abs(monitor.slope) <= 1e-14 * std::abs(monitor.value) ? 0 : sign_of(monitor.slope);
+}
+
+Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
+    : problem_(problem), events_(events), tests_(problem.test_types()) {
+  functions_.reserve(tests_.size() + events.size());
+}
+
+void Watch::look(const CurvePoint& point) {
+  functions_.clear();
+  if (!tests_.empty()) {
+    problem_.test(point.unknowns, point.parameters, point.regime, values_);
+    functions_.assign(values_.begin(), values_.end());
+  }
+  for (const UserEvent& event : events_)
+    functions_.push_back(event.function(point.unknowns, point.parameters, point.regime));
+  spectral_ = spectral_ && problem_.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues_);
+  if (!spectral_) {
+    eigenvalues_.resize(0);
+    unstable_ = -1;
+    return;
+  }
+  std::sort(eigenvalues_.begin(), eigenvalues_.end(), [](const Complex& a, const Complex& b) {
+    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
+  });
+  unstable_ = static_cast<int>(
+      std::count_if(eigenvalues_.begin(), eigenvalues_.end(), [](const Complex& z) { return z.real() > 0; }));
+}
+
+PointType Watch::type(std::size_t function) const {
+  return function < tests_.size() ? tests_[function] : PointType::event;
+}
+
+const std::string& Watch::label(std::size_t function) const {
+  return function < tests_.size() ? none_ : events_[function - tests_.size()].name;
+}
+
+Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
+  Signs signs;
+  signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
+  for (Index i = 0; i < stepper.tracked_count(); ++i)
+    signs.observables.push_back(sign_of_slope(stepper.at_here()[static_cast<std::size_t>(i)]));
+  for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
+  signs.unstable = watch.unstable();
+  return signs;
+}
+
+void update(Signs& signs, const Stepper& stepper, const Watch& watch) {
+  const double rate = stepper.parameter_slope(Hold::tangent);
+  if (sign_of(rate) != 0) signs.parameter = sign_of(rate);
+  for (std::size_t i = 0; i < signs.observables.size(); ++i) {
+    if (const int sign = sign_of_slope(stepper.at_here()[i]); sign != 0) signs.observables[i] = sign;
+  }
+  for (std::size_t i = 0; i < signs.functions.size(); ++i) {
+    if (const int sign = sign_of(watch.functions()[i]); sign != 0) signs.functions[i] = sign;
+  }
+  signs.unstable = watch.unstable();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,26 @@
+#pragma once
+
+// What the choice of borders has in common.
+
+#include <cmath>
+
+#include "arcslip/continuation/linearization.hpp"
+
+namespace arcslip::continuation {
+
+/// A vector without symmetry, of unit length, as a first border: it must not be orthogonal to a null vector.
+inline Vector spread(Index size, int which) {
+  Vector v(size);
+  for (Index i = 0; i < size; ++i) v(i) = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i) + which);
+  return v.normalized();
+}
+
+/// The size of dF/du D: its largest row sum.
+inline double column_size(const Linearization& at, const Vector& scale) {
+  Vector sums(scale.size());
+  at.multiply_absolute(scale, sums);
+  const double size = sums.lpNorm<Eigen::Infinity>();
+  return size > 0 ? size : 1;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,37 @@
+#pragma once
+
+// Dense bordered systems, by LU with partial pivoting.
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "arcslip/continuation/bordered_solver.hpp"
+
+namespace arcslip::continuation {
+
+/// Up to 16 rows, where calls would cost more than arithmetic, elimination is done in place; beyond, Eigen's
+/// blocked factorisation takes over. Nothing is allocated after construction.
+class DenseBorderedSolver final : public BorderedSolver {
+ public:
+  DenseBorderedSolver(Index size, Index borders);
+
+  using BorderedSolver::set_jacobian;
+  void set_jacobian(const Matrix& jacobian, const Vector& column_scale) override;
+  double factor() override;
+  void solve(Vector& right_hand_side) override;
+  void solve_transposed(Vector& right_hand_side) override;
+
+ private:
+  bool small() const { return matrix_.rows() <= 16; }
+  void set_borders();
+  double factor_small();
+  double permutation_sign();
+
+  Matrix matrix_;
+  Matrix factors_;             // small: unit lower and upper triangle in one
+  std::vector<Index> pivots_;  // small: row exchanged with row i
+  Eigen::PartialPivLU<Matrix> lu_;
+  Vector solution_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,84 @@
+#pragma once
+
+// Curves of special points in two parameters, as problems that the same engine traces. A problem F(u, p) = 0
+// with active parameter p_a is extended by m conditions and m - 1 further unknowns e:
+//
+//   F(u, p) + e_0 b = 0      (the second term only where there is such a column)
+//   g(u, p, e)      = 0      m conditions
+//
+// in the unknowns (u, p_a, e). All other parameters stay parameters: with one of them free the solutions
+// are a curve, with none the special point itself is located by Newton's method.
+
+#include <memory>
+
+#include "arcslip/continuation/bordered_solver.hpp"
+#include "arcslip/continuation/linearization.hpp"
+#include "arcslip/continuation/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// A point of the problem that is extended.
+struct BasePoint {
+  Vector unknowns;    ///< n
+  Vector parameters;  ///< all of the base problem's
+  int regime = 0;
+  Vector extras;  ///< m - 1
+};
+
+/// Conditions on the Jacobian are taken in bordered form [Griewank & Reddien 1984, Govaerts 2000]: the
+/// borders are chosen by `adapt` and are the problem's only state, so that one instance serves one thread.
+class ExtendedProblem : public Problem {
+ public:
+  /// `active` is the base's parameter that becomes an unknown. The base is kept by reference.
+  ExtendedProblem(const Problem& base, Index active, Index conditions);
+
+  const Problem& base() const { return base_; }
+  Index active() const { return active_; }
+
+  BasePoint split(const Vector& unknowns, const Vector& parameters, int regime) const;
+  /// The inverse: unknowns and parameters of the extended problem.
+  void join(const BasePoint& point, Vector& unknowns, Vector& parameters) const;
+
+  /// Chooses borders for points around this one; once before the first evaluation, and again as a curve is
+  /// followed. The solutions do not depend on it. False where the problem has no value.
+  virtual bool adapt(const BasePoint& point);
+
+  Index size() const override { return base_.size() + conditions_; }
+  std::vector<std::string> parameter_names() const override;
+  bool sparse() const override { return base_.sparse(); }
+  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
+
+  std::vector<std::string> regime_names() const override { return base_.regime_names(); }
+  int border_count(int regime) const override { return base_.border_count(regime); }
+  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override;
+  int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
+
+  /// The active parameter, then the base's observables.
+  std::vector<Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+
+ protected:
+  /// Values of the conditions at a point where F has just been evaluated into `at_`, and where `gradients` is
+  /// not null their gradients, m x (n + number of base parameters + extras).
+  virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
+
+  Index conditions_count() const { return conditions_; }
+
+  mutable Linearization at_;
+  Vector scale_;      ///< n, of the base's unknowns where the borders were chosen
+  Vector unfolding_;  ///< the column b of e_0, or empty
+
+ private:
+  void fill_dense(const Matrix& gradients, Matrix& out) const;
+  void fill_sparse(const Matrix& gradients, SparseMatrix& out) const;
+  void fill_parameters(const Matrix& gradients, Matrix& out) const;
+
+  const Problem& base_;
+  Index active_;
+  Index conditions_;
+  mutable Vector values_;
+  mutable Matrix gradients_;
+};
+
+}  // namespace arcslip::continuation

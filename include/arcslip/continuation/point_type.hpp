@@ -1,0 +1,31 @@
+#pragma once
+
+// The kinds of points that a branch may hold.
+
+#include <string_view>
+
+namespace arcslip::continuation {
+
+enum class PointType {
+  regular,
+  start,
+  end,
+  regime_switch,    ///< on a border, where the branch goes on in another regime
+  fold,             ///< the parameter turns back smoothly
+  corner_fold,      ///< it turns back at a border, by a jump of the tangent
+  branch_point,     ///< another branch crosses
+  hopf,             ///< a pair of eigenvalues crosses the imaginary axis
+  peak,             ///< of a tracked observable
+  trough,           ///< of a tracked observable
+  user,             ///< a listed value of the parameter
+  event,            ///< a zero of a function of the user's
+  cusp,             ///< of a curve of folds: its quadratic coefficient vanishes
+  bogdanov_takens,  ///< a double zero eigenvalue
+  zero_hopf,        ///< a zero eigenvalue beside an imaginary pair
+  hopf_hopf         ///< two imaginary pairs
+};
+
+/// As written to files: its name; `switch` for regime_switch.
+std::string_view to_string(PointType type);
+
+}  // namespace arcslip::continuation

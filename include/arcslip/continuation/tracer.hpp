@@ -1,0 +1,77 @@
+#pragma once
+
+// The loop that traces a branch: steps, events, targets, limits.
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/events.hpp"
+#include "arcslip/continuation/targets.hpp"
+#include "arcslip/continuation/trace.hpp"
+
+namespace arcslip::continuation {
+
+constexpr double same_value =
+    1e-10;  ///< of the parameter, in its scale: as well as special points are located
+
+/// Half a sentence that says why a correction ended.
+std::string_view reason(Correction correction);
+
+class Tracer {
+ public:
+  Tracer(const Problem& problem, const TraceOptions& options, const Observer& observer);
+
+  /// `forward` is the wanted sign of the parameter's change.
+  Branch run(const Guess& guess, double forward);
+
+  Branch run(const Checkpoint& checkpoint);
+
+ private:
+  Branch go_on();
+  void start(const Guess& guess, double forward);
+  Vector raw_tangent() const;
+  Correction start_singular(const Guess& guess, double forward);
+  void check_limits();
+  void step();
+  bool try_step();
+  bool try_landing();
+  bool find_events();
+  void take();
+  void take_events(const Signs& before, int sign_beyond);
+  void take_event(const Event& event, const Signs& before, int sign_beyond);
+  void count_unstable(const Signs& before, bool turns);
+  void take_target(const Target& target);
+  void cross(int border, bool several);
+  Correction leave(int border, bool several);
+  void corner_events(const Signs& before);
+  bool passes_target(const CurvePoint& point) const;
+  double value() const { return stepper_.here().parameters(parameter_); }
+  double parameter_scale() const { return stepper_.here().scale(stepper_.here().scale.size() - 1); }
+  double length() const { return state_.distance * stepper_.slope_length(state_.hold); }
+  void use(Hold hold);
+  void store(PointType type, const std::string& label = {}, const Vector& arrival = {});
+  void stop(Stop reason, std::string explanation);
+  std::string place() const;
+
+  const Problem& problem_;
+  const TraceOptions& options_;
+  const Observer& observer_;
+  Index parameter_;
+  Corrector corrector_;
+  Stepper stepper_;
+  Watch watch_;
+  Targets targets_;
+  Checkpoint state_;  // what changes along the branch, except for the point itself
+  const Target* landing_ = nullptr;
+  std::optional<double> closing_;
+  std::vector<Event> events_;
+  bool stopped_ = false;
+  bool interrupted_ = false;
+  bool satisfied_ = false;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  Branch branch_;
+};
+
+}  // namespace arcslip::continuation
