@@ -9,6 +9,7 @@ ExtendedProblem::ExtendedProblem(const Problem& base, Index active, Index condit
   const Index parameters = static_cast<Index>(base.parameter_names().size());
   gradients_.setZero(conditions, base.size() + parameters + conditions - 1);
   scale_.setOnes(base.size());
+  of_base_ = {Vector::Zero(base.size()), Vector::Zero(parameters)};
 }
 
 BasePoint ExtendedProblem::split(const Vector& unknowns, const Vector& parameters, int regime) const {
@@ -124,20 +125,23 @@ double ExtendedProblem::border(const Vector& u, const Vector& p, int regime, int
                                Gradient* gradient) const {
   const BasePoint point = split(u, p, regime);
   if (gradient == nullptr) return base_.border(point.unknowns, point.parameters, regime, border, nullptr);
-  const Index rest = p.size() - active_;
-  Gradient of_base{Vector::Zero(base_.size()), Vector::Zero(point.parameters.size())};
-  const double value = base_.border(point.unknowns, point.parameters, regime, border, &of_base);
-  gradient->unknowns.setZero();
-  gradient->unknowns.head(base_.size()) = of_base.unknowns;
-  gradient->unknowns(base_.size()) = of_base.parameters(active_);
-  gradient->parameters.head(active_) = of_base.parameters.head(active_);
-  gradient->parameters.tail(rest) = of_base.parameters.tail(rest);
+  const double value = base_.border(point.unknowns, point.parameters, regime, border, &of_base_);
+  take_gradient(*gradient);
   return value;
 }
 
+void ExtendedProblem::take_gradient(Gradient& out) const {
+  const Index rest = of_base_.parameters.size() - 1 - active_;
+  out.unknowns.setZero();
+  out.unknowns.head(base_.size()) = of_base_.unknowns;
+  out.unknowns(base_.size()) = of_base_.parameters(active_);
+  out.parameters.head(active_) = of_base_.parameters.head(active_);
+  out.parameters.tail(rest) = of_base_.parameters.tail(rest);
+}
+
 std::vector<Observable> ExtendedProblem::observables() const {
-  std::vector<Observable> result{{base_.parameter_names()[static_cast<std::size_t>(active_)]}};
-  for (const Observable& observable : base_.observables()) result.push_back({observable.name});
+  std::vector<Observable> result{{base_.parameter_names()[static_cast<std::size_t>(active_)], true}};
+  for (const Observable& observable : base_.observables()) result.push_back(observable);
   return result;
 }
 
@@ -148,6 +152,19 @@ void ExtendedProblem::observe(const Vector& u, const Vector& p, int regime, Vect
   values.resize(of_base.size() + 1);
   values(0) = point.parameters(active_);
   values.tail(of_base.size()) = of_base;
+}
+
+double ExtendedProblem::observe(const Vector& u, const Vector& p, int regime, Index which,
+                                Gradient& gradient) const {
+  if (which == 0) {
+    gradient.unknowns.setUnit(base_.size());
+    gradient.parameters.setZero();
+    return u(base_.size());
+  }
+  const BasePoint point = split(u, p, regime);
+  const double value = base_.observe(point.unknowns, point.parameters, regime, which - 1, of_base_);
+  take_gradient(gradient);
+  return value;
 }
 
 }  // namespace arcslip::continuation

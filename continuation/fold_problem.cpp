@@ -92,7 +92,9 @@ void FoldProblem::test(const Vector& u, const Vector& p, int regime, Vector& val
 
 bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
-  return base().eigenvalues(point.unknowns, point.parameters, regime, values);
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
+  remove_nearest(values, 0);
+  return true;
 }
 
 }  // namespace arcslip::continuation

@@ -21,15 +21,15 @@ HopfProblem::HopfProblem(const Problem& base, Index active)
   if (base.sparse()) throw std::invalid_argument("HopfProblem: only for dense problems");
 }
 
-bool HopfProblem::solve_borders(double omega) const {
+bool HopfProblem::solve_borders(double kappa) const {
   const Index n = base().size();
   doubled_.topLeftCorner(n, n) = at_.jacobian();
   doubled_.bottomRightCorner(n, n) = at_.jacobian();
-  doubled_.topRightCorner(n, n).diagonal().setConstant(omega);
-  doubled_.bottomLeftCorner(n, n).diagonal().setConstant(-omega);
+  doubled_.topRightCorner(n, n).diagonal().setConstant(kappa);
+  doubled_.bottomLeftCorner(n, n).diagonal().setConstant(-1);
   solver_->set_jacobian(doubled_, Vector::Ones(2 * n));
-  solver_->columns() << column_.head(n), -column_.tail(n), column_.tail(n), column_.head(n);
-  solver_->rows() << row_.head(n).transpose(), row_.tail(n).transpose(), -row_.tail(n).transpose(),
+  solver_->columns() << column_.head(n), -kappa * column_.tail(n), column_.tail(n), column_.head(n);
+  solver_->rows() << row_.head(n).transpose(), -kappa * row_.tail(n).transpose(), row_.tail(n).transpose(),
       row_.head(n).transpose();
   solver_->corner().setZero();
   if (solver_->factor() == 0) return false;
@@ -45,11 +45,13 @@ bool HopfProblem::solve_borders(double omega) const {
 bool HopfProblem::adapt(const BasePoint& point) {
   if (!ExtendedProblem::adapt(point)) return false;
   const Index n = base().size();
-  const double size = at_.jacobian().cwiseAbs().rowwise().sum().maxCoeff() + std::abs(point.extras(0));
-  for (int i = 0; i < 3; ++i) {  // inverse iteration
+  const double size = at_.jacobian().cwiseAbs().rowwise().sum().maxCoeff() + 1;
+  for (int i = 0; i < 3; ++i) {  // inverse iteration, with the conjugates of both null vectors
     if (!solve_borders(point.extras(0))) return false;
-    column_ = left_[0].head(2 * n) * (size / left_[0].head(2 * n).norm());
-    row_ = right_.head(2 * n).normalized();
+    column_ << left_[1].segment(n, n), -left_[1].head(n);
+    column_ *= size / column_.norm();
+    row_ << right_.head(n), -right_.segment(n, n);
+    row_.normalize();
   }
   return true;
 }
@@ -62,6 +64,7 @@ bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gra
   const Vector none = Vector::Zero(point.parameters.size());
   const Vector real = right_.head(n);
   const Vector imaginary = right_.segment(n, n);
+  const Vector by_kappa = imaginary - column_.tail(n) * right_(2 * n + 1);
   Vector row;
   for (Index j = 0; j < 2; ++j) {
     const auto a = left_[j].head(n);
@@ -74,7 +77,7 @@ bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gra
       }
       gradients->row(j).head(row.size()) -= row.transpose();
     }
-    (*gradients)(j, row.size()) = b.dot(real) - a.dot(imaginary);
+    (*gradients)(j, row.size()) = left_[j](2 * n) * row_.tail(n).dot(imaginary) - a.dot(by_kappa);
   }
   return true;
 }
@@ -88,22 +91,15 @@ std::vector<Observable> HopfProblem::observables() const {
 void HopfProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   ExtendedProblem::observe(u, p, regime, values);
   values.conservativeResize(values.size() + 1);
-  values(values.size() - 1) = u(u.size() - 1);
+  values(values.size() - 1) = std::sqrt(u(u.size() - 1));
 }
 
 bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
-  ComplexVector all;
-  if (!base().eigenvalues(point.unknowns, point.parameters, regime, all)) return false;
-  const Complex critical(0, point.extras(0));
-  for (const Complex& away : {critical, std::conj(critical)}) {
-    const auto nearest = std::min_element(all.begin(), all.end(), [&](const Complex& x, const Complex& y) {
-      return std::norm(x - away) < std::norm(y - away);
-    });
-    std::swap(*nearest, all(all.size() - 1));
-    all.conservativeResize(all.size() - 1);
-  }
-  values = all;
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
+  const Complex critical = std::sqrt(Complex(-point.extras(0)));
+  remove_nearest(values, critical);
+  remove_nearest(values, -critical);
   return true;
 }
 

@@ -204,7 +204,7 @@ bool Stepper::finish(bool lands, double value) {
   from_ = at_here_;
   for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
-  if (resolved(distance_, to_)) return true;
+  if (!hides_folds() && resolved(distance_, to_)) return true;
   signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
   return false;
 }
@@ -224,6 +224,11 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
   for (int b = 0; b < problem_.border_count(point.regime); ++b) {
     add(problem_.border(point.unknowns, point.parameters, point.regime, b, &gradient_));
   }
+}
+
+bool Stepper::hides_folds() const {
+  const Index n = corrector_.size();
+  return hold_ == Hold::tangent && hides_extrema(slope_from_(n), slope_to_(n), step_(n) / distance_, 1e-13);
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {

@@ -46,10 +46,14 @@ void Tracer::start(const Guess& guess, double forward) {
   state_.signs = signs_at_start(stepper_, watch_);
   state_.start = stepper_.here();
   store(PointType::start);
-  const double low = std::min(options_.from, options_.to) - same_value * parameter_scale();
-  const double high = std::max(options_.from, options_.to) + same_value * parameter_scale();
-  if (!(value() >= low && value() <= high))
-    stop(Stop::left_range, fmt::format("the start lies outside the range, at {}", place()));
+  const double same = same_value * parameter_scale();
+  const double low = std::min(options_.from, options_.to);
+  const double high = std::max(options_.from, options_.to);
+  if (!(value() >= low - same && value() <= high + same))
+    return stop(Stop::no_start, fmt::format("the start lies outside the range, at {}", place()));
+  const double rate = stepper_.parameter_slope(Hold::tangent);
+  if ((value() <= low + same && rate < 0) || (value() >= high - same && rate > 0))
+    stop(Stop::left_range, fmt::format("the branch leaves the range where it starts, at {}", place()));
 }
 
 /// A start on a fold or on a branch point, where the parameter does not determine the solution.

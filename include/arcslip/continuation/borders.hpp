@@ -2,6 +2,7 @@
 
 // What the choice of borders has in common.
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/linearization.hpp"
@@ -15,12 +16,20 @@ inline Vector spread(Index size, int which) {
   return v.normalized();
 }
 
-/// The size of dF/du D: its largest row sum.
+/// The size of dF/du D, its largest row sum, for columns beside it. Of a single unknown it vanishes at a
+/// fold, so that there is a least one.
 inline double column_size(const Linearization& at, const Vector& scale) {
   Vector sums(scale.size());
   at.multiply_absolute(scale, sums);
-  const double size = sums.lpNorm<Eigen::Infinity>();
-  return size > 0 ? size : 1;
+  return std::max(1e-3, sums.lpNorm<Eigen::Infinity>());
+}
+
+/// Takes the eigenvalue that is nearest to `away` out of the list.
+inline void remove_nearest(ComplexVector& values, Complex away) {
+  Index nearest = 0;
+  (values.array() - away).abs().minCoeff(&nearest);
+  std::swap(values(nearest), values(values.size() - 1));
+  values.conservativeResize(values.size() - 1);
 }
 
 }  // namespace arcslip::continuation

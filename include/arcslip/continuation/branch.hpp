@@ -56,9 +56,11 @@ struct Branch {
   /// From where `resume` goes on; empty if there is nothing further.
   std::optional<Checkpoint> checkpoint;
 
-  /// Whether the branch ended as asked: on its last value, as a closed loop or by `stop_after`.
+  /// Whether the branch was traced to its end: out of the range at either side, back to its start as a closed
+  /// loop, or as far as `stop_after` asked.
   bool complete() const {
-    return stop == Stop::reached_end || stop == Stop::closed_loop || stop == Stop::requested;
+    return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
+           stop == Stop::requested;
   }
 };
 

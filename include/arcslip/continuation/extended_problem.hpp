@@ -54,9 +54,11 @@ class ExtendedProblem : public Problem {
   double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override;
   int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
 
-  /// The active parameter, then the base's observables.
+  /// The active parameter, then the base's observables, each with its gradient if it has one there.
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 Gradient& gradient) const override;
 
  protected:
   /// Values of the conditions at a point where F has just been evaluated into `at_`, and where `gradients` is
@@ -73,12 +75,14 @@ class ExtendedProblem : public Problem {
   void fill_dense(const Matrix& gradients, Matrix& out) const;
   void fill_sparse(const Matrix& gradients, SparseMatrix& out) const;
   void fill_parameters(const Matrix& gradients, Matrix& out) const;
+  void take_gradient(Gradient& out) const;  // from of_base_
 
   const Problem& base_;
   Index active_;
   Index conditions_;
   mutable Vector values_;
   mutable Matrix gradients_;
+  mutable Gradient of_base_;
 };
 
 }  // namespace arcslip::continuation

@@ -7,12 +7,15 @@
 
 namespace arcslip::continuation {
 
-/// Hopf points of a dense equilibrium: dF/du has a pair of eigenvalues +-i omega, with e_0 = omega,
+/// Hopf points of a dense equilibrium: dF/du has a pair of eigenvalues +-i omega. With numbers x + j z, where
+/// j^2 = -kappa,
 ///
-///   [dF/du - i omega  b] [q]   [0]
-///   [c^H              0] [g] = [1],    g = 0 (its real and its imaginary part).
+///   [dF/du - j  b] [q]   [0]
+///   [c^T        0] [g] = [1],    g = 0 (both its parts),    e_0 = kappa = omega^2,
 ///
-/// Along a curve of Hopf points Bogdanov-Takens (omega = 0), zero-Hopf and double Hopf points are found.
+/// which stays regular at Bogdanov-Takens points, where kappa = 0; beyond them (kappa < 0) a pair of real
+/// eigenvalues +-sqrt(-kappa) takes the place of the Hopf point. Zero-Hopf and double Hopf points are found,
+/// too.
 class HopfProblem : public ExtendedProblem {
  public:
   HopfProblem(const Problem& base, Index active);
@@ -31,15 +34,15 @@ class HopfProblem : public ExtendedProblem {
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
 
  private:
-  bool solve_borders(double omega) const;
+  bool solve_borders(double kappa) const;
 
   std::unique_ptr<BorderedSolver> solver_;  // real form, 2n and two borders
-  Vector column_;                           // b as (real, imaginary)
+  Vector column_;                           // b, its two parts
   Vector row_;                              // c
   mutable Matrix doubled_;
   mutable SecondDerivative second_;
-  mutable Vector right_;    // (Re q, Im q, Re g, Im g)
-  mutable Vector left_[2];  // of Re g and of Im g
+  mutable Vector right_;    // (q, g), two parts each
+  mutable Vector left_[2];  // of the two parts of g
 };
 
 }  // namespace arcslip::continuation

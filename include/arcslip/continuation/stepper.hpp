@@ -115,6 +115,8 @@ class Stepper {
   bool finish(bool lands, double value);
   void monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
   void bend_along(Vector& out) const;
+  /// Whether the parameter may turn twice within the step.
+  bool hides_folds() const;
 
   const Problem& problem_;
   Corrector& corrector_;
