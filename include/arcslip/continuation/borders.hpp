@@ -15,12 +15,13 @@ inline Vector spread(Index size, int which) {
   return v.normalized();
 }
 
-/// The size of dF/du D: its largest row sum.
+/// The size of dF/du D: its largest row sum. Where dF/du vanishes as a whole, as at the folds of a single
+/// unknown, 1, which is large for F.
 inline double column_size(const Linearization& at, const Vector& scale) {
   Vector sums(scale.size());
   at.multiply_absolute(scale, sums);
   const double size = sums.lpNorm<Eigen::Infinity>();
-  return size > 0 ? size : 1;
+  return size > 1e-3 ? size : 1;
 }
 
 }  // namespace arcslip::continuation
