@@ -44,7 +44,9 @@ const std::string& Watch::label(std::size_t function) const {
 
 Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   Signs signs;
-  signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
+  // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.
+  const double rate = stepper.parameter_slope(Hold::tangent);
+  signs.parameter = std::abs(rate) > 1e-9 ? sign_of(rate) : 0;
   for (Index i = 0; i < stepper.tracked_count(); ++i)
     signs.observables.push_back(sign_of_slope(stepper.at_here()[static_cast<std::size_t>(i)]));
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
