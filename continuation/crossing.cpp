@@ -78,6 +78,10 @@ void Stepper::cut_at_crossing() {
 
 std::optional<double> Stepper::passes(const CurvePoint& past) {
   if (past.regime != here_.regime) return std::nullopt;
+  if (crossing_) {  // no probe finds a start that is the branch point itself
+    corrector_.difference(past, crossing_->point, predicted_);
+    if (predicted_.norm() < 1e-7 && crossing_->point.tangent.dot(past.tangent) > 0) return crossing_->s;
+  }
   corrector_.difference(past, here_, predicted_);
   const double length = step_.norm();
   const double s = normal_.dot(predicted_);

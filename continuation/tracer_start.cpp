@@ -44,6 +44,8 @@ void Tracer::start(const Guess& guess, double forward) {
   }
   watch_.look(stepper_.here());
   state_.signs = signs_at_start(stepper_, watch_);
+  // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.
+  if (std::abs(stepper_.parameter_slope(Hold::tangent)) < 1e-9) state_.signs.parameter = 0;
   state_.start = stepper_.here();
   store(PointType::start);
   const double same = same_value * parameter_scale();

@@ -1,0 +1,27 @@
+#include "arcslip/problems/library.hpp"
+
+#include <algorithm>
+
+#include "arcslip/problems/ab.hpp"
+#include "arcslip/problems/cusp.hpp"
+#include "arcslip/problems/enz.hpp"
+#include "arcslip/problems/freudenstein_roth.hpp"
+#include "arcslip/problems/lorenz84.hpp"
+#include "arcslip/problems/pp2.hpp"
+
+namespace arcslip::problems {
+
+const std::vector<LibraryModel>& library() {
+  static const std::vector<LibraryModel> models{
+      ab_model(), cusp_model(), enz_model(), freudenstein_roth_model(), lorenz84_model(), pp2_model()};
+  return models;
+}
+
+const LibraryModel* find_model(const std::string& name) {
+  const auto& models = library();
+  const auto found = std::find_if(models.begin(), models.end(),
+                                  [&](const LibraryModel& model) { return model.name == name; });
+  return found == models.end() ? nullptr : &*found;
+}
+
+}  // namespace arcslip::problems
