@@ -35,11 +35,6 @@ Loss base_loss_per_zeta(const SystemParameters& parameters) {
   return {2 / parameters.frequency_ratio, 0};
 }
 
-LogThreshold FrictionSystem::log_threshold(double eta, double preload) const {
-  const double effective = preload + preload_growth * eta * eta;
-  return {std::log(slip_threshold(eta, preload)), 2 * preload_growth * eta / effective, 1 / effective};
-}
-
 FrictionSystem build_system(const SystemParameters& parameters) {
   const ReducedPair pair = reduce(parameters);
   const Loss base_loss = parameters.base_damping_kind == DampingKind::structural

@@ -3,6 +3,7 @@
 // The two structures of the paper and their interface: what a case file's [system] describes, and the reduced
 // model built from it.
 
+#include <cmath>
 #include <string>
 
 #include "arcslip/modal_model.hpp"
@@ -72,7 +73,10 @@ struct FrictionSystem {
   }
 
   /// For a contact that is loaded.
-  LogThreshold log_threshold(double eta, double preload) const;
+  LogThreshold log_threshold(double eta, double preload) const {
+    const double by_preload = 1 / (preload + preload_growth * eta * eta);
+    return {std::log(slip_threshold(eta, preload)), 2 * preload_growth * eta * by_preload, by_preload};
+  }
 };
 
 /// Reduced base and damper of `parameters`, before they are turned into modes.
