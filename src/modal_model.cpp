@@ -17,8 +17,7 @@ Complex rounded(const PreciseComplex& z) {
 
 }  // namespace
 
-ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, double damping)
-    : damping_(damping) {
+ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, const Loss& loss) : loss_(loss) {
   if (structure.mass.llt().info() != Eigen::Success) {
     throw std::invalid_argument("ModalModel: the mass matrix of the structure must be positive definite");
   }
@@ -39,10 +38,11 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, dou
 
 ContactResponse ModalModel::at(double eta) const {
   ContactResponse response{};
+  const double loss = loss_.at(eta);
   for (const Mode& mode : modes_) {
     const double stiffness = mode.frequency * mode.frequency;
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), damping_ * eta * stiffness);
-    const Complex d_eta(-2 * eta, damping_ * stiffness);
+    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss * stiffness);
+    const Complex d_eta(-2 * eta, loss_.viscous * stiffness);
     const Complex inverse = std::conj(d) / std::norm(d);
     const Complex slope = -inverse * inverse * d_eta;
     response.compliance += mode.residue * inverse;
@@ -51,6 +51,21 @@ ContactResponse ModalModel::at(double eta) const {
     response.free_eta += mode.load_residue * slope;
   }
   return response;
+}
+
+DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& loss_per_zeta) const {
+  DampedCompliance compliance{};
+  const double loss = loss_per_zeta.at(eta);
+  for (const Mode& mode : modes_) {
+    const double stiffness = mode.frequency * mode.frequency;
+    const Complex d((mode.frequency - eta) * (mode.frequency + eta), zeta * loss * stiffness);
+    const Complex inverse = std::conj(d) / std::norm(d);
+    const Complex slope = -mode.residue * inverse * inverse;  // dc/dd
+    compliance.value += mode.residue * inverse;
+    compliance.by_eta += slope * Complex(-2 * eta, zeta * loss_per_zeta.viscous * stiffness);
+    compliance.by_zeta += slope * Complex(0, loss * stiffness);
+  }
+  return compliance;
 }
 
 std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& models, double k) {

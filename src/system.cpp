@@ -6,6 +6,8 @@ namespace arcslip {
 
 std::string to_string(StructureModel model) { return model == StructureModel::rods ? "rods" : "beams"; }
 
+std::string to_string(DampingKind kind) { return kind == DampingKind::viscous ? "viscous" : "structural"; }
+
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {
   return 12 * std::pow(slenderness, 4) / (1 + poisson_ratio);
 }
@@ -28,12 +30,26 @@ ReducedPair reduce(const SystemParameters& parameters) {
   return pair;
 }
 
+Loss base_loss_per_zeta(const SystemParameters& parameters) {
+  if (parameters.base_damping_kind == DampingKind::structural) return {0, 2};
+  return {2 / parameters.frequency_ratio, 0};
+}
+
 FrictionSystem build_system(const SystemParameters& parameters) {
   const ReducedPair pair = reduce(parameters);
-  return {ModalModel(pair.base, 0, base_damping_factor(parameters)),
-          ModalModel(pair.damper, 0, damper_damping_factor(parameters)),
-          parameters.interface_stiffness / static_cast<double>(parameters.elements),
-          parameters.stiffness_ratio() / parameters.interface_stiffness};
+  const Loss base_loss = parameters.base_damping_kind == DampingKind::structural
+                             ? Loss{0, 2 * parameters.base_damping}
+                             : Loss{base_damping_factor(parameters), 0};
+  const ModalModel damper =
+      parameters.fixed_damper ? ModalModel() : ModalModel(pair.damper, 0, damper_damping_factor(parameters));
+  const auto elements = static_cast<double>(parameters.elements);
+  return {ModalModel(pair.base, 0, base_loss),
+          damper,
+          parameters.interface_stiffness / elements,
+          parameters.stiffness_ratio() / parameters.interface_stiffness,
+          base_loss_per_zeta(parameters),
+          parameters.cubic_stiffness * parameters.stiffness_ratio() / elements,
+          parameters.preload_growth};
 }
 
 }  // namespace arcslip

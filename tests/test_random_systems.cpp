@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "arcslip/problems/forced_response.hpp"
 #include "catch.hpp"
 #include "dense_scan.hpp"
+#include "random_systems.hpp"
 
 namespace {
 
@@ -29,14 +29,9 @@ struct Run {
   double to = 0;
 };
 
-/// Over all resonances of the first pair of modes.
 Run over_eta(const SystemParameters& s) {
-  const auto n = static_cast<double>(s.wave_number);
-  const bool rods = s.model == StructureModel::rods;
-  const double damper = rods ? n : n * n;
-  const double base = damper * s.frequency_ratio;
-  const double stuck = std::sqrt(s.interface_stiffness * (1 + 1 / s.mass_ratio)) / (rods ? 6.28 : 39.5);
-  return {s, false, s.preload, 0.2 * std::min(base, damper), 5 * std::max({base, damper, stuck})};
+  const auto [from, to] = testing::resonance_range(s);
+  return {s, false, s.preload, from, to};
 }
 
 /// Over twelve decades of preload.
@@ -44,41 +39,18 @@ Run over_preload(const SystemParameters& s, double eta) { return {s, true, eta, 
 
 class Draw {
  public:
-  explicit Draw(std::uint64_t seed) : engine_(seed) {}
+  explicit Draw(std::uint64_t seed) : systems_(seed) {}
 
-  Run over_eta() { return ::over_eta(system()); }
+  Run over_eta() { return ::over_eta(systems_.system()); }
 
   /// At any frequency of the range of over_eta().
   Run over_preload() {
     const Run range = over_eta();
-    return ::over_preload(range.system, log_uniform(range.from, range.to));
+    return ::over_preload(range.system, systems_.log_uniform(range.from, range.to));
   }
 
  private:
-  /// std::uniform_real_distribution differs from library to library.
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
-  Index integer(Index low, Index high) {
-    return low + static_cast<Index>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-
-  SystemParameters system() {
-    SystemParameters s;
-    s.model = integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-    s.wave_number = integer(1, 5);
-    s.elements = integer(2 * s.wave_number + 1, 200);
-    s.mass_ratio = log_uniform(0.2, 200);
-    s.frequency_ratio = log_uniform(0.3, 8);
-    s.interface_stiffness = log_uniform(1e-2, 1e7);
-    s.base_damping = log_uniform(1e-6, 0.1);
-    s.damper_damping = log_uniform(1e-6, 0.1);
-    s.preload = log_uniform(1e-6, 1e6);
-    return s;
-  }
-
-  std::mt19937_64 engine_;
+  testing::RandomSystems systems_;
 };
 
 std::string describe(const Run& run) {

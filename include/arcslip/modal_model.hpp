@@ -2,12 +2,13 @@
 
 // A reduced structure seen at its contact dof, as a sum over its modes.
 //
-// With damping proportional to stiffness, C = (beta/2 pi) K, and w* = 2 pi eta, the modes of (K, M)
-// diagonalise the dynamic stiffness Z(eta) = K + j w* C - w*^2 M for every eta at once:
+// With damping proportional to stiffness, viscous as C = (beta/2 pi) K or structural as a complex stiffness
+// K (1 + j delta), and w* = 2 pi eta, the modes of (K, M) diagonalise the dynamic stiffness
+// Z(eta) = K (1 + j delta) + j w* C - w*^2 M for every eta at once:
 //
 //   c(eta)   = e^T Z^{-1} e = sum_k a_k/d_k,      a_k = |e^T v_k|^2/(2 pi)^2
 //   y_0(eta) = e^T Z^{-1} F = sum_k b_k/d_k,      b_k = (e^T v_k)(v_k^H F)/(2 pi)^2
-//   d_k(eta) = (eta_k - eta)(eta_k + eta) + j beta eta eta_k^2
+//   d_k(eta) = (eta_k - eta)(eta_k + eta) + j (beta eta + delta) eta_k^2
 //
 // The difference eta_k - eta is exact, so that the sums are accurate to rounding on the sharpest peak.
 
@@ -25,6 +26,21 @@ struct ContactResponse {
   Complex free_eta;        ///< dy_0/deta
 };
 
+/// Loss factor beta eta + delta of damping proportional to stiffness; negative where it feeds energy in.
+struct Loss {
+  double viscous = 0;     ///< beta
+  double structural = 0;  ///< delta
+
+  double at(double eta) const { return viscous * eta + structural; }
+};
+
+/// Compliance c for a loss that is zeta times a given one, with its derivatives.
+struct DampedCompliance {
+  Complex value;    ///< c
+  Complex by_eta;   ///< dc/deta
+  Complex by_zeta;  ///< dc/dzeta
+};
+
 /// One mode; frequencies are in units of eta.
 struct Mode {
   double frequency;      ///< eta_k
@@ -35,19 +51,28 @@ struct Mode {
 /// All modes of a structure, in ascending order of frequency.
 class ModalModel {
  public:
-  /// `damping` is beta: C = (beta/2 pi) K, that is 2 zeta_D for the damper and 2 zeta_B/gamma for the base.
+  /// A structure that is held and cannot move: no modes, c = 0, y_0 = 0.
+  ModalModel() = default;
+
   /// Throws std::invalid_argument where the mass is not positive definite.
-  ModalModel(const ReducedStructure& structure, Index contact_dof, double damping);
+  ModalModel(const ReducedStructure& structure, Index contact_dof, const Loss& loss);
+
+  /// `damping` is beta: C = (beta/2 pi) K, that is 2 zeta_D for the damper and 2 zeta_B/gamma for the base.
+  ModalModel(const ReducedStructure& structure, Index contact_dof, double damping)
+      : ModalModel(structure, contact_dof, Loss{damping, 0}) {}
 
   /// Compliance and free response at eta, O(J) operations.
   ContactResponse at(double eta) const;
 
+  /// Compliance of the same modes where the loss is zeta * loss_per_zeta.
+  DampedCompliance compliance(double eta, double zeta, const Loss& loss_per_zeta) const;
+
   const std::vector<Mode>& modes() const { return modes_; }
-  double damping() const { return damping_; }
+  const Loss& loss() const { return loss_; }
 
  private:
   std::vector<Mode> modes_;
-  double damping_;
+  Loss loss_;
 };
 
 /// The undamped frequencies at which 1 + k c = 0, c the sum of the compliances of `models`: the resonances of

@@ -3,6 +3,7 @@
 // The two structures of the paper and their interface: what a case file's [system] describes, and the reduced
 // model built from it.
 
+#include <cmath>
 #include <string>
 
 #include "arcslip/modal_model.hpp"
@@ -13,6 +14,12 @@ enum class StructureModel { rods, beams };
 
 std::string to_string(StructureModel model);
 
+/// How the base dissipates: viscous, C_B = (2 zeta_B/gamma)/(2 pi) K_B [paper, footnote 3], or structural
+/// with the stiffness K_B (1 + 2 j zeta_B) at every eta. Both have the loss factor 2 zeta_B at eta = gamma.
+enum class DampingKind { viscous, structural };
+
+std::string to_string(DampingKind kind);
+
 /// [system] of a case file, nondimensional throughout.
 struct SystemParameters {
   StructureModel model = StructureModel::beams;
@@ -21,10 +28,15 @@ struct SystemParameters {
   double mass_ratio = 1;           ///< M* = m_B/m_D > 0
   double frequency_ratio = 1;      ///< gamma = sqrt(K*/M*) > 0
   double interface_stiffness = 1;  ///< K_FD = k_F/k_D > 0
-  double base_damping = 1e-4;      ///< zeta_B
+  double base_damping = 1e-4;      ///< zeta_B, negative where the base is excited by its own motion
   double damper_damping = 1e-4;    ///< zeta_D
   double force = 1;                ///< F = f_0/k_B > 0
   double preload = 1;              ///< P = mu p_0/k_B > 0
+
+  DampingKind base_damping_kind = DampingKind::viscous;
+  bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
+  double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
+  double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
@@ -32,12 +44,39 @@ struct SystemParameters {
 /// Shear estimate of the interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
 double shear_interface_stiffness(double slenderness, double poisson_ratio);
 
+/// ln S with its derivatives.
+struct LogThreshold {
+  double value;       ///< ln S
+  double by_eta;      ///< d ln S/deta
+  double by_preload;  ///< d ln S/dP
+};
+
 /// Base, damper and interface at one contact point, as the response equation needs them.
 struct FrictionSystem {
   ModalModel base;           ///< with the travelling load
   ModalModel damper;         ///< without load
   double contact_stiffness;  ///< k = K_FD/N [paper (7)]
   double slip_per_preload;   ///< S/P = K*/K_FD [paper (13)]
+
+  Loss base_loss_per_zeta = {};  ///< the base's loss over zeta_B
+  double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
+  double preload_growth = 0;     ///< P_2
+
+  /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0.
+  bool is_loaded(double eta, double preload) const {
+    return preload > 0 && preload + preload_growth * eta * eta > 0;
+  }
+
+  /// S = (P + P_2 eta^2) K*/K_FD.
+  double slip_threshold(double eta, double preload) const {
+    return (preload + preload_growth * eta * eta) * slip_per_preload;
+  }
+
+  /// For a contact that is loaded.
+  LogThreshold log_threshold(double eta, double preload) const {
+    const double by_preload = 1 / (preload + preload_growth * eta * eta);
+    return {std::log(slip_threshold(eta, preload)), 2 * preload_growth * eta * by_preload, by_preload};
+  }
 };
 
 /// Reduced base and damper of `parameters`, before they are turned into modes.
@@ -51,6 +90,9 @@ ReducedPair reduce(const SystemParameters& parameters);
 /// Damping factors beta of C = (beta/2 pi) K: 2 zeta_B/gamma and 2 zeta_D [paper, footnote 3].
 double base_damping_factor(const SystemParameters& parameters);
 double damper_damping_factor(const SystemParameters& parameters);
+
+/// Loss of the base over zeta_B: 2/gamma viscous or 2 structural.
+Loss base_loss_per_zeta(const SystemParameters& parameters);
 
 /// The whole model; its cost does not depend on N.
 FrictionSystem build_system(const SystemParameters& parameters);
