@@ -124,7 +124,7 @@ class Search {
   void extremum(Index i) {
     const auto m = static_cast<std::size_t>(i);
     const int before = signs_.observables[m];
-    if (before * sign_of_slope((*at_upper_)[m]) >= 0) return;
+    if (before * sign_of_slope(stepper_, m, (*at_upper_)[m]) >= 0) return;
     note(Event::Kind::extremum, before > 0 ? PointType::peak : PointType::trough, i,
          locate_extremum(m, before));
   }

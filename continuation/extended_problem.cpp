@@ -36,6 +36,11 @@ void ExtendedProblem::join(const BasePoint& point, Vector& unknowns, Vector& par
 bool ExtendedProblem::adapt(const BasePoint& point) {
   Vector parameter_scale(point.parameters.size());
   base_.scale(point.unknowns, point.parameters, scale_, parameter_scale);
+  Vector at_zero = point.parameters;
+  at_zero(active_) = 0;
+  Vector unused(base_.size());
+  base_.scale(point.unknowns, at_zero, unused, parameter_scale);
+  active_observable_scale_ = parameter_scale(active_);
   return at_.evaluate(point.unknowns, point.parameters, point.regime);
 }
 
@@ -140,7 +145,8 @@ void ExtendedProblem::take_gradient(Gradient& out) const {
 }
 
 std::vector<Observable> ExtendedProblem::observables() const {
-  std::vector<Observable> result{{base_.parameter_names()[static_cast<std::size_t>(active_)], true}};
+  std::vector<Observable> result{
+      {base_.parameter_names()[static_cast<std::size_t>(active_)], true, active_observable_scale_}};
   for (const Observable& observable : base_.observables()) result.push_back(observable);
   return result;
 }

@@ -24,4 +24,11 @@ std::string_view to_string(PointType type) {
   return "";
 }
 
+std::optional<PointType> point_type(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(PointType::hopf_hopf); ++i) {
+    if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
+  }
+  return std::nullopt;
+}
+
 }  // namespace arcslip::continuation

@@ -1,25 +1,46 @@
 #include "arcslip/continuation/second_derivative.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace arcslip::continuation {
 namespace {
 
 constexpr double first_step = 0.02;  // of the problem's scale
-constexpr int levels = 9;            // down to 3e-7 of the scale, where the sharpest features are met
-constexpr int order = 3;             // columns of the extrapolation
+constexpr int levels = 13;           // down to 1e-9 of the scale: no feature is sharper
+constexpr std::size_t order = 3;     // columns of the extrapolation
+constexpr double agreement = 1e-11;  // relative, of two columns: as good as rounding lets it be
+
+/// An extrapolated difference and how far it is from the one before it.
+struct Estimate {
+  Vector derivative;
+  double error;
+};
+
+/// Coarse estimates may agree by chance, being blind to a feature between their points, and the finest are
+/// spoilt by rounding. From the finest on the errors fall until the feature is no longer resolved.
+Estimate& best_of(std::vector<Estimate>& estimates) {
+  std::size_t best = estimates.size() - 1;
+  int rising = 0;
+  for (std::size_t k = estimates.size(); k-- > 0 && rising < 2;) {
+    rising = estimates[k].error > 16 * estimates[best].error ? rising + 1 : 0;
+    if (estimates[k].error < estimates[best].error) best = k;
+  }
+  return estimates[best];
+}
 
 }  // namespace
 
 double differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative) {
   std::array<Vector, order> row;
   std::array<Vector, order> previous;
+  std::vector<Estimate> estimates;
   Vector forward;
   Vector backward;
-  double best = std::numeric_limits<double>::infinity();
-  int begun = 0;
+  std::size_t begun = 0;
   for (int level = 0; level < levels; ++level, step *= 0.25) {
     if (!f(step, forward) || !f(-step, backward)) {
       begun = 0;
@@ -27,23 +48,21 @@ double differentiate(const std::function<bool(double h, Vector& out)>& f, double
     }
     std::swap(row, previous);
     row[0] = (forward - backward) / (2 * step);
+    const std::size_t last = std::min(begun++, order - 1);
     double factor = 16;
-    for (std::size_t k = 1; k < order && static_cast<int>(k) <= begun; ++k, factor *= 16) {
+    for (std::size_t k = 1; k <= last; ++k, factor *= 16)
       row[k] = (factor * row[k - 1] - previous[k - 1]) / (factor - 1);
-    }
-    const auto last = static_cast<std::size_t>(std::min(begun, order - 1));
-    ++begun;
     if (last == 0) continue;
-    const double error = (row[last] - row[last - 1]).lpNorm<Eigen::Infinity>();
-    if (!(error < best)) {
-      if (last == order - 1 && error > 4 * best) break;  // rounding has taken over
-      continue;
+    estimates.push_back({row[last], (row[last] - row[last - 1]).lpNorm<Eigen::Infinity>()});
+    if (last == order - 1 && estimates.back().error <= agreement * row[last].lpNorm<Eigen::Infinity>()) {
+      derivative = row[last];
+      return estimates.back().error;
     }
-    best = error;
-    derivative = row[last];
-    if (best <= 1e-12 * derivative.lpNorm<Eigen::Infinity>()) break;
   }
-  return best;
+  if (estimates.empty()) return std::numeric_limits<double>::infinity();
+  Estimate& best = best_of(estimates);
+  derivative = std::move(best.derivative);
+  return best.error;
 }
 
 SecondDerivative::SecondDerivative(const Problem& problem)

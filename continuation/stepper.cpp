@@ -38,6 +38,8 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
   }
   gradient_.unknowns.setZero(corrector.size());
   gradient_.parameters.setZero(here_.parameters.size());
+  const std::vector<Observable> observables = problem.observables();
+  for (const Index which : tracked_) scales_.push_back(observables[static_cast<std::size_t>(which)].scale);
   for (std::vector<Monitor>* m : {&at_here_, &from_, &to_, &probed_}) m->reserve(tracked_.size() + 8);
 }
 
@@ -239,7 +241,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const Monitor& a = from_[i];
     const Monitor& b = at_s[i];
     const double change = b.value - a.value;
-    const double size = i < tracked_.size() ? std::max(std::abs(a.value), std::abs(b.value)) : 1;
+    const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
     // No more than a factor of two at a time: the observable is wanted as a curve, too.
     if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
     // The mean of the end slopes is to give the change, or else there is more between than these can tell.

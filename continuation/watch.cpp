@@ -4,8 +4,10 @@
 #include <cmath>
 
 namespace arcslip::continuation {
-int sign_of_slope(const Monitor& monitor) {
-  return std::abs(monitor.slope) <= 1e-14 * std::abs(monitor.value) ? 0 : sign_of(monitor.slope);
+
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
+  const double size = stepper.size_of(observable, monitor.value);
+  return std::abs(monitor.slope) <= 1e-14 * size ? 0 : sign_of(monitor.slope);
 }
 
 Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
@@ -45,8 +47,8 @@ const std::string& Watch::label(std::size_t function) const {
 Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   Signs signs;
   signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
-  for (Index i = 0; i < stepper.tracked_count(); ++i)
-    signs.observables.push_back(sign_of_slope(stepper.at_here()[static_cast<std::size_t>(i)]));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.tracked_count()); ++i)
+    signs.observables.push_back(sign_of_slope(stepper, i, stepper.at_here()[i]));
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
   signs.unstable = watch.unstable();
   return signs;
@@ -56,7 +58,8 @@ void update(Signs& signs, const Stepper& stepper, const Watch& watch) {
   const double rate = stepper.parameter_slope(Hold::tangent);
   if (sign_of(rate) != 0) signs.parameter = sign_of(rate);
   for (std::size_t i = 0; i < signs.observables.size(); ++i) {
-    if (const int sign = sign_of_slope(stepper.at_here()[i]); sign != 0) signs.observables[i] = sign;
+    if (const int sign = sign_of_slope(stepper, i, stepper.at_here()[i]); sign != 0)
+      signs.observables[i] = sign;
   }
   for (std::size_t i = 0; i < signs.functions.size(); ++i) {
     if (const int sign = sign_of(watch.functions()[i]); sign != 0) signs.functions[i] = sign;

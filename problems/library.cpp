@@ -17,6 +17,12 @@ const std::vector<LibraryModel>& library() {
   return models;
 }
 
+LibraryModel::Values defaults(const LibraryModel& model) {
+  LibraryModel::Values values;
+  for (const Setting& setting : model.settings) values.push_back(setting.value);
+  return values;
+}
+
 const LibraryModel* find_model(const std::string& name) {
   const auto& models = library();
   const auto found = std::find_if(models.begin(), models.end(),

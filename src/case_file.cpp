@@ -6,20 +6,22 @@
 #include <algorithm>
 #include <limits>
 
+#include "system_section.hpp"
 #include "toml_reader.hpp"
 
 namespace arcslip {
 namespace {
 
+using continuation::PointType;
 using nlohmann::ordered_json;
+using problems::LibraryModel;
 
-const std::vector<std::string> system_keys = {
-    "model",         "wave_number",         "elements", "mass_ratio", "frequency_ratio", "slenderness",
-    "poisson_ratio", "interface_stiffness", "damping",  "force",      "preload"};
-const std::vector<std::string> branch_keys = {"parameter", "from", "to", "eta", "for_each"};
-const std::vector<std::string> continuation_keys = {"tolerance", "max_step", "min_step", "max_points",
-                                                    "stop_at"};
-constexpr double default_poisson_ratio = 0.3;
+const std::vector<std::string> branch_keys = {"parameter", "parameters", "from",      "to",
+                                              "eta",       "start",      "switching", "curve",
+                                              "window",    "response",   "for_each",  "extrema_of"};
+const std::vector<std::string> continuation_keys = {"tolerance", "max_step",   "min_step",   "max_points",
+                                                    "stop_at",   "stop_after", "max_seconds"};
+const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
 
 /// What differs from branch to branch: one value for each key of `for_each`.
 struct ForEach {
@@ -30,12 +32,13 @@ struct ForEach {
   bool sets(const std::string& key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 };
 
-ForEach read_for_each(const TomlDocument& document, const TomlSection& branch) {
+ForEach read_for_each(const TomlDocument& document, const TomlSection& branch, const LibraryModel* model) {
   ForEach result;
   if (!branch.has("for_each")) return result;
   const TomlSection section(document, "branch.for_each");
-  std::vector<std::string> allowed = system_keys;
-  allowed.emplace_back("eta");
+  std::vector<std::string> allowed = system_keys(model);
+  if (model == nullptr) allowed.emplace_back("eta");
+  if (model != nullptr) std::erase(allowed, "model");
   section.allow_only(allowed);
   for (const auto& [key, node] : *section.table()) {
     const std::string name(key.str());
@@ -72,61 +75,34 @@ ordered_json values_of(const ForEach& for_each, std::size_t i) {
   return values;
 }
 
-double read_interface_stiffness(const TomlSection& section, StructureModel model) {
-  const double poisson_ratio =
-      section.number("poisson_ratio", {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"},
-                     default_poisson_ratio);
-  if (model == StructureModel::rods) {
-    if (section.has("slenderness"))
-      section.fail("slenderness", "only for beams; rods take interface_stiffness");
-    return section.number("interface_stiffness", positive());
-  }
-  if (section.has("slenderness") && section.has("interface_stiffness")) {
-    section.fail("interface_stiffness", "expected this or slenderness, not both");
-  }
-  if (section.has("interface_stiffness")) return section.number("interface_stiffness", positive());
-  return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
-}
-
-void read_damping(const TomlDocument& document, const TomlSection& section, SystemParameters& system) {
-  if (!section.has("damping")) return;
-  const toml::table* table = section.require("damping", "a table").as_table();
-  if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
-  for (const auto& [key, node] : *table) {
-    const bool base = key.str() == "base";
-    if (!base && key.str() != "damper") {
-      document.fail(&node, section.name("damping") + "." + std::string(key.str()),
-                    "unknown key; expected base or damper");
+/// One special point by its name, or a table of names and counts.
+std::vector<continuation::StopAfter> read_stop_after(const TomlDocument& document,
+                                                     const TomlSection& section) {
+  constexpr const char* expected =
+      "the type of a special point, or a table of types and counts: \"fold\", { fold = 2, peak = 5 }";
+  std::vector<continuation::StopAfter> rules;
+  if (!section.has("stop_after")) return rules;
+  const toml::node& node = section.require("stop_after", expected);
+  const auto type_of = [&](const std::string& name, const toml::node& place, const std::string& key) {
+    const auto type = continuation::point_type(name);
+    if (!type || *type == PointType::regular || *type == PointType::start || *type == PointType::end)
+      document.mismatch(place, key, expected);
+    return *type;
+  };
+  if (const toml::table* table = node.as_table()) {
+    const TomlSection counts(document, "continuation.stop_after");
+    for (const auto& [key, value] : *table) {
+      const std::string name(key.str());
+      rules.push_back({type_of(name, value, counts.name(name)),
+                       counts.integer(name, 1, std::numeric_limits<int>::max(), "an integer >= 1"),
+                       {}});
     }
-    const double value = node.value<double>().value_or(-1);
-    if (!node.is_number() || !(value > 0 && value < 1)) {
-      document.mismatch(node, section.name("damping") + "." + std::string(key.str()),
-                        "a finite number > 0 and < 1");
-    }
-    (base ? system.base_damping : system.damper_damping) = value;
+    return rules;
   }
-}
-
-SystemParameters read_system(const TomlDocument& document, const Replacements& replacements,
-                             bool needs_preload) {
-  const TomlSection section(document, "system", &replacements);
-  if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
-  section.allow_only(system_keys);
-  SystemParameters system;
-  system.model =
-      section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
-  constexpr Index most = 1'000'000'000;
-  system.wave_number = section.integer("wave_number", 1, most, "an integer >= 1");
-  system.elements =
-      section.integer("elements", 2 * system.wave_number + 1, most,
-                      fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
-  system.mass_ratio = section.number("mass_ratio", positive());
-  system.frequency_ratio = section.number("frequency_ratio", positive());
-  system.interface_stiffness = read_interface_stiffness(section, system.model);
-  read_damping(document, section, system);
-  system.force = section.number("force", positive());
-  if (needs_preload || section.has("preload")) system.preload = section.number("preload", positive());
-  return system;
+  const auto name = node.value_exact<std::string>();
+  if (!name) section.mismatch("stop_after", expected);
+  rules.push_back({type_of(*name, node, section.name("stop_after")), 1, {}});
+  return rules;
 }
 
 continuation::TraceOptions read_continuation(const TomlDocument& document) {
@@ -141,32 +117,108 @@ continuation::TraceOptions read_continuation(const TomlDocument& document) {
       options.min_step);
   options.max_points = section.integer("max_points", 2, std::numeric_limits<int>::max(), "an integer >= 2",
                                        options.max_points);
+  options.max_seconds = section.number("max_seconds", positive(), options.max_seconds);
+  options.stop_after = read_stop_after(document, section);
   return options;
 }
 
-void read_range(const TomlDocument& document, const TomlSection& branch,
-                continuation::TraceOptions& options) {
-  options.parameter = branch.text("parameter", {"eta", "P"});
-  options.extrema_of = {"Y"};
-  options.from = branch.number("from", positive());
-  options.to = branch.number("to", positive());
-  if (options.from == options.to) branch.mismatch("to", "a number that differs from branch.from");
-  const double low = std::min(options.from, options.to);
-  const double high = std::max(options.from, options.to);
-  options.stop_at = TomlSection(document, "continuation").numbers("stop_at", within(low, high));
+const LibraryModel* read_model(const TomlDocument& document) {
+  const TomlSection section(document, "system");
+  if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
+  return problems::find_model(section.text("model", model_names()));
 }
+
+/// The parameters that may be continued.
+std::vector<std::string> parameters_of(const LibraryModel* model, bool limit_cycle) {
+  if (model != nullptr) return model->build(problems::defaults(*model))->parameter_names();
+  return limit_cycle ? std::vector<std::string>{"zeta_B", "P"} : std::vector<std::string>{"eta", "P"};
+}
+
+/// Reads [branch] but for what `for_each` may change.
+class BranchSection {
+ public:
+  BranchSection(const TomlDocument& document, const TomlSection& section, const LibraryModel* model)
+      : document_(document), section_(section), model_(model) {}
+
+  CaseBranch read(const continuation::TraceOptions& options) {
+    CaseBranch branch;
+    branch.options = options;
+    if (section_.has("response")) {
+      if (model_ != nullptr) section_.fail("response", "only for systems with friction");
+      branch.problem.limit_cycle = section_.text("response", {"forced", "limit_cycle"}) == "limit_cycle";
+    }
+    names_ = parameters_of(model_, branch.problem.limit_cycle);
+    if (section_.has("curve")) {
+      read_curve(branch);
+    } else {
+      for (const char* key : {"parameters", "window"}) {
+        if (section_.has(key)) section_.fail(key, "only beside curve");
+      }
+      branch.options.parameter = section_.text("parameter", names_);
+    }
+    read_range(branch);
+    read_extrema(branch);
+    return branch;
+  }
+
+ private:
+  void read_curve(CaseBranch& branch) {
+    for (const char* key : {"parameter", "start", "switching"}) {
+      if (section_.has(key)) section_.fail(key, "not beside curve, which has parameters and a window");
+    }
+    CurveRequest curve{};
+    curve.type = *continuation::point_type(section_.text("curve", curves));
+    const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names_, "\", \""));
+    const std::vector<std::string> pair = section_.texts("parameters", names_, expected);
+    if (pair.size() != 2 || pair[0] == pair[1]) section_.mismatch("parameters", expected);
+    curve.active = pair[0];
+    branch.options.parameter = pair[1];
+    section_.require("window", "two different numbers, the range of " + curve.active);
+    const std::vector<double> window = section_.numbers("window", parameter_rule(model_, curve.active));
+    if (window.size() != 2 || window[0] == window[1])
+      section_.mismatch("window", "two different numbers, the range of " + curve.active);
+    curve.window = {std::min(window[0], window[1]), std::max(window[0], window[1])};
+    branch.curve = curve;
+  }
+
+  void read_range(CaseBranch& branch) {
+    continuation::TraceOptions& options = branch.options;
+    const NumberRule rule = parameter_rule(model_, options.parameter);
+    options.from = section_.number("from", rule);
+    options.to = section_.number("to", rule);
+    if (options.from == options.to) section_.mismatch("to", "a number that differs from branch.from");
+    const NumberRule in_range =
+        within(std::min(options.from, options.to), std::max(options.from, options.to));
+    options.stop_at = TomlSection(document_, "continuation").numbers("stop_at", in_range);
+    if (section_.has("start")) branch.start = section_.number("start", in_range);
+    branch.switching = section_.boolean("switching", false);
+    if (branch.start && branch.switching)
+      section_.fail("start", "not beside switching, which follows the branch that begins at branch.from");
+  }
+
+  void read_extrema(CaseBranch& branch) {
+    if (section_.has("extrema_of")) {
+      branch.options.extrema_of = section_.texts("extrema_of", {}, "an array of observables");
+    } else if (model_ == nullptr && !branch.problem.limit_cycle) {
+      branch.options.extrema_of = {"Y"};
+    }
+    const bool extrema =
+        branch.curve && (branch.curve->type == PointType::peak || branch.curve->type == PointType::trough);
+    if (extrema && branch.options.extrema_of.empty())
+      section_.require("extrema_of", "the observable whose extrema the curve is made of");
+  }
+
+  const TomlDocument& document_;
+  const TomlSection& section_;
+  const LibraryModel* model_;
+  std::vector<std::string> names_;
+};
 
 /// The input as it is understood, defaults included.
 ordered_json resolve(const TomlDocument& document, const Case& built) {
   ordered_json resolved = to_json(document.root());
   const CaseBranch& first = built.branches.front();
-  ordered_json& system = resolved["system"];
-  if (!system.contains("damping")) system["damping"] = ordered_json::object();
-  if (!system["damping"].contains("base")) system["damping"]["base"] = first.system.base_damping;
-  if (!system["damping"].contains("damper")) system["damping"]["damper"] = first.system.damper_damping;
-  if (system.contains("slenderness") && !system.contains("poisson_ratio")) {
-    system["poisson_ratio"] = default_poisson_ratio;
-  }
+  resolve_system(first.problem, resolved["system"]);
   ordered_json& continuation = resolved["continuation"];
   continuation["tolerance"] = first.options.tolerance;
   continuation["max_step"] = first.options.max_step;
@@ -176,33 +228,65 @@ ordered_json resolve(const TomlDocument& document, const Case& built) {
   return resolved;
 }
 
+/// Refuses what `for_each` or `eta` would set although it is continued.
+void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::string& parameter) {
+  if (parameter == "P" && for_each.sets("preload")) {
+    branch.fail("for_each", "preload cannot be listed where P is the continuation parameter");
+  }
+  if (parameter != "P" && (branch.has("eta") || for_each.sets("eta"))) {
+    branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
+  }
+}
+
+/// The value of a parameter that the problem is built with.
+double fixed_value(const ProblemRequest& problem, const std::string& parameter) {
+  if (problem.model == nullptr) {
+    return parameter == "P"     ? problem.system.preload
+           : parameter == "eta" ? problem.eta
+                                : problem.system.base_damping;
+  }
+  for (std::size_t i = 0; i < problem.settings.size(); ++i) {
+    if (problem.model->settings[i].name == parameter) return problem.settings[i];
+  }
+  return 0;
+}
+
 }  // namespace
 
 Case read_case(const std::string& path, const std::vector<std::string>& settings) {
   const TomlDocument document(path, settings);
   const TomlSection root(document, "");
   root.allow_only({"title", "system", "branch", "continuation"});
-  const TomlSection branch(document, "branch");
-  if (branch.table() == nullptr) document.fail(nullptr, "branch", "missing; expected a section [branch]");
-  branch.allow_only(branch_keys);
+  const TomlSection section(document, "branch");
+  if (section.table() == nullptr) document.fail(nullptr, "branch", "missing; expected a section [branch]");
+  section.allow_only(branch_keys);
+  const LibraryModel* model = read_model(document);
 
   Case result;
   result.title = root.has("title") ? root.text("title", {}) : "";
-  continuation::TraceOptions options = read_continuation(document);
-  read_range(document, branch, options);
-  const ForEach for_each = read_for_each(document, branch);
-  const bool sweeps_preload = options.parameter == "P";
-  if (sweeps_preload && for_each.sets("preload")) {
-    branch.fail("for_each", "preload cannot be listed where P is the continuation parameter");
-  }
-  if (!sweeps_preload && (branch.has("eta") || for_each.sets("eta"))) {
-    branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
-  }
+  const CaseBranch common = BranchSection(document, section, model).read(read_continuation(document));
+  // Of a curve, the branch on which its first points are looked for is what counts.
+  const std::string& parameter = common.curve ? common.curve->active : common.options.parameter;
+  const ForEach for_each = read_for_each(document, section, model);
+  if (model == nullptr) check_fixed(section, for_each, parameter);
   for (std::size_t i = 0; i < for_each.count; ++i) {
     const Replacements replacements = replacements_of(for_each, i);
-    const TomlSection replaced(document, "branch", &replacements);
-    result.branches.push_back({values_of(for_each, i), read_system(document, replacements, !sweeps_preload),
-                               sweeps_preload ? replaced.number("eta", positive()) : 0, options});
+    CaseBranch branch = common;
+    branch.values = values_of(for_each, i);
+    read_system(document, replacements, {model, parameter}, branch.problem);
+    if (model == nullptr && parameter == "P" && !branch.problem.limit_cycle)
+      branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());
+    if (branch.curve) {
+      branch.curve->seed = fixed_value(branch.problem, branch.options.parameter);
+      const double low = std::min(branch.options.from, branch.options.to);
+      const double high = std::max(branch.options.from, branch.options.to);
+      if (!(branch.curve->seed >= low && branch.curve->seed <= high)) {
+        section.fail("from",
+                     fmt::format("the curve is looked for at {} = {:g}, which is not between {:g} and {:g}",
+                                 branch.options.parameter, branch.curve->seed, low, high));
+      }
+    }
+    result.branches.push_back(std::move(branch));
   }
   result.resolved = resolve(document, result);
   return result;

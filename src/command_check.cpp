@@ -1,32 +1,121 @@
 #include <fmt/format.h>
 
-#include "arcslip/case_file.hpp"
+#include <algorithm>
+#include <limits>
+
+#include "arcslip/continuation/derivative_check.hpp"
+#include "arcslip/runs.hpp"
 #include "commands.hpp"
 #include "output.hpp"
 
 namespace arcslip {
 
-int check_command(const std::string& case_path, const std::vector<std::string>& settings) {
-  const Case input = read_case(case_path, settings);
-  std::string text = fmt::format("{}: {}\n", case_path, input.title.empty() ? "valid" : input.title);
+namespace {
+
+std::string describe(const ProblemRequest& problem) {
+  if (problem.model != nullptr) {
+    std::string text = fmt::format("{}: {}", problem.model->name, problem.model->title);
+    for (std::size_t i = 0; i < problem.settings.size(); ++i)
+      text += fmt::format(", {} = {:g}", problem.model->settings[i].name, problem.settings[i]);
+    return text;
+  }
+  const SystemParameters& system = problem.system;
+  std::string text = fmt::format(
+      "{}, n = {}, N = {}, M* = {:g}, gamma = {:g}, K_FD = {:.6g}, zeta = {:g} (base), {:g} (damper), F = "
+      "{:g}",
+      to_string(system.model), system.wave_number, system.elements, system.mass_ratio, system.frequency_ratio,
+      system.interface_stiffness, system.base_damping, system.damper_damping, system.force);
+  if (system.base_damping_kind == DampingKind::structural) text += ", structural damping of the base";
+  if (system.fixed_damper) text += ", damper held";
+  if (system.cubic_stiffness != 0) text += fmt::format(", cubic stiffness {:g}", system.cubic_stiffness);
+  if (system.preload_growth != 0) text += fmt::format(", preload growth {:g}", system.preload_growth);
+  return text;
+}
+
+/// What is held while the branch's parameter runs.
+std::string fixed(const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  if (problem.model != nullptr) return "";
+  const bool over_preload = branch.options.parameter == "P";
+  if (problem.limit_cycle) {
+    return over_preload ? fmt::format(" at zeta_B = {:g}", problem.system.base_damping)
+                        : fmt::format(" at P = {:g}", problem.system.preload);
+  }
+  return over_preload ? fmt::format(" at eta = {:g}", problem.eta)
+                      : fmt::format(" at P = {:g}", problem.system.preload);
+}
+
+std::string describe(const CaseBranch& branch) {
+  const continuation::TraceOptions& options = branch.options;
+  if (branch.curve) {
+    return fmt::format(
+        "curve of {} points: {} from {:g} to {:g}, {} from {:g} to {:g}, looked for at {} = {:g}",
+        to_string(branch.curve->type), branch.curve->active, branch.curve->window.low,
+        branch.curve->window.high, options.parameter, options.from, options.to, options.parameter,
+        branch.curve->seed);
+  }
+  std::string text =
+      fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
+  if (branch.problem.limit_cycle) text += ", limit cycle";
+  if (branch.start) text += fmt::format(", both ways from {:g}", *branch.start);
+  if (branch.switching) text += ", with the branches that it meets";
+  return text;
+}
+
+/// How far inside its regime a point lies.
+double depth(const continuation::Problem& problem, const continuation::BranchPoint& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < problem.border_count(point.regime); ++b) {
+    least = std::min(least, -problem.border(point.unknowns, point.parameters, point.regime, b, nullptr));
+  }
+  return least;
+}
+
+/// The worst of all derivatives, at the first point of the branch that lies well inside each regime.
+continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
+  CaseBranch plain = request;
+  if (request.curve) {
+    plain.options.parameter = request.curve->active;
+    plain.options.from = request.curve->window.low;
+    plain.options.to = request.curve->window.high;
+    plain.options.stop_at.clear();
+    plain.curve.reset();
+  }
+  const std::vector<TracedBranch> traced = trace(plain);
+  const continuation::Problem& problem = *traced.front().base;
+  continuation::DerivativeReport worst{0, "the branch has no start"};
+  std::vector<bool> seen(problem.regime_names().size(), false);
+  for (const continuation::BranchPoint& point : traced.front().branch.points) {
+    const auto regime = static_cast<std::size_t>(point.regime);
+    if (seen[regime] || depth(problem, point) < 0.01) continue;
+    seen[regime] = true;
+    const auto report =
+        continuation::check_derivatives(problem, point.unknowns, point.parameters, point.regime);
+    if (report.worst >= worst.worst) worst = report;
+  }
+  return worst;
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options) {
+  constexpr double exact = 1e-6;  // differences are no better than that where a problem is stiff
+  const Case input = read_case(options.case_path, options.settings);
+  std::string text = fmt::format("{}: {}\n", options.case_path, input.title.empty() ? "valid" : input.title);
+  bool good = true;
   for (std::size_t i = 0; i < input.branches.size(); ++i) {
     const CaseBranch& branch = input.branches[i];
-    const SystemParameters& system = branch.system;
     const std::string values = describe(branch.values);
-    const bool in_eta = branch.options.parameter == "eta";
-    text += fmt::format("branch {}{}{}\n", i, values.empty() ? "" : ": ", values);
-    text +=
-        fmt::format("  {} from {:g} to {:g} at {} = {:g}\n", branch.options.parameter, branch.options.from,
-                    branch.options.to, in_eta ? "P" : "eta", in_eta ? system.preload : branch.eta);
-    text += fmt::format(
-        "  {}, n = {}, N = {}, M* = {:g}, gamma = {:g}, K_FD = {:.6g}, zeta = {:g} (base), {:g} (damper), F "
-        "= {:g}\n",
-        to_string(system.model), system.wave_number, system.elements, system.mass_ratio,
-        system.frequency_ratio, system.interface_stiffness, system.base_damping, system.damper_damping,
-        system.force);
+    text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
+                        describe(branch), describe(branch.problem));
+    if (!options.derivatives) continue;
+    const continuation::DerivativeReport report = check_derivatives(branch);
+    good = good && report.worst <= exact;
+    text += fmt::format("  derivatives against differences: {:.1e} at worst, {}{}\n", report.worst,
+                        report.where, report.worst <= exact ? "" : ": NOT exact");
   }
   print(text);
-  return status::done;
+  return good ? status::done : status::incomplete_branch;
 }
 
 }  // namespace arcslip

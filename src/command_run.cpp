@@ -4,10 +4,9 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <memory>
+#include <iterator>
 
 #include "arcslip/case_file.hpp"
-#include "arcslip/problems/forced_response.hpp"
 #include "arcslip/results.hpp"
 #include "commands.hpp"
 #include "output.hpp"
@@ -41,12 +40,14 @@ class Progress {
   Progress(Progress&&) = delete;
   Progress& operator=(Progress&&) = delete;
 
-  void show(std::size_t branch, const continuation::TraceOptions& options, double value, std::size_t points) {
+  void show(std::size_t branch, const CaseBranch& request, const continuation::BranchPoint& point,
+            std::size_t points) {
     if (!shown_ || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
     last_ = Clock::now();
     drawn_ = true;
-    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, {} = {:.6g} of {:g} to {:g}", branch + 1,
-               branches_, points, options.parameter, value, options.from, options.to);
+    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}",
+               branch + 1, branches_, points, point.arclength, request.options.parameter,
+               request.options.from, request.options.to);
     std::fflush(stderr);
   }
 
@@ -57,28 +58,25 @@ class Progress {
   Clock::time_point last_ = Clock::now();
 };
 
-std::vector<TracedBranch> trace_all(const Case& input,
-                                    std::vector<std::unique_ptr<problems::ForcedResponse>>& problems,
-                                    bool quiet) {
-  std::vector<TracedBranch> traced;
+std::vector<TracedBranch> trace_all(const Case& input, bool quiet) {
+  std::vector<TracedBranch> all;
   Progress progress(!quiet, input.branches.size());
   for (std::size_t i = 0; i < input.branches.size() && interrupted == 0; ++i) {
     const CaseBranch& request = input.branches[i];
-    const Clock::time_point start = Clock::now();
-    const auto& problem =
-        *problems.emplace_back(std::make_unique<problems::ForcedResponse>(build_system(request.system)));
-    const bool in_eta = request.options.parameter == "eta";
-    const continuation::Guess guess = in_eta ? problem.guess(request.options.from, request.system.preload)
-                                             : problem.guess(request.eta, request.options.from);
     std::size_t points = 0;
     const auto watch = [&](const continuation::BranchPoint& point) {
-      if (++points % 256 == 0) progress.show(i, request.options, point.parameters(in_eta ? 0 : 1), points);
+      if (++points % 256 == 0) progress.show(i, request, point, points);
       return interrupted == 0;
     };
-    continuation::Branch branch = continuation::trace(problem, guess, request.options, watch);
-    traced.push_back({&request, &problem, std::move(branch), seconds_since(start)});
+    std::vector<TracedBranch> traced = trace(request, watch);
+    std::move(traced.begin(), traced.end(), std::back_inserter(all));
   }
-  return traced;
+  return all;
+}
+
+/// A curve may also end where the regime of its points does.
+bool ended_well(const TracedBranch& traced) {
+  return traced.branch.complete() || (traced.curve && traced.branch.stop == continuation::Stop::left_regime);
 }
 
 std::string tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
@@ -88,7 +86,9 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
   for (std::size_t i = 0; i < traced.size(); ++i) {
     const std::string values = describe(traced[i].request->values);
     if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
-    text += special_table_header() + special_table(i, traced[i]);
+    text += special_table_header(traced[i]) + special_table(i, traced[i]);
+    if (traced[i].branch.stop != continuation::Stop::reached_end)
+      text += fmt::format("{}: {}\n", to_string(traced[i].branch.stop), traced[i].branch.explanation);
     points += traced[i].branch.points.size();
   }
   return text + fmt::format("\n{} branch{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
@@ -109,8 +109,7 @@ int run_command(const RunOptions& options) {
 
   std::signal(SIGINT, note_interrupt);
   std::signal(SIGTERM, note_interrupt);
-  std::vector<std::unique_ptr<problems::ForcedResponse>> problems;
-  const std::vector<TracedBranch> traced = trace_all(input, problems, options.quiet);
+  const std::vector<TracedBranch> traced = trace_all(input, options.quiet);
   const double seconds = seconds_since(start);
 
   write_branches(traced, [&](std::string_view text) { branches.write(text); });
@@ -124,15 +123,17 @@ int run_command(const RunOptions& options) {
 
   int result = status::done;
   for (std::size_t i = 0; i < traced.size(); ++i) {
-    if (traced[i].branch.complete()) continue;
+    if (ended_well(traced[i])) continue;
     result = status::incomplete_branch;
     fmt::print(stderr, "arcslip: branch {}: {}: {}\n", i, to_string(traced[i].branch.stop),
                traced[i].branch.explanation);
   }
-  if (traced.size() < input.branches.size()) {
+  const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
+  const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;
+  if (missing > 0) {
     result = status::incomplete_branch;
-    fmt::print(stderr, "arcslip: interrupted: {} of {} branches were not begun\n",
-               input.branches.size() - traced.size(), input.branches.size());
+    fmt::print(stderr, "arcslip: interrupted: {} of {} branches were not begun\n", missing,
+               input.branches.size());
   }
   return result;
 }

@@ -26,8 +26,14 @@ struct RunOptions {
 /// Traces the branches, writes branches.csv and summary.json, prints the special points.
 int run_command(const RunOptions& options);
 
+struct CheckOptions {
+  std::string case_path;
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool derivatives = false;           ///< compare the problems' derivatives with differences
+};
+
 /// Prints what `run` would do.
-int check_command(const std::string& case_path, const std::vector<std::string>& settings);
+int check_command(const CheckOptions& options);
 
 /// Draws what is in `folder`, as PNG and SVG beside it.
 int plot_command(const std::string& folder);

@@ -69,9 +69,13 @@ int dispatch(int argc, char** argv) {
   run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
   run->footer(run_notes);
 
+  CheckOptions checked;
   CLI::App* check = app.add_subcommand("check", "Read and validate a case file, print what would run");
-  check->add_option("CASE", options.case_path, "Case file (TOML)")->required();
-  check->add_option("--set", options.settings, "As for run")
+  check->add_option("CASE", checked.case_path, "Case file (TOML)")->required();
+  check->add_flag(
+      "--derivatives", checked.derivatives,
+      "Compare the problem's exact derivatives with differences on the branch; status 3 if one differs");
+  check->add_option("--set", checked.settings, "As for run")
       ->type_name("section.key=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -89,7 +93,7 @@ int dispatch(int argc, char** argv) {
     return status::wrong_command_line;
   }
   if (run->parsed()) return run_command(options);
-  if (check->parsed()) return check_command(options.case_path, options.settings);
+  if (check->parsed()) return check_command(checked);
   return plot_command(folder);
 }
 

@@ -12,69 +12,105 @@ using continuation::BranchPoint;
 using continuation::PointType;
 using nlohmann::ordered_json;
 
-std::vector<std::string> observable_names(const continuation::Problem& problem) {
-  std::vector<std::string> names;
-  for (const continuation::Observable& observable : problem.observables()) names.push_back(observable.name);
-  return names;
-}
-
-ordered_json to_json(const SpecialPoint& special) {
-  return {{"type", to_string(special.type)},
-          {"eta", special.eta},
-          {"P", special.preload},
-          {"R_over_S", special.R_over_S},
-          {"Y", special.Y}};
-}
-
-ordered_json highest_peak(const std::vector<SpecialPoint>& special) {
-  const SpecialPoint* best = nullptr;
-  for (const SpecialPoint& point : special) {
-    if (point.type == PointType::peak && (best == nullptr || point.Y > best->Y)) best = &point;
+/// What a point is described by: parameters and observables by name. Of a curve of special points the active
+/// parameter is an observable; it stands among the parameters, in the base's order.
+class Columns {
+ public:
+  explicit Columns(const TracedBranch& traced) : problem_(traced.problem()) {
+    names_ = problem_.parameter_names();
+    parameters_ = static_cast<Index>(names_.size());
+    if (traced.curve) moved_ = traced.curve->active();
+    for (const continuation::Observable& observable : problem_.observables()) {
+      const bool first = static_cast<Index>(names_.size()) == parameters_;
+      names_.insert(first && moved_ >= 0 ? names_.begin() + moved_ : names_.end(), observable.name);
+    }
   }
-  if (best == nullptr) return nullptr;
-  return {{"eta", best->eta}, {"Y", best->Y}, {"R_over_S", best->R_over_S}};
-}
 
-ordered_json summarize(std::size_t number, const TracedBranch& traced) {
-  const std::vector<SpecialPoint> special = special_points(traced);
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// In the order of the names; valid until the next call.
+  const std::vector<double>& values(const BranchPoint& point) {
+    problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
+    values_.assign(point.parameters.begin(), point.parameters.end());
+    if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));
+    values_.insert(values_.end(), observed_.begin() + (moved_ >= 0 ? 1 : 0), observed_.end());
+    return values_;
+  }
+
+  Index find(const std::string& name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    return found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
+  }
+
+  /// Those that tables and summaries show of a special point.
+  std::vector<Index> shown() const {
+    std::vector<Index> indices;
+    for (const char* name : {"eta", "zeta_B", "P", "R_over_S", "Y"}) {
+      if (const Index i = find(name); i >= 0) indices.push_back(i);
+    }
+    if (find("R_over_S") >= 0) return indices;
+    indices.clear();
+    for (Index i = 0; i < static_cast<Index>(names_.size()) && i < most_shown; ++i) indices.push_back(i);
+    return indices;
+  }
+
+ private:
+  static constexpr Index most_shown = 8;
+
+  const continuation::Problem& problem_;
+  std::vector<std::string> names_;
+  Index parameters_ = 0;
+  Index moved_ = -1;
+  Vector observed_;
+  std::vector<double> values_;
+};
+
+ordered_json special_points(const TracedBranch& traced) {
+  Columns columns(traced);
   ordered_json listed = ordered_json::array();
-  for (const SpecialPoint& point : special) listed.push_back(to_json(point));
-  const continuation::Work& work = traced.branch.work;
-  return {{"branch", number},
-          {"values", traced.request->values},
-          {"points", traced.branch.points.size()},
-          {"stop", to_string(traced.branch.stop)},
-          {"explanation", traced.branch.explanation},
-          {"special", listed},
-          {"peak", highest_peak(special)},
-          {"work",
-           {{"evaluations", work.evaluations},
-            {"factorizations", work.factorizations},
-            {"iterations", work.iterations},
-            {"rejected_steps", work.rejected_steps}}},
-          {"seconds", traced.seconds}};
-}
-
-}  // namespace
-
-std::vector<SpecialPoint> special_points(const TracedBranch& traced) {
-  const std::vector<std::string> parameters = traced.problem->parameter_names();
-  const std::vector<std::string> observables = observable_names(*traced.problem);
-  const Index eta = continuation::index_of(parameters, "eta");
-  const Index preload = continuation::index_of(parameters, "P");
-  const Index ratio = continuation::index_of(observables, "R_over_S");
-  const Index amplitude = continuation::index_of(observables, "Y");
-  std::vector<SpecialPoint> special;
-  Vector values;
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
     if (point.type == PointType::regular) continue;
-    traced.problem->observe(point.unknowns, point.parameters, point.regime, values);
-    special.push_back(
-        {i, point.type, point.parameters(eta), point.parameters(preload), values(ratio), values(amplitude)});
+    const std::vector<double>& values = columns.values(point);
+    ordered_json special = {{"type", to_string(point.type)}};
+    for (const Index k : columns.shown())
+      special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
+    listed.push_back(std::move(special));
   }
-  return special;
+  return listed;
 }
+
+/// The highest peak of Y; null without one, and for curves, of which it would not be one.
+ordered_json highest_peak(const TracedBranch& traced, const ordered_json& special) {
+  const ordered_json* best = nullptr;
+  for (const ordered_json& point : special) {
+    if (traced.curve || point["type"] != "peak" || !point.contains("Y")) continue;
+    if (best == nullptr || point["Y"] > (*best)["Y"]) best = &point;
+  }
+  if (best == nullptr) return nullptr;
+  return {{"eta", (*best)["eta"]}, {"Y", (*best)["Y"]}, {"R_over_S", (*best)["R_over_S"]}};
+}
+
+ordered_json summarize(std::size_t number, const TracedBranch& traced) {
+  const ordered_json special = special_points(traced);
+  const continuation::Work& work = traced.branch.work;
+  ordered_json summary = {{"branch", number},
+                          {"values", traced.request->values},
+                          {"points", traced.branch.points.size()},
+                          {"stop", to_string(traced.branch.stop)},
+                          {"explanation", traced.branch.explanation}};
+  if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
+  summary["special"] = special;
+  summary["peak"] = highest_peak(traced, special);
+  summary["work"] = {{"evaluations", work.evaluations},
+                     {"factorizations", work.factorizations},
+                     {"iterations", work.iterations},
+                     {"rejected_steps", work.rejected_steps}};
+  summary["seconds"] = traced.seconds;
+  return summary;
+}
+
+}  // namespace
 
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
   fmt::memory_buffer row;
@@ -83,23 +119,23 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
     sink({row.data(), row.size()});
     row.clear();
   };
-  const continuation::Problem& first = *traced.front().problem;
+  const TracedBranch& first = traced.front();
+  const bool equilibrium = first.base->is_equilibrium() && !first.curve;
   fmt::format_to(out, "branch,point,type,regime");
-  for (const std::string& name : first.parameter_names()) fmt::format_to(out, ",{}", name);
-  for (const std::string& name : observable_names(first)) fmt::format_to(out, ",{}", name);
-  fmt::format_to(out, ",arclength,iterations,residual\n");
+  const Columns header(first);
+  for (const std::string& name : header.names()) fmt::format_to(out, ",{}", name);
+  fmt::format_to(out, "{},arclength,iterations,residual\n", equilibrium ? ",unstable" : "");
   flush();
-  Vector values;
   for (std::size_t number = 0; number < traced.size(); ++number) {
     const TracedBranch& one = traced[number];
-    const std::vector<std::string> regimes = one.problem->regime_names();
+    Columns columns(one);
+    const std::vector<std::string> regimes = one.base->regime_names();
     for (std::size_t i = 0; i < one.branch.points.size(); ++i) {
       const BranchPoint& point = one.branch.points[i];
-      one.problem->observe(point.unknowns, point.parameters, point.regime, values);
       fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
                      regimes[static_cast<std::size_t>(point.regime)]);
-      for (const double value : point.parameters) fmt::format_to(out, ",{:.17g}", value);
-      for (const double value : values) fmt::format_to(out, ",{:.17g}", value);
+      for (const double value : columns.values(point)) fmt::format_to(out, ",{:.17g}", value);
+      if (equilibrium) fmt::format_to(out, ",{}", point.unstable);
       fmt::format_to(out, ",{:.17g},{},{:.17g}\n", point.arclength, point.iterations, point.residual);
       flush();
     }
@@ -117,16 +153,27 @@ ordered_json summarize(const Case& input, const std::vector<TracedBranch>& trace
           {"seconds", seconds}};
 }
 
-std::string special_table_header() {
-  return fmt::format("{:>6} {:>6}  {:<8} {:>14} {:>13} {:>13} {:>14}\n", "branch", "point", "type", "eta",
-                     "P", "R/S", "Y");
+std::string special_table_header(const TracedBranch& traced) {
+  const Columns columns(traced);
+  std::string header = fmt::format("{:>6} {:>6}  {:<12}", "branch", "point", "type");
+  for (const Index i : columns.shown()) {
+    const std::string& name = columns.names()[static_cast<std::size_t>(i)];
+    header += fmt::format(" {:>15}", name == "R_over_S" ? "R/S" : name);
+  }
+  return header + "\n";
 }
 
 std::string special_table(std::size_t number, const TracedBranch& traced) {
+  Columns columns(traced);
+  const std::vector<Index> shown = columns.shown();
   std::string rows;
-  for (const SpecialPoint& special : special_points(traced)) {
-    rows += fmt::format("{:>6} {:>6}  {:<8} {:>14.9g} {:>13.8g} {:>13.7g} {:>14.8e}\n", number, special.point,
-                        to_string(special.type), special.eta, special.preload, special.R_over_S, special.Y);
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const BranchPoint& point = traced.branch.points[i];
+    if (point.type == PointType::regular) continue;
+    const std::vector<double>& values = columns.values(point);
+    rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, to_string(point.type));
+    for (const Index k : shown) rows += fmt::format(" {:>15.9g}", values[static_cast<std::size_t>(k)]);
+    rows += "\n";
   }
   return rows;
 }

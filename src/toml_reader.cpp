@@ -106,6 +106,10 @@ void TomlDocument::mismatch(const toml::node& node, const std::string& name,
   fail(&node, name, fmt::format("expected {}, got {}", expected, shown(node)));
 }
 
+NumberRule any_number() {
+  return {[](double /*value*/) { return true; }, ""};
+}
+
 NumberRule positive() {
   return {[](double value) { return value > 0; }, " > 0"};
 }
@@ -206,6 +210,27 @@ std::vector<double> TomlSection::numbers(std::string_view key, const NumberRule&
   if (array == nullptr) mismatch(key, "an array of numbers");
   for (std::size_t i = 0; i < array->size(); ++i) {
     values.push_back(checked({array->get(i), fmt::format("{}[{}]", name(key), i)}, rule));
+  }
+  return values;
+}
+
+bool TomlSection::boolean(std::string_view key, bool otherwise) const {
+  if (!has(key)) return otherwise;
+  const auto value = require(key, "").value_exact<bool>();
+  if (!value) mismatch(key, "true or false");
+  return *value;
+}
+
+std::vector<std::string> TomlSection::texts(std::string_view key, const std::vector<std::string>& choices,
+                                            const std::string& expected) const {
+  const toml::array* array = require(key, expected).as_array();
+  if (array == nullptr) mismatch(key, expected);
+  std::vector<std::string> values;
+  for (const toml::node& node : *array) {
+    const auto value = node.value_exact<std::string>();
+    if (!value || (!choices.empty() && std::find(choices.begin(), choices.end(), *value) == choices.end()))
+      document_.mismatch(node, fmt::format("{}[{}]", name(key), values.size()), expected);
+    values.push_back(*value);
   }
   return values;
 }

@@ -49,6 +49,7 @@ struct NumberRule {
   std::string text;
 };
 
+NumberRule any_number();
 NumberRule positive();
 NumberRule inside(double low, double high);  ///< between the two
 NumberRule within(double low, double high);  ///< between the two or equal to one
@@ -65,7 +66,11 @@ class TomlSection {
   Index integer(std::string_view key, Index low, Index high, const std::string& expected,
                 Index otherwise) const;
   std::string text(std::string_view key, const std::vector<std::string>& choices) const;
+  bool boolean(std::string_view key, bool otherwise) const;
   std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
+  /// An array of names, each among the choices unless these are empty.
+  std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& choices,
+                                 const std::string& expected) const;
 
   /// Refuses every key that is not among these.
   void allow_only(const std::vector<std::string>& keys) const;

@@ -49,7 +49,7 @@ TEST_CASE("A case file is read with its defaults") {
   const Case input = read_text(good);
   CHECK(input.title == "A case");
   REQUIRE(input.branches.size() == 1);
-  const SystemParameters& system = input.branches[0].system;
+  const SystemParameters& system = input.branches[0].problem.system;
   CHECK(system.model == StructureModel::beams);
   CHECK(system.wave_number == 2);
   CHECK(system.interface_stiffness == shear_interface_stiffness(33.3, 0.3));
@@ -67,32 +67,32 @@ TEST_CASE("A case file is read with its defaults") {
 TEST_CASE("for_each gives one branch for each value, and lists of several keys are walked together") {
   const Case one = read_text(good + "for_each = { preload = [0.1, 1, 10.0] }\n");
   REQUIRE(one.branches.size() == 3);
-  CHECK(one.branches[1].system.preload == 1);
+  CHECK(one.branches[1].problem.system.preload == 1);
   CHECK(describe(one.branches[0].values) == "preload = 0.1");
 
   const Case two = read_text(good + "for_each = { frequency_ratio = [1, 2], slenderness = [8.3, 16.7] }\n");
   REQUIRE(two.branches.size() == 2);
-  CHECK(two.branches[1].system.frequency_ratio == 2);
-  CHECK(two.branches[1].system.interface_stiffness == shear_interface_stiffness(16.7, 0.3));
+  CHECK(two.branches[1].problem.system.frequency_ratio == 2);
+  CHECK(two.branches[1].problem.system.interface_stiffness == shear_interface_stiffness(16.7, 0.3));
 
   const Case damped = read_text(good + "for_each = { damping = [{ base = 1e-3 }, { damper = 0.01 }] }\n");
-  CHECK(damped.branches[0].system.base_damping == 1e-3);
-  CHECK(damped.branches[1].system.base_damping == 1e-4);
-  CHECK(damped.branches[1].system.damper_damping == 0.01);
+  CHECK(damped.branches[0].problem.system.base_damping == 1e-3);
+  CHECK(damped.branches[1].problem.system.base_damping == 1e-4);
+  CHECK(damped.branches[1].problem.system.damper_damping == 0.01);
 
   const std::string over_preload =
       replaced(replaced(good, "parameter = \"eta\"", "parameter = \"P\""), "preload = 1.0\n", "");
   const Case sweep = read_text(over_preload + "for_each = { eta = [3.5, 4.0] }\n");
-  CHECK(sweep.branches[1].eta == 4.0);
+  CHECK(sweep.branches[1].problem.eta == 4.0);
 }
 
 TEST_CASE("Settings on the command line replace and add values; bare words need no quotes") {
   const Case input = read_text(good, {"system.preload=7", "continuation.stop_at=[3.9, 4.1]", "title=other",
                                       "system.damping.base=0.01"});
-  CHECK(input.branches[0].system.preload == 7);
+  CHECK(input.branches[0].problem.system.preload == 7);
   CHECK(input.branches[0].options.stop_at == std::vector<double>{3.9, 4.1});
   CHECK(input.title == "other");
-  CHECK(input.branches[0].system.base_damping == 0.01);
+  CHECK(input.branches[0].problem.system.base_damping == 0.01);
   CHECK(error_of(good, {"system.preload"}) == "--set system.preload: expected section.key=value");
   CHECK_THAT(error_of(good, {"system.preload=-2"}),
              ContainsSubstring("--set: system.preload: expected") && ContainsSubstring("got -2"));
@@ -119,7 +119,7 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"elements = 30", "elements = 4", ":5:12", "system.elements", "> 2 wave_number = 4", "got 4"},
       {"elements = 30", "elements = 30.5", ":5:12", "system.elements", "an integer", "got 30.5"},
       {"wave_number = 2", "wave_number = 0", ":4:15", "system.wave_number", "an integer >= 1", "got 0"},
-      {"model = \"beams\"", "model = \"plates\"", ":3:9", "system.model", R"("rods" or "beams")",
+      {"model = \"beams\"", "model = \"plates\"", ":3:9", "system.model", R"("rods" or "beams" or "ab")",
        "got \"plates\""},
       {"model = \"beams\"", "model = \"rods\"", ":8:15", "system.slenderness", "only for beams", ""},
       {"force = 1.0", "force = 1.0\ninterface_stiffness = 10", ":10:23", "system.interface_stiffness",
@@ -127,7 +127,9 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"force = 1.0", "force = 1.0\npoisson_ratio = 0.7", ":10:17", "system.poisson_ratio", "<= 0.5",
        "got 0.7"},
       {"force = 1.0", "force = 1.0\ndamping = 0.1", ":10:11", "system.damping", "a table", "got 0.1"},
-      {"force = 1.0", "force = 1.0\ndamping = { base = -0.1 }", ":10:20", "system.damping.base",
+      {"force = 1.0", "force = 1.0\ndamping = { base = -1 }", ":10:20", "system.damping.base",
+       "> -1 and < 1 that is not 0", "-1"},
+      {"force = 1.0", "force = 1.0\ndamping = { damper = -0.1 }", ":10:22", "system.damping.damper",
        "> 0 and < 1", "-0.1"},
       {"force = 1.0", "force = 1.0\ndamping = { bass = 0.1 }", ":10:20", "system.damping.bass", "unknown key",
        ""},

@@ -25,7 +25,8 @@ enum class Layer { types, continuation, mechanics, problems, files, command_line
 
 const std::set<std::string, std::less<>> mechanics{
     "contact", "dynamic_stiffness", "elements", "modal_model", "precise", "sector", "system"};
-const std::set<std::string, std::less<>> files{"output", "case_file", "results", "toml_reader"};
+const std::set<std::string, std::less<>> files{"output", "case_file",      "results",
+                                               "runs",   "system_section", "toml_reader"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {
@@ -41,10 +42,11 @@ Layer layer_of(const fs::path& file) {
 }
 
 /// The layer that an include asks for; none for a library that every layer may use.
-std::optional<Layer> included_layer(const std::string& target, bool quoted) {
+std::optional<Layer> included_layer(const fs::path& file, const std::string& target, bool quoted) {
   if (target.starts_with("CLI/")) return Layer::command_line;
   if (target.starts_with("toml++/") || target.starts_with("nlohmann/")) return Layer::files;
-  if (quoted || target.starts_with("arcslip/")) return layer_of(target);
+  if (target.starts_with("arcslip/")) return layer_of(target);
+  if (quoted) return layer_of((file.parent_path() / target).lexically_normal());
   return std::nullopt;
 }
 
@@ -60,7 +62,7 @@ bool forbidden(const fs::path& file, const std::string& line) {
   static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::smatch match;
   if (!std::regex_search(line, match, include)) return false;
-  const std::optional<Layer> target = included_layer(match[2], match[1] == "\"");
+  const std::optional<Layer> target = included_layer(file, match[2], match[1] == "\"");
   return target && !may_include(layer_of(file), *target);
 }
 

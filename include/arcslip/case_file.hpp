@@ -3,11 +3,13 @@
 // Case files: TOML 1.0, read and checked whole before anything runs.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "arcslip/continuation/trace.hpp"
+#include "arcslip/continuation/curve.hpp"
+#include "arcslip/problems/library.hpp"
 #include "arcslip/system.hpp"
 
 namespace arcslip {
@@ -18,12 +20,31 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One branch that a case asks for.
+/// A curve of special points in two parameters.
+struct CurveRequest {
+  continuation::PointType type;      ///< of the special points
+  std::string active;                ///< the first parameter, in which they are looked for at first
+  continuation::CurveWindow window;  ///< its range
+  double seed = 0;                   ///< value of the second parameter at which they are looked for
+};
+
+/// The problem that a branch belongs to: one of the library's, or a system with friction.
+struct ProblemRequest {
+  const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
+  problems::LibraryModel::Values settings;        ///< the library model's
+  SystemParameters system;
+  bool limit_cycle = false;  ///< self-excited vibration instead of the forced response
+  double eta = 0;            ///< the fixed frequency where eta is not continued
+};
+
+/// One branch that a case asks for. With `switching` or for a curve several may come of it.
 struct CaseBranch {
   nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
-  SystemParameters system;
-  double eta = 0;  ///< the fixed frequency where P is the continuation parameter
+  ProblemRequest problem;
   continuation::TraceOptions options;
+  std::optional<double> start;  ///< value of the parameter from which the branch is traced both ways
+  bool switching = false;       ///< follow the branches that branch points and corners lead to
+  std::optional<CurveRequest> curve;
 };
 
 struct Case {

@@ -8,37 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "arcslip/case_file.hpp"
-#include "arcslip/continuation/branch.hpp"
-#include "arcslip/continuation/problem.hpp"
+#include "arcslip/runs.hpp"
 
 namespace arcslip {
-
-/// A branch with the problem that it solves.
-struct TracedBranch {
-  const CaseBranch* request;
-  const continuation::Problem* problem;
-  continuation::Branch branch;
-  double seconds;
-};
-
-/// A special point with what tables and summaries show of it.
-struct SpecialPoint {
-  std::size_t point;  ///< its place along the branch
-  continuation::PointType type;
-  double eta;
-  double preload;
-  double R_over_S;
-  double Y;
-};
-
-std::vector<SpecialPoint> special_points(const TracedBranch& traced);
 
 /// Takes pieces of a text in order.
 using Sink = std::function<void(std::string_view)>;
 
 /// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the
-/// observables, arclength, iterations, residual.
+/// observables, of an equilibrium the number of unstable eigenvalues, arclength, iterations, residual.
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
 
 /// summary.json as described in the README.
@@ -48,6 +26,6 @@ nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBran
 std::string special_table(std::size_t number, const TracedBranch& traced);
 
 /// The line above such rows.
-std::string special_table_header();
+std::string special_table_header(const TracedBranch& traced);
 
 }  // namespace arcslip

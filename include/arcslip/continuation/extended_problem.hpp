@@ -83,6 +83,7 @@ class ExtendedProblem : public Problem {
   mutable Vector values_;
   mutable Matrix gradients_;
   mutable Gradient of_base_;
+  double active_observable_scale_ = 0;  // of the active parameter where it vanishes
 };
 
 }  // namespace arcslip::continuation

@@ -2,6 +2,7 @@
 
 // The kinds of points that a branch may hold.
 
+#include <optional>
 #include <string_view>
 
 namespace arcslip::continuation {
@@ -27,5 +28,8 @@ enum class PointType {
 
 /// As written to files: its name; `switch` for regime_switch.
 std::string_view to_string(PointType type);
+
+/// The type of this name, or none.
+std::optional<PointType> point_type(std::string_view name);
 
 }  // namespace arcslip::continuation

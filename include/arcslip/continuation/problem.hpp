@@ -29,6 +29,7 @@ struct Gradient {
 struct Observable {
   std::string name;
   bool has_gradient = false;
+  double scale = 0;  ///< changes are measured in its value, or in this where that is smaller
 };
 
 /// Only the first three have to be written. All are called from several threads and must not change the

@@ -5,6 +5,8 @@
 // passes folds) or the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a
 // vertical tangent misses the branch, and lands on values); the caller turns to the other when one fails.
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -66,6 +68,11 @@ class Stepper {
   const std::vector<Monitor>& to() const { return to_; }
   Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
 
+  /// What changes of a tracked observable are measured in, where it has this value.
+  double size_of(std::size_t observable, double value) const {
+    return std::max(scales_[observable], std::abs(value));
+  }
+
   /// Change of the parameter over the step's coordinate at both ends.
   double parameter_rate_from() const { return slope_from_(slope_from_.size() - 1); }
   double parameter_rate_to() const { return slope_to_(slope_to_.size() - 1); }
@@ -121,6 +128,7 @@ class Stepper {
   const Problem& problem_;
   Corrector& corrector_;
   std::vector<Index> tracked_;
+  std::vector<double> scales_;  // of those tracked
   double max_step_;
   StepLimits limits_;
 

@@ -13,8 +13,8 @@ namespace arcslip::continuation {
 
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
 
-/// Sign of a derivative, 0 below rounding of the value it belongs to.
-int sign_of_slope(const Monitor& monitor);
+/// Sign of an observable's derivative, 0 below rounding of the observable; `monitor` is its own.
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor);
 
 /// The functions without derivatives that a branch is watched by: the problem's tests, the user's events, and
 /// the eigenvalues.

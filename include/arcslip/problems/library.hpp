@@ -36,6 +36,9 @@ struct LibraryModel {
 /// All of them, in alphabetical order.
 const std::vector<LibraryModel>& library();
 
+/// The defaults of a model's settings.
+LibraryModel::Values defaults(const LibraryModel& model);
+
 /// The one of this name, or null.
 const LibraryModel* find_model(const std::string& name);
 

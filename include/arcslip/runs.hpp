@@ -1,0 +1,42 @@
+#pragma once
+
+// What a case asks for, done: problems built, branches and curves traced.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/case_file.hpp"
+#include "arcslip/continuation/branch.hpp"
+#include "arcslip/continuation/problem.hpp"
+
+namespace arcslip {
+
+/// A problem with a guess of one of its solutions.
+struct Subject {
+  std::shared_ptr<const continuation::Problem> problem;
+  continuation::Guess guess;
+  std::string failure;  ///< why there is no guess, or empty
+};
+
+/// Builds the problem, with a guess where `parameter` has this value and all else is as requested.
+Subject build(const ProblemRequest& request, const std::string& parameter, double value);
+
+/// A branch, or a curve of special points, with the problem that it solves.
+struct TracedBranch {
+  const CaseBranch* request;
+  std::shared_ptr<const continuation::Problem> base;
+  std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
+  continuation::Branch branch;
+  double seconds = 0;
+
+  const continuation::Problem& problem() const {
+    return curve ? static_cast<const continuation::Problem&>(*curve) : *base;
+  }
+};
+
+/// Traces what is asked for: one branch, or several where branches are switched or several curves are found.
+/// Never throws for a branch that fails: its `stop` tells. The request must outlive the result.
+std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer = {});
+
+}  // namespace arcslip

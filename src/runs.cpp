@@ -1,0 +1,157 @@
+#include "arcslip/runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "arcslip/continuation/switching.hpp"
+#include "arcslip/problems/cubic_response.hpp"
+#include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/limit_cycle.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::BasePoint;
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::PointType;
+using Clock = std::chrono::steady_clock;
+
+/// Guesses throw std::invalid_argument where there is no solution.
+template <class Guess>
+Subject guessed(std::shared_ptr<const continuation::Problem> problem, Guess guess) {
+  Subject subject{std::move(problem), {}, {}};
+  try {
+    subject.guess = guess();
+  } catch (const std::invalid_argument& error) {
+    subject.failure = error.what();
+  }
+  return subject;
+}
+
+Subject build_library(const ProblemRequest& request, const std::string& parameter, double value) {
+  problems::LibraryModel::Values settings = request.settings;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (request.model->settings[i].name == parameter) settings[i] = value;
+  }
+  const std::shared_ptr<const continuation::Problem> problem = request.model->build(settings);
+  return guessed(problem, [&] { return request.model->guess(*problem, settings); });
+}
+
+template <class Response>
+Subject build_response(const ProblemRequest& request, const std::string& parameter, double value) {
+  const auto problem = std::make_shared<Response>(build_system(request.system));
+  const double eta = parameter == "eta" ? value : request.eta;
+  const double preload = parameter == "P" ? value : request.system.preload;
+  return guessed(problem, [&] { return problem->guess(eta, preload); });
+}
+
+Subject build_cycle(const ProblemRequest& request, const std::string& parameter, double value) {
+  const auto problem = std::make_shared<problems::LimitCycle>(build_system(request.system));
+  const double zeta = parameter == "zeta_B" ? value : request.system.base_damping;
+  const double preload = parameter == "P" ? value : request.system.preload;
+  return guessed(problem, [&] { return problem->guess(zeta, preload); });
+}
+
+TracedBranch unstarted(const CaseBranch& request, const Subject& subject, const std::string& why) {
+  TracedBranch none{&request, subject.problem, nullptr, {}, 0};
+  none.branch.explanation = why;
+  return none;
+}
+
+std::vector<TracedBranch> trace_branches(const CaseBranch& request, const Subject& subject,
+                                         const continuation::Observer& observer) {
+  std::vector<Branch> branches;
+  if (request.switching) {
+    branches = continuation::trace_connected(*subject.problem, subject.guess, request.options, {}, observer);
+  } else if (request.start) {
+    branches.push_back(continuation::trace_both(*subject.problem, subject.guess, request.options, observer));
+  } else {
+    branches.push_back(continuation::trace(*subject.problem, subject.guess, request.options, observer));
+  }
+  std::vector<TracedBranch> traced;
+  for (Branch& branch : branches)
+    traced.push_back({&request, subject.problem, nullptr, std::move(branch), 0});
+  return traced;
+}
+
+/// Whether a curve passes the special point of its base.
+bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
+  const Index parameter = continuation::index_of(traced.base->parameter_names(), second);
+  const auto same = [](const Vector& a, const Vector& b) {
+    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
+  };
+  return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
+    const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
+    return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
+               1e-12 * std::abs(seed.parameters(parameter)) &&
+           same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
+  });
+}
+
+/// The special points on the branch over the first parameter, then the curve through each, but once.
+std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject& subject,
+                                       const continuation::Observer& observer) {
+  const CurveRequest& asked = *request.curve;
+  continuation::TraceOptions along = request.options;
+  along.parameter = asked.active;
+  along.from = asked.window.low;
+  along.to = asked.window.high;
+  along.stop_at.clear();
+  along.stop_after.clear();
+  const Branch seeds = continuation::trace(*subject.problem, subject.guess, along);
+
+  continuation::TraceOptions options = request.options;
+  const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
+  options.extrema_of = {asked.active};
+  options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
+  std::vector<TracedBranch> curves;
+  for (const BranchPoint& seed : seeds.points) {
+    if (seed.type != asked.type) continue;
+    const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
+    if (std::any_of(curves.begin(), curves.end(), known)) continue;
+    continuation::CurveStart start =
+        continuation::curve_through(*subject.problem, asked.active, seed, observable);
+    const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
+    const Clock::time_point begun = Clock::now();
+    Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
+    const std::chrono::duration<double> seconds = Clock::now() - begun;
+    const bool interrupted = branch.stop == continuation::Stop::interrupted;
+    curves.push_back({&request, subject.problem, curve, std::move(branch), seconds.count()});
+    if (interrupted) break;
+  }
+  if (!curves.empty()) return curves;
+  return {unstarted(request, subject,
+                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
+                                asked.active, asked.window.low, asked.window.high, options.parameter,
+                                asked.seed, seeds.complete() ? "" : ": " + seeds.explanation))};
+}
+
+}  // namespace
+
+Subject build(const ProblemRequest& request, const std::string& parameter, double value) {
+  if (request.model != nullptr) return build_library(request, parameter, value);
+  if (request.limit_cycle) return build_cycle(request, parameter, value);
+  if (request.system.cubic_stiffness != 0)
+    return build_response<problems::CubicResponse>(request, parameter, value);
+  return build_response<problems::ForcedResponse>(request, parameter, value);
+}
+
+std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
+  const Clock::time_point begun = Clock::now();
+  const Subject subject =
+      request.curve
+          ? build(request.problem, request.curve->active, request.curve->window.low)
+          : build(request.problem, request.options.parameter, request.start.value_or(request.options.from));
+  if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
+  if (request.curve) return trace_curves(request, subject, observer);
+  std::vector<TracedBranch> traced = trace_branches(request, subject, observer);
+  const std::chrono::duration<double> seconds = Clock::now() - begun;
+  for (TracedBranch& branch : traced) branch.seconds = seconds.count() / static_cast<double>(traced.size());
+  return traced;
+}
+
+}  // namespace arcslip

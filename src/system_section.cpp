@@ -1,0 +1,167 @@
+#include "system_section.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+
+const std::vector<std::string> friction_keys = {
+    "model",           "wave_number",         "elements", "mass_ratio", "frequency_ratio", "slenderness",
+    "poisson_ratio",   "interface_stiffness", "damping",  "force",      "preload",         "preload_growth",
+    "cubic_stiffness", "fixed_damper"};
+constexpr double default_poisson_ratio = 0.3;
+
+NumberRule damping_rule() {
+  return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
+}
+
+double read_interface_stiffness(const TomlSection& section, StructureModel model) {
+  const double poisson_ratio =
+      section.number("poisson_ratio", {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"},
+                     default_poisson_ratio);
+  if (model == StructureModel::rods) {
+    if (section.has("slenderness"))
+      section.fail("slenderness", "only for beams; rods take interface_stiffness");
+    return section.number("interface_stiffness", positive());
+  }
+  if (section.has("slenderness") && section.has("interface_stiffness")) {
+    section.fail("interface_stiffness", "expected this or slenderness, not both");
+  }
+  if (section.has("interface_stiffness")) return section.number("interface_stiffness", positive());
+  return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
+}
+
+void read_damping(const TomlDocument& document, const TomlSection& section, SystemParameters& system) {
+  if (!section.has("damping")) return;
+  const toml::table* table = section.require("damping", "a table").as_table();
+  if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
+  for (const auto& [key, node] : *table) {
+    const std::string name = section.name("damping") + "." + std::string(key.str());
+    if (key.str() == "kind") {
+      const std::string kind = node.value<std::string>().value_or("");
+      if (kind != "viscous" && kind != "structural")
+        document.mismatch(node, name, "\"viscous\" or \"structural\", for the base");
+      system.base_damping_kind = kind == "viscous" ? DampingKind::viscous : DampingKind::structural;
+      continue;
+    }
+    const bool base = key.str() == "base";
+    if (!base && key.str() != "damper")
+      document.fail(&node, name, "unknown key; expected base, damper or kind");
+    const NumberRule rule = base ? damping_rule() : inside(0, 1);
+    const double value = node.value<double>().value_or(0);
+    if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
+    (base ? system.base_damping : system.damper_damping) = value;
+  }
+}
+
+void read_friction(const TomlDocument& document, const TomlSection& section, const std::string& parameter,
+                   SystemParameters& system) {
+  system.model =
+      section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
+  constexpr Index most = 1'000'000'000;
+  system.wave_number = section.integer("wave_number", 1, most, "an integer >= 1");
+  system.elements =
+      section.integer("elements", 2 * system.wave_number + 1, most,
+                      fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
+  system.mass_ratio = section.number("mass_ratio", positive());
+  system.frequency_ratio = section.number("frequency_ratio", positive());
+  system.interface_stiffness = read_interface_stiffness(section, system.model);
+  read_damping(document, section, system);
+  system.force = section.number("force", positive());
+  if (parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
+  system.preload_growth = section.number("preload_growth", any_number(), 0);
+  system.cubic_stiffness = section.number("cubic_stiffness", any_number(), 0);
+  system.fixed_damper = section.boolean("fixed_damper", false);
+}
+
+void read_settings(const TomlSection& section, const SystemUse& use,
+                   problems::LibraryModel::Values& settings) {
+  for (const problems::Setting& setting : use.model->settings) {
+    if (setting.name == use.parameter && section.has(setting.name))
+      section.fail(setting.name,
+                   "the continuation parameter has its values from [branch]; leave it out here");
+    if (setting.is_integer) {
+      settings.push_back(static_cast<double>(
+          section.integer(setting.name, static_cast<Index>(setting.low), static_cast<Index>(setting.high),
+                          fmt::format("an integer >= {:g} and <= {:g}", setting.low, setting.high),
+                          static_cast<Index>(setting.value))));
+    } else {
+      settings.push_back(
+          section.number(setting.name, parameter_rule(use.model, setting.name), setting.value));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names = {"rods", "beams"};
+  for (const problems::LibraryModel& model : problems::library()) names.push_back(model.name);
+  return names;
+}
+
+std::vector<std::string> system_keys(const problems::LibraryModel* model) {
+  if (model == nullptr) return friction_keys;
+  std::vector<std::string> keys = {"model"};
+  for (const problems::Setting& setting : model->settings) keys.push_back(setting.name);
+  return keys;
+}
+
+NumberRule parameter_rule(const problems::LibraryModel* model, const std::string& parameter) {
+  if (model == nullptr) return parameter == "zeta_B" ? damping_rule() : positive();
+  for (const problems::Setting& setting : model->settings) {
+    if (setting.name != parameter) continue;
+    constexpr double most = std::numeric_limits<double>::max();
+    if (setting.low == -most && setting.high == most) return any_number();
+    const auto holds = [low = setting.low, high = setting.high](double x) { return x >= low && x <= high; };
+    if (setting.high == most) return {holds, fmt::format(" >= {:g}", setting.low)};
+    return {holds, fmt::format(" >= {:g} and <= {:g}", setting.low, setting.high)};
+  }
+  return any_number();
+}
+
+void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
+                 ProblemRequest& problem) {
+  const TomlSection section(document, "system", &replacements);
+  section.allow_only(system_keys(use.model));
+  problem.model = use.model;
+  if (use.model != nullptr) {
+    read_settings(section, use, problem.settings);
+  } else {
+    read_friction(document, section, use.parameter, problem.system);
+  }
+}
+
+void resolve_system(const ProblemRequest& problem, ordered_json& section) {
+  const auto set = [&](const std::string& key, const ordered_json& value) {
+    if (!section.contains(key)) section[key] = value;
+  };
+  if (problem.model != nullptr) {
+    for (std::size_t i = 0; i < problem.settings.size(); ++i) {
+      const problems::Setting& setting = problem.model->settings[i];
+      if (setting.is_integer) {
+        set(setting.name, static_cast<Index>(problem.settings[i]));
+      } else {
+        set(setting.name, problem.settings[i]);
+      }
+    }
+    return;
+  }
+  const SystemParameters& system = problem.system;
+  set("damping", ordered_json::object());
+  ordered_json& damping = section["damping"];
+  if (!damping.contains("base")) damping["base"] = system.base_damping;
+  if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
+  if (!damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
+  if (section.contains("slenderness")) set("poisson_ratio", default_poisson_ratio);
+  set("preload_growth", system.preload_growth);
+  set("cubic_stiffness", system.cubic_stiffness);
+  set("fixed_damper", system.fixed_damper);
+}
+
+}  // namespace arcslip

@@ -1,0 +1,29 @@
+#pragma once
+
+// The section [system] of a case file.
+
+#include "toml_reader.hpp"
+
+namespace arcslip {
+
+/// Keys that [system] may have for a model, and the names of models.
+std::vector<std::string> system_keys(const problems::LibraryModel* model);
+std::vector<std::string> model_names();
+
+/// What [system] is read for.
+struct SystemUse {
+  const problems::LibraryModel* model;  ///< null for a system with friction
+  std::string parameter;                ///< the continuation parameter, which needs no value
+};
+
+/// Reads the section into the problem's settings or system. Throws InputError.
+void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
+                 ProblemRequest& problem);
+
+/// Adds the defaults that were taken to the section as JSON.
+void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& section);
+
+/// The numbers that a parameter of the problem may be.
+NumberRule parameter_rule(const problems::LibraryModel* model, const std::string& parameter);
+
+}  // namespace arcslip
