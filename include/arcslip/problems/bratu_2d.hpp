@@ -5,8 +5,8 @@
 //   u_xx + u_yy + lambda e^u = 0,  u = 0 on the boundary:
 //   u_(i-1,j) + u_(i+1,j) + u_(i,j-1) + u_(i,j+1) - 4 u_ij + h^2 lambda e^(u_ij) = 0,   i, j = 1 .. m - 1
 //
-// Unknowns: u_ij, by rows. Parameter: lambda. Published: the fold lambda = 6.808124423, u = 1.3916612 at the
-// centre [Mohsen, Comput. Math. Appl. 67 (2014) 26, and others]. The differences err by O(h^2).
+// Unknowns: u_ij, by rows. Parameter: lambda. Published: the fold lambda = 6.808124423 [Boyd, J. Sci. Comput.
+// 1 (1986) 183]; there u = 1.391661206 at the centre, by extrapolation. The differences err by O(h^2).
 
 #include "arcslip/problems/library.hpp"
 
