@@ -4,7 +4,7 @@
 #include <complex>
 #include <numbers>
 
-#include "model.hpp"
+#include "arcslip/problems/model.hpp"
 
 namespace arcslip::problems {
 namespace {
