@@ -291,3 +291,61 @@ TEST_CASE("The extended Lorenz model has its published Hopf points and fold", "[
                  {1.118508101, -0.023418638, 0.2210307654, -0.6253175858},
                  1.1715226467}});
 }
+
+namespace {
+
+/// The curve of folds through a fold of the branch, in a second parameter.
+Branch fold_curve(FoldProblem& folds, const BranchPoint& fold, const TraceOptions& options) {
+  const BasePoint at{fold.unknowns, fold.parameters, 0, {}};
+  REQUIRE(folds.adapt(at));
+  Guess guess;
+  folds.join(at, guess.unknowns, guess.parameters);
+  return trace(folds, guess, options);
+}
+
+}  // namespace
+
+TEST_CASE("The cusp's folds are a curve on 27 mu^2 = 4 lambda^3 with the cusp at its tip", "[library]") {
+  const Instance cusp("cusp");
+  const auto folds = of_type(cusp.trace(over("mu", -2, 2)), PointType::fold);
+  REQUIRE(folds.size() == 2);
+  FoldProblem problem(*cusp.problem, 0);
+  const Branch curve = fold_curve(problem, folds[0], over("lambda", 1, -1));
+  CHECK(curve.stop == Stop::left_range);
+  for (const BranchPoint& point : curve.points) {
+    const double mu = point.unknowns(1), lambda = point.parameters(0);
+    CHECK_THAT(27 * mu * mu, WithinAbs(4 * lambda * lambda * lambda, 1e-9));  // 40 times the tolerance on F
+  }
+  const auto tips = of_type(curve, PointType::cusp);
+  REQUIRE(tips.size() == 1);
+  CHECK_THAT(tips[0].unknowns(0), WithinAbs(0, published));
+  CHECK_THAT(tips[0].unknowns(1), WithinAbs(0, published));
+  CHECK_THAT(tips[0].parameters(0), WithinAbs(0, published));
+  CHECK_THAT(curve.points.back().unknowns(1), WithinRel(folds[1].parameters(0), published));
+}
+
+TEST_CASE("The extended Lorenz model's curve of folds has its published points of codimension two",
+          "[library]") {
+  // BifurcationKit.jl, test/hopf_codim_2/lorenz84.jl, as recomputed; the mirror image is T <-> -T, U <-> -U
+  const double side = GENERATE(1.0, -1.0);
+  const Instance lorenz("lorenz84");
+  auto fold = of_type(lorenz.trace(over("F", 3, 1)), PointType::fold).at(0);
+  fold.unknowns(3) *= side;
+  fold.parameters(1) *= side;
+  FoldProblem problem(*lorenz.problem, 0);
+  TraceOptions options = over("T", side * 0.04, -side * 0.04);
+  options.stop_after = {{PointType::zero_hopf, 2, ""}};
+  const Branch curve = fold_curve(problem, fold, options);
+  REQUIRE(curve.stop == Stop::requested);
+  const auto takens = of_type(curve, PointType::bogdanov_takens);
+  REQUIRE(takens.size() == 1);
+  CHECK_THAT(takens[0].unknowns(4), WithinRel(1.446716701115, published));
+  CHECK_THAT(takens[0].parameters(0), WithinRel(side * 0.020940169683, published));
+  const auto hopf = of_type(curve, PointType::zero_hopf);
+  REQUIRE(hopf.size() == 2);
+  for (const std::size_t i : {0, 1}) {
+    CHECK_THAT(hopf[i].unknowns(4), WithinRel(1.283419296138, published));
+    CHECK_THAT(hopf[i].parameters(0), WithinRel((i == 0 ? side : -side) * 1.265408341e-4, published));
+    CHECK_THAT(omega_of(hopf[i]), WithinRel(1.0990516362, published));
+  }
+}
