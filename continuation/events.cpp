@@ -94,6 +94,15 @@ class Search {
     if (zero.state == Zero::State::found) result_.events.push_back({kind, type, index, zero.s});
   }
 
+  /// Within what part of the step a fold is one with such a point. On the turning branch of a pitchfork the
+  /// parameter's rate, by which folds are located, is noise up to a distance of about rounding^(1/3).
+  double blur(const Event& event) const {
+    const auto& crossing = stepper_.crossing();
+    const bool turns = event.type == PointType::branch_point && crossing &&
+                       std::abs(crossing->point.tangent(crossing->point.tangent.size() - 1)) < 1e-6;
+    return turns ? 1e-2 : 1e-4;
+  }
+
   /// Keeps the first event and those at the very same point. A fold beside a branch point or a cusp, where
   /// what it is located by is noise, is that point.
   void keep_first() {
@@ -101,7 +110,8 @@ class Search {
     std::erase_if(events, [&](const Event& event) {
       return event.type == PointType::fold &&
              std::any_of(events.begin(), events.end(), [&](const Event& other) {
-               return explains_fold(other.type) && std::abs(other.s - event.s) < 1e-4 * stepper_.distance();
+               return explains_fold(other.type) &&
+                      std::abs(other.s - event.s) < blur(other) * stepper_.distance();
              });
     });
     double first = upper_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model.hpp"
+#include "arcslip/problems/model.hpp"
 
 namespace arcslip::problems {
 namespace {

@@ -1,6 +1,6 @@
 #include "arcslip/problems/freudenstein_roth.hpp"
 
-#include "model.hpp"
+#include "arcslip/problems/model.hpp"
 
 namespace arcslip::problems {
 namespace {

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "arcslip/problems/ab.hpp"
+#include "arcslip/problems/bratu.hpp"
+#include "arcslip/problems/bratu_2d.hpp"
 #include "arcslip/problems/cusp.hpp"
+#include "arcslip/problems/duffing.hpp"
 #include "arcslip/problems/enz.hpp"
 #include "arcslip/problems/freudenstein_roth.hpp"
 #include "arcslip/problems/lorenz84.hpp"
@@ -13,7 +16,9 @@ namespace arcslip::problems {
 
 const std::vector<LibraryModel>& library() {
   static const std::vector<LibraryModel> models{
-      ab_model(), cusp_model(), enz_model(), freudenstein_roth_model(), lorenz84_model(), pp2_model()};
+      ab_model(),      bratu_model(), bratu_2d_model(),          cusp_model(),
+      duffing_model(), enz_model(),   freudenstein_roth_model(), lorenz84_model(),
+      pp2_model()};
   return models;
 }
 

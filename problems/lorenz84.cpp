@@ -1,6 +1,6 @@
 #include "arcslip/problems/lorenz84.hpp"
 
-#include "model.hpp"
+#include "arcslip/problems/model.hpp"
 
 namespace arcslip::problems {
 

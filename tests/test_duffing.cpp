@@ -1,0 +1,154 @@
+// Duffing's oscillator q'' + 0.05 q' + q + 0.1 q^3 = 0.18 cos(W t), example 1 of NLvib, by harmonic balance.
+
+#include <cmath>
+
+#include "arcslip/continuation/newton.hpp"
+#include "catch.hpp"
+#include "library_cases.hpp"
+
+using namespace arcslip;
+using namespace arcslip::continuation;
+using namespace arcslip::testing;
+
+namespace {
+
+constexpr double damping = 0.05;
+constexpr double cubic = 0.1;
+
+// The reference values have twelve decimals.
+constexpr double published = 1e-11;
+
+Branch response(const Instance& duffing, std::vector<std::string> extrema = {}) {
+  TraceOptions options = over("W", 0.5, 2);
+  options.extrema_of = std::move(extrema);
+  Branch branch = duffing.trace(options);
+  INFO(branch.explanation);
+  REQUIRE(branch.complete());
+  return branch;
+}
+
+/// The two folds of the resonance, each solved to what defines it; the upper one comes first.
+std::vector<BranchPoint> folds_of(const Instance& duffing) {
+  std::vector<BranchPoint> folds = of_type(response(duffing), PointType::fold);
+  REQUIRE(folds.size() == 2);
+  for (const BranchPoint& fold : folds) CHECK(defining_residual(*duffing.problem, 0, fold) <= 1e-10);
+  return folds;
+}
+
+double observed(const Instance& duffing, const BranchPoint& point, const std::string& name) {
+  Vector values;
+  duffing.problem->observe(point.unknowns, point.parameters, 0, values);
+  const auto observables = duffing.problem->observables();
+  for (std::size_t i = 0; i < observables.size(); ++i) {
+    if (observables[i].name == name) return values(static_cast<Index>(i));
+  }
+  return std::nan("");
+}
+
+}  // namespace
+
+TEST_CASE("Duffing's folds in one harmonic are those of the closed form", "[library]") {
+  const Instance duffing("duffing", {{"harmonics", 1}});
+  const auto folds = folds_of(duffing);
+  CHECK_THAT(folds[0].parameters(0), WithinRel(1.267536959513, published));
+  CHECK_THAT(observed(duffing, folds[0], "a1"), WithinRel(2.836222596637, published));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(1.115585927182, published));
+  CHECK_THAT(observed(duffing, folds[1], "a1"), WithinRel(1.084080112843, published));
+}
+
+TEST_CASE("Duffing's largest amplitude in one harmonic is that of the closed form", "[library]") {
+  const Instance duffing("duffing", {{"harmonics", 1}});
+  const auto peaks = of_type(response(duffing, {"a1"}), PointType::peak);
+  REQUIRE(peaks.size() == 1);
+  CHECK_THAT(observed(duffing, peaks[0], "a1"), WithinRel(2.841624599369, published));
+  CHECK_THAT(peaks[0].parameters(0), WithinRel(1.266634231845, published));
+}
+
+TEST_CASE("Duffing's folds with more harmonics converge to those by collocation", "[library]") {
+  struct Row {
+    double harmonics, upper, lower;
+  };
+  const Row row = GENERATE(values<Row>({{3, 1.269600032145, 1.115700246882},
+                                        {5, 1.269601954391, 1.115700251771},
+                                        {9, 1.269601955546, 1.115700251771},
+                                        {10, 1.269601955546, 1.115700251771},
+                                        {15, 1.269601955546, 1.115700251771}}));
+  CAPTURE(row.harmonics);
+  const Instance duffing("duffing", {{"harmonics", row.harmonics}});
+  const auto folds = folds_of(duffing);
+  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published));
+  if (row.harmonics < 9) return;
+  CHECK_THAT(observed(duffing, folds[0], "a1"), WithinRel(2.8250167129, 1e-10));
+  CHECK_THAT(observed(duffing, folds[1], "a1"), WithinRel(1.0818703234, 1e-10));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(1.2696019548, 1e-9));  // AUTO-07p, by its tolerance
+  CHECK_THAT(folds[1].parameters(0), WithinRel(1.1157002516, 1e-9));
+}
+
+TEST_CASE("Duffing's folds at other forces are those of the closed form", "[library]") {
+  struct Row {
+    double force, lower, upper;
+  };
+  const Row row = GENERATE(values<Row>({{0.06, 1.049467203819, 1.051404521411},
+                                        {0.1, 1.076067057413, 1.115508359522},
+                                        {0.3, 1.161865303909, 1.489393339365}}));
+  CAPTURE(row.force);
+  const auto folds = folds_of(Instance("duffing", {{"harmonics", 1}, {"force", row.force}}));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published));
+}
+
+TEST_CASE("Duffing's folds at any force are double roots of the closed form", "[library]") {
+  const double force = GENERATE(0.055, 0.13, 0.22, 0.4);
+  const Instance duffing("duffing", {{"harmonics", 1}, {"force", force}});
+  for (const BranchPoint& fold : folds_of(duffing)) {
+    // g(x) = [(1 - W^2 + 3/4 k3 x)^2 + (delta W)^2] x - force^2, x = a^2, and its slope
+    const double W = fold.parameters(0);
+    const double x = std::pow(observed(duffing, fold, "a1"), 2);
+    const double detuning = 1 - W * W + 0.75 * cubic * x;
+    const double square = detuning * detuning + damping * damping * W * W;
+    CHECK_THAT(square * x, WithinRel(force * force, 1e-9));
+    CHECK_THAT(square + 1.5 * cubic * x * detuning, WithinAbs(0, 1e-11));
+  }
+}
+
+TEST_CASE("Duffing's branch below the least force that bends it over has no fold", "[library]") {
+  const Instance duffing("duffing", {{"harmonics", 1}, {"force", 0.04}});
+  CHECK(of_type(response(duffing), PointType::fold).empty());
+}
+
+TEST_CASE("Duffing's highest root mean square is that of the original example", "[library]") {
+  const Instance duffing("duffing", {{"harmonics", 7}});
+  const auto peaks = of_type(response(duffing, {"rms"}), PointType::peak);
+  REQUIRE_FALSE(peaks.empty());
+  const BranchPoint& peak = *std::max_element(peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) {
+    return observed(duffing, a, "rms") < observed(duffing, b, "rms");
+  });
+  // NLvib stores the highest of points that are 1e-3 apart; harmonics with powers of ten fewer digits
+  CHECK_THAT(observed(duffing, peak, "rms"), WithinRel(2.001518, 1e-3));
+  CHECK_THAT(peak.parameters(0), WithinRel(1.2687, 1e-3));
+  CHECK_THAT(observed(duffing, peak, "a1"), WithinRel(2.830198, 1e-3));
+  CHECK_THAT(observed(duffing, peak, "a3"), WithinRel(0.046166, 3e-3));
+  CHECK_THAT(observed(duffing, peak, "a5"), WithinRel(0.000741, 5e-3));
+}
+
+TEST_CASE("The cubic term is projected without aliasing", "[library]") {
+  // q = cos t: q^3 = 3/4 cos t + 1/4 cos 3t. At W = 0 and force = 0 the residual is q + k3 q^3, by harmonics.
+  const double harmonics = GENERATE(1, 3, 5);
+  const Instance duffing("duffing", {{"harmonics", harmonics}, {"W", 0}, {"force", 0}});
+  const Guess guess = duffing.guess();
+  const Index n = guess.unknowns.size();
+  Vector residual(n);
+  Evaluation out;
+  out.residual = &residual;
+  REQUIRE(duffing.problem->evaluate(Vector::Unit(n, 0), guess.parameters, 0, out));
+  Vector exact = Vector::Zero(n);
+  exact(0) = 1 + 0.75 * cubic;
+  if (n > 2) exact(2) = 0.25 * cubic;
+  CHECK((residual - exact).lpNorm<Eigen::Infinity>() < 1e-15);
+  // The highest harmonic alone: its cube falls on itself and on one beyond.
+  REQUIRE(duffing.problem->evaluate(Vector::Unit(n, n - 1), guess.parameters, 0, out));
+  exact.setZero();
+  exact(n - 1) = 1 + 0.75 * cubic;
+  CHECK((residual - exact).lpNorm<Eigen::Infinity>() < 1e-15);
+}
