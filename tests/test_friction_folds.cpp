@@ -250,6 +250,27 @@ TEST_CASE("A forced base with negative damping folds where a scan over R has two
   check_against_scan(traced(problem, 1, 2, 8), parameters, 2);
 }
 
+TEST_CASE("Negative damping turns the response at the border of stick where slip begins to lose too little") {
+  // There R = S = |b/d|, d = (eta_s^2 - eta^2) + 2 j zeta eta_1^2 of the stuck mode, and as slip begins Im
+  // phi rises by 4/pi for each ln R: dg/dln R = 1 + (4/pi) k a Im d/|d|^2, at every eta. It vanishes at
+  //   zeta = -(pi/8) b^2/(S^2 k a eta_1^2).
+  const FrictionSystem system = build_system(excited_rods(-1e-2));
+  const Mode mode = system.base.modes().at(0);
+  const double threshold = -std::numbers::pi / 8 *
+                           std::norm(mode.load_residue / system.slip_threshold(4, 1)) /
+                           (system.contact_stiffness * mode.residue * mode.frequency * mode.frequency);
+  const auto corner_folds = [&](double zeta) {
+    const ForcedResponse problem(build_system(excited_rods(zeta)));
+    const Branch branch = traced(problem, 1, 2, 8);
+    REQUIRE(branch.complete());
+    for (const BranchPoint& corner : of_type(branch, PointType::corner_fold))
+      CHECK_THAT(values_at(problem, corner)(ForcedResponse::R_over_S), WithinRel(1, 1e-10));
+    return of_type(branch, PointType::corner_fold).size();
+  };
+  CHECK(corner_folds(0.999 * threshold) == 0);
+  CHECK(corner_folds(1.001 * threshold) == 2);
+}
+
 TEST_CASE("The guess is the solution of the smallest amplitude") {
   const bool cubic = GENERATE(false, true);
   const SystemParameters parameters = cubic ? hardening_rods(0.3) : excited_rods(-3e-3);
