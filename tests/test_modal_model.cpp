@@ -43,6 +43,49 @@ TEST_CASE("The sum over modes is what solves with the dynamic stiffness give, de
   }
 }
 
+TEST_CASE("Structural damping is a complex stiffness, of the same loss at every eta") {
+  SystemParameters parameters = figure_8_system();
+  parameters.model = GENERATE(StructureModel::rods, StructureModel::beams);
+  parameters.base_damping = GENERATE(0.02, -0.02);
+  parameters.base_damping_kind = DampingKind::structural;
+  const FrictionSystem system = build_system(parameters);
+  DynamicStiffness direct = dynamic_stiffness(reduce(parameters).base, 0);
+  direct.stiffness *= Complex(1, 2 * parameters.base_damping);
+  for (const double eta : {0.3, 1.0, 3.99, 4.0, 17.0, 95.0}) {
+    const ContactResponse a = system.base.at(eta);
+    const ContactResponse b = direct.contact_response(eta, 0);
+    check_close(a.compliance, b.compliance, 1e-9);  // as above
+    check_close(a.compliance_eta, b.compliance_eta, 1e-9);
+    check_close(a.free, b.free, 1e-9);
+    check_close(a.free_eta, b.free_eta, 1e-9);
+  }
+}
+
+TEST_CASE("The compliance as a function of zeta is that of the model with this damping") {
+  SystemParameters parameters = figure_8_system();
+  parameters.base_damping_kind = GENERATE(DampingKind::viscous, DampingKind::structural);
+  parameters.base_damping = -0.03;
+  const FrictionSystem system = build_system(parameters);
+  for (const double eta : {0.3, 3.99, 4.0, 95.0}) {
+    const DampedCompliance c = system.base.compliance(eta, -0.03, system.base_loss_per_zeta);
+    check_close(c.value, system.base.at(eta).compliance, 1e-14);
+    check_close(c.by_eta, system.base.at(eta).compliance_eta, 1e-14);
+    const auto value = [&](double zeta) {
+      return system.base.compliance(eta, zeta, system.base_loss_per_zeta).value;
+    };
+    check_close(c.by_zeta, (value(-0.03 + 1e-6) - value(-0.03 - 1e-6)) / 2e-6, 1e-7);
+  }
+}
+
+TEST_CASE("A held structure does not respond") {
+  SystemParameters parameters = figure_8_system();
+  parameters.fixed_damper = true;
+  const FrictionSystem system = build_system(parameters);
+  CHECK(system.damper.at(1).compliance == 0.0);
+  CHECK(system.damper.at(1).compliance_eta == 0.0);
+  CHECK(joined_frequencies({&system.base, &system.damper}, system.contact_stiffness).size() == 2);
+}
+
 TEST_CASE("The derivatives in eta are those of the values") {
   const ReducedPair pair = reduce(figure_8_system());
   const ModalModel modal(pair.base, 0, 1e-3);

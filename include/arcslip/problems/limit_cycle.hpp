@@ -56,9 +56,10 @@ class LimitCycle : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
-  /// A cycle at (zeta_B, P), the stable small one or the unstable large one. It is searched on the cycles
-  /// that begin at each resonance of the stuck structures, lowest first, up to R/S = 1e12. Throws
-  /// std::invalid_argument if there is none; one within 1e-4 of the fold may not be seen.
+  /// A cycle at (zeta_B, P): of those that begin at a resonance of the stuck structures, lowest resonance
+  /// first, the smallest one along which -zeta_B rises with R (small) or falls (large), up to R/S = 1e12.
+  /// Throws std::invalid_argument if there is none; one so close to a fold that both sizes lie within 2 % of
+  /// each other in R may not be seen.
   continuation::Guess guess(double zeta_value, double preload_value, Size size = Size::small) const;
 
   const FrictionSystem& system() const { return system_; }
