@@ -199,3 +199,37 @@ TEST_CASE("A sparse Jacobian that is singular up to any distance loses no digits
   CHECK(solver->factor() == sign_of_determinant(whole));
   check_solutions(*solver, whole, 1e-11);
 }
+
+TEST_CASE("A sparse Jacobian may lack as much rank as there are borders") {
+  const Index borders = GENERATE(1, 2, 3);
+  const Index length = 20;
+  const Index n = borders * length;
+  CAPTURE(borders);
+  Matrix whole = Matrix::Random(n + borders, n + borders);
+  whole.topLeftCorner(n, n).setZero();
+  const double lowest = 2 - 2 * std::cos(std::acos(-1.0) / static_cast<double>(length + 1));
+  for (Index i = 0; i < n; ++i) {  // as many chains, each with one null vector
+    whole(i, i) = 2 - lowest;
+    if ((i + 1) % length != 0) whole(i, i + 1) = whole(i + 1, i) = -1;
+  }
+  whole.bottomRightCorner(borders, borders).setZero();
+  const auto dense = make_bordered_solver(n, borders, false);
+  const auto sparse = make_bordered_solver(n, borders, true);
+  fill(*dense, whole, false);
+  fill(*sparse, whole, true);
+  CHECK(dense->factor() == sign_of_determinant(whole));
+  CHECK(sparse->factor() == dense->factor());
+  for (const bool transposed : {false, true}) {
+    const Vector right = Vector::Random(n + borders);
+    Vector expected = right;
+    Vector x = right;
+    if (transposed) {
+      dense->solve_transposed(expected);
+      sparse->solve_transposed(x);
+    } else {
+      dense->solve(expected);
+      sparse->solve(x);
+    }
+    CHECK((x - expected).norm() < 1e-10 * expected.norm());  // conditions up to 1e5
+  }
+}
