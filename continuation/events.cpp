@@ -206,7 +206,9 @@ class Search {
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);
       const Complex at_zero = watch_.eigenvalues()(i);
-      if (!(std::abs(at_zero.real()) < 1e-6 * std::abs(at_zero.imag()))) continue;  // a real one: a fold
+      const double largest = watch_.eigenvalues().cwiseAbs().maxCoeff();
+      if (std::abs(at_zero.imag()) <= 1e-6 * largest) continue;  // a real one, or two beside zero: a fold
+      if (std::abs(at_zero.real()) > 1e-6 * std::abs(at_zero.imag())) continue;
       note(Event::Kind::pair, watch_.pair_crossing(), i, zero);
       return;
     }

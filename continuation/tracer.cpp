@@ -115,10 +115,11 @@ bool Tracer::try_step() {
   if (!stepper_.attempt(state_.hold, distance)) {
     const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
     const Hold held = state_.hold;
+    const double tried = distance;
     use(state_.hold == Hold::tangent ? Hold::parameter : Hold::tangent);
-    if (!stepper_.attempt(state_.hold, distance)) {
-      use(held);
-      distance *= factor;
+    if (!stepper_.attempt(state_.hold, distance)) {  // on a fold it cannot be: the parameter does not change
+      state_.hold = held;
+      distance = tried * factor;
       return false;
     }
   }

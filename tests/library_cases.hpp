@@ -91,7 +91,7 @@ inline double defining_residual(const continuation::Problem& problem, Index acti
     at.extras = Vector::Zero(1);
   } else {
     extended = std::make_unique<continuation::HopfProblem>(problem, active);
-    at.extras = Vector::Constant(1, omega_of(point));
+    at.extras = Vector::Constant(1, omega_of(point) * omega_of(point));
   }
   Vector u, p;
   extended->join(at, u, p);

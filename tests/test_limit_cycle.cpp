@@ -41,7 +41,8 @@ continuation::TraceOptions over(const std::string& parameter, double from, doubl
 
 /// The whole curve in zeta_B through a small cycle, from the border of stick to a large cycle.
 Branch cycles(const LimitCycle& problem, double zeta, double preload) {
-  return continuation::trace_both(problem, problem.guess(zeta, preload), over("zeta_B", zeta, 1000 * zeta));
+  return continuation::trace_both(problem, problem.guess(zeta, preload),
+                                  over("zeta_B", 0.1 * zeta, 1000 * zeta));
 }
 
 Vector values_at(const LimitCycle& problem, const BranchPoint& point) {
