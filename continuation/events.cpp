@@ -177,6 +177,8 @@ class Search {
   void function(std::size_t i) {
     const int before = signs_.functions[i];
     const double at_upper = functions_at_upper_[i];
+    if (before != 0 && at_upper == 0)
+      return note(Event::Kind::function, watch_.type(i), static_cast<Index>(i), {Zero::State::found, upper_});
     if (before * sign_of(at_upper) >= 0) return;
     const auto value = [&](Stepper& stepper) {
       watch_.look(stepper.probed_point());
