@@ -78,8 +78,11 @@ void Stepper::cut_at_crossing() {
 
 std::optional<double> Stepper::passes(const CurvePoint& past) {
   if (past.regime != here_.regime) return std::nullopt;
-  corrector_.difference(past, here_, predicted_);
   const double length = step_.norm();
+  const Index parameter = corrector_.parameter();
+  const double aside = past.parameters(parameter) - here_.parameters(parameter);
+  if (!(std::abs(aside) < 2 * length * here_.scale(corrector_.size()))) return std::nullopt;  // most often
+  corrector_.difference(past, here_, predicted_);
   const double s = normal_.dot(predicted_);
   if (!(predicted_.norm() < 2 * length) || !(s > 0) || !(s <= distance_)) return std::nullopt;
   interpolate(s, work_);

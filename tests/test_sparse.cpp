@@ -201,7 +201,7 @@ TEST_CASE("The derivative checker passes exact sparse derivatives, few or many")
   CHECK(report.worst < 1e-9);
   CHECK(report.worst > 0);
   const Vector on_square = Vector::LinSpaced(400, 0.3, 1.2);
-  CHECK(check_derivatives(BratuSquare(20), on_square, Vector{{3.0}}, 0).worst < 1e-9);
+  CHECK(check_derivatives(BratuRectangle(20, 20), on_square, Vector{{3.0}}, 0).worst < 1e-9);
 }
 
 TEST_CASE("The derivative checker names a wrong sparse entry and one that the pattern lacks") {

@@ -171,11 +171,11 @@ int main(int argc, char** argv) {
   }
   for (const Index n : {Index{10000}, Index{100000}}) {
     if (n > largest) break;
-    const testing::Ignition chain(n, true, 1e3);
-    report({"chain", chain, Vector::Zero(n), Vector{{0.0, 0.0}}, 0, 5, 40, 1.5});
+    const testing::BratuRectangle channel(10, n / 10);
+    report({"channel", channel, Vector::Zero(n), Vector{{0.0}}, 0, 10, 20, 1.5});
     const auto side = static_cast<Index>(std::sqrt(static_cast<double>(n)));
-    const testing::BratuSquare square(side);
-    report({"square", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 10, 20, 1.5});
+    const testing::BratuRectangle square(side, side);
+    report({"square", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 10, 36, 1.5});
   }
   return 0;
 }
