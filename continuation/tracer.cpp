@@ -325,9 +325,19 @@ std::string Tracer::place() const { return fmt::format("{} = {:.10g}", options_.
 
 void Tracer::store(PointType type, const std::string& label, const Vector& arrival) {
   const CurvePoint& here = stepper_.here();
-  branch_.points.push_back({type, here.regime, here.unknowns, here.parameters, state_.arclength,
-                            here.iterations, here.residual, here.tangent.cwiseProduct(here.scale), arrival,
-                            watch_.eigenvalues(), watch_.unstable(), label});
+  BranchPoint& point = branch_.points.emplace_back();
+  point.type = type;
+  point.regime = here.regime;
+  point.unknowns = here.unknowns;
+  point.parameters = here.parameters;
+  point.arclength = state_.arclength;
+  point.iterations = here.iterations;
+  point.residual = here.residual;
+  point.tangent = here.tangent.cwiseProduct(here.scale);
+  point.arrival = arrival;
+  point.eigenvalues = watch_.eigenvalues();
+  point.unstable = watch_.unstable();
+  point.label = label;
   if (type != PointType::regular && (type != PointType::start) && !options_.stop_after.empty()) {
     const long found = ++state_.found[std::string(to_string(type)) + label];
     for (const StopAfter& rule : options_.stop_after)

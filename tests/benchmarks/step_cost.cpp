@@ -136,9 +136,9 @@ void report(const Case& c) {
   options.from = c.from;
   options.to = c.to;
   options.max_points = c.points;
-  Branch branch;
   const Index n = c.problem.size();
-  const int runs = n < 1000 ? 25 : n < 50000 ? 5 : 2;
+  const int runs = n < 1000 ? 25 : n < 50000 ? 5 : 1;
+  Branch branch;
   const double seconds = least_seconds(runs, [&] {
     branch = trace(c.problem, {c.unknowns, c.parameters, 0, {}}, options);
   });
@@ -175,7 +175,7 @@ int main(int argc, char** argv) {
     report({"channel", channel, Vector::Zero(n), Vector{{0.0}}, 0, 10, 20, 1.5});
     const auto side = static_cast<Index>(std::sqrt(static_cast<double>(n)));
     const testing::BratuRectangle square(side, side);
-    report({"square", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 10, 36, 1.5});
+    report({"square", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 10, 60, 1.5});
   }
   return 0;
 }
