@@ -254,6 +254,26 @@ TEST_CASE("The fold of a sparse branch is that of the difference equation") {
   CHECK_THAT(fold.unknowns(size / 2), WithinRel(middle, 1e-7));
 }
 
+TEST_CASE("The fold of Bratu's problem in the square is the published one, by the branch and by itself") {
+  const auto fold_at = [](Index side) {
+    const BratuRectangle square(side, side);
+    TraceOptions options = over(0, 10);
+    options.stop_after = {{PointType::fold, 1, {}}};
+    const Branch branch = trace(square, {Vector::Zero(square.size()), Vector{{0.0}}, 0, {}}, options);
+    REQUIRE(branch.complete());
+    const BranchPoint& traced = branch.points.back();
+    FoldProblem problem(square, L);
+    const auto located = locate(problem, {traced.unknowns, traced.parameters, 0, {}});
+    REQUIRE(located);
+    CHECK_THAT(traced.parameters(L), WithinRel(located->point.parameters(L), 1e-10));
+    return traced.parameters(L);
+  };
+  const double coarse = fold_at(15);
+  const double fine = fold_at(31);
+  // 6.808124423: Mohsen, Comput. Math. Appl. 67 (2014) 26. The error is of order h^4 after extrapolation.
+  CHECK_THAT(fine + (fine - coarse) / 3, WithinRel(6.808124423, 3e-5));
+}
+
 TEST_CASE("Branch points of a sparse branch are those of the difference equation") {
   TraceOptions options = over(1, 100);
   options.max_step = 0.3;
