@@ -142,7 +142,7 @@ void report(const Case& c) {
   const double seconds = least_seconds(runs, [&] {
     branch = trace(c.problem, {c.unknowns, c.parameters, 0, {}}, options);
   });
-  const Cost cost = cost_of_work(c.problem, branch, runs);
+  const Cost cost = cost_of_work(c.problem, branch, std::max(runs, 3));
   const auto steps = static_cast<double>(branch.points.size());
   const auto folds = std::count_if(branch.points.begin(), branch.points.end(),
                                    [](const BranchPoint& point) { return point.type == PointType::fold; });
