@@ -109,8 +109,9 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     solver_->solve(correction_);
     const double length = correction_.norm();
     if (!std::isfinite(length)) return Correction::singular;
-    const auto telling = [&] { return last_residual > rounding_level(point); };  // no ratio of two roundings
-    if (point.iterations == 1 && !held && telling()) contraction_ = length / last_length;
+    // A ratio of two roundings does not count, unless it is too small to shorten a step.
+    const auto counts = [&](double ratio) { return ratio < 0.01 || last_residual > rounding_level(point); };
+    if (point.iterations == 1 && !held && counts(length / last_length)) contraction_ = length / last_length;
     if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded)
       return Correction::diverging;
     last_length = length;

@@ -27,9 +27,11 @@ struct Bracket {
 template <class Function>
 Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   bool solved = true;
+  std::vector<std::pair<double, double>> seen;  // s and the value there
   const auto along = [&](double s) {
     solved = solved && stepper.probe(s);
-    return solved ? f(stepper) : 0.0;
+    seen.emplace_back(s, solved ? f(stepper) : 0.0);
+    return seen.back().second;
   };
   double lower = 0;
   double at_lower = bracket.at_zero;
@@ -49,9 +51,12 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   std::uintmax_t iterations = 100;
   const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower,
                                                         bracket.at_upper, close, iterations);
-  const double at_a = a > lower ? std::abs(along(a)) : std::abs(at_lower);
-  const double at_b = std::abs(along(b));
-  return {solved ? Zero::State::found : Zero::State::failed, at_a < at_b ? a : b};
+  if (!solved) return {Zero::State::failed};
+  const auto size_at = [&](double s) {
+    const auto at = std::find_if(seen.begin(), seen.end(), [s](const auto& pair) { return pair.first == s; });
+    return std::abs(at != seen.end() ? at->second : s == lower ? at_lower : bracket.at_upper);
+  };
+  return {Zero::State::found, size_at(a) < size_at(b) ? a : b};
 }
 
 /// Looks for the end of the regime first: what lies beyond it is not the branch, so that everything else is

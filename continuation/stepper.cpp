@@ -260,15 +260,19 @@ void Stepper::interpolate(double s, Vector& out) const {
 }
 
 bool Stepper::probe(double s) {
+  if (s == probed_s_ && corrector_.work().evaluations == probed_when_) return true;
   interpolate(s, work_);
   corrector_.displace(here_, work_, probe_);
   if (corrector_.correct(probe_, here_, normal_, s, true) != Correction::converged) return false;
   probe_slope_ = corrector_.direction();
   monitor(probe_, here_.scale, probe_slope_, probed_);
+  probed_s_ = s;
+  probed_when_ = corrector_.work().evaluations;
   return true;
 }
 
 void Stepper::cut(double s) {
+  probed_when_ = -1;
   std::swap(there_, probe_);
   slope_to_ = probe_slope_;
   std::swap(to_, probed_);

@@ -153,6 +153,9 @@ class Stepper {
   std::vector<Monitor> from_;
   std::vector<Monitor> to_;
   std::vector<Monitor> probed_;
+  double probed_s_ = 0;
+  long probed_when_ =
+      -1;  // the corrector's evaluations when it was done; it stands as long as there are no others
   Gradient gradient_;
 };
 
