@@ -1,8 +1,10 @@
 #include "arcslip/continuation/events.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 namespace {
@@ -125,10 +127,35 @@ class Search {
   }
 
   void fold() {
-    if (signs_.parameter * sign_of(rate_at_upper_) >= 0) return;
+    if (signs_.parameter * sign_of(rate_at_upper_) > 0) return hidden_fold();
+    if (signs_.parameter * sign_of(rate_at_upper_) < 0) fold_before(upper_, rate_at_upper_);
+  }
+
+  void fold_before(double s, double rate) {
     note(Event::Kind::fold, PointType::fold, 0,
-         locate(stepper_, {upper_, stepper_.parameter_rate_from(), signs_.parameter, rate_at_upper_},
-                [](Stepper& s) { return s.probed_parameter_rate(); }));
+         locate(stepper_, {s, stepper_.parameter_rate_from(), signs_.parameter, rate},
+                [](Stepper& stepper) { return stepper.probed_parameter_rate(); }));
+  }
+
+  /// Two folds in one step, the second of which turns the parameter back.
+  void hidden_fold() {
+    const std::optional<double> suspected = stepper_.suspected_folds();
+    if (!suspected || *suspected >= upper_) return;
+    double least = std::numeric_limits<double>::infinity();  // rate of the parameter in its direction
+    double lowest = 0;
+    const auto rate = [&](double s) {
+      if (least < 0 || !result_.solved) return least;  // there it is
+      result_.solved = stepper_.probe(s);
+      const double value = signs_.parameter * stepper_.probed_parameter_rate();
+      if (value < least) lowest = s;
+      least = std::min(least, value);
+      return value;
+    };
+    const double ends = std::min(std::abs(stepper_.parameter_rate_from()), std::abs(rate_at_upper_));
+    if (rate(*suspected) > 0.2 * ends) return;
+    std::uintmax_t iterations = 40;
+    boost::math::tools::brent_find_minima(rate, 0.0, upper_, 24, iterations);
+    if (least < 0 && result_.solved) fold_before(lowest, signs_.parameter * least);
   }
 
   Zero locate_extremum(std::size_t monitor, int before) {
