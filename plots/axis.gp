@@ -30,7 +30,7 @@ if (!is_wide(low, high)) {
   eval sprintf("unset logscale %s", axis)
   largest = abs(low) > abs(high) ? abs(low) : abs(high)
   common_power = axis eq "y" && (largest < 0.05 || largest >= 1e4) ? int(floor(log10(largest))) : 0
-  text_of(v) = sprintf("%.9g", v / 10.0 ** common_power)
+  text_of(v) = (v < 0 ? "−" : "").sprintf("%.9g", abs(v) / 10.0 ** common_power)
   labels_of(step) = floor(high / step) - ceil(low / step) + 1
   text_room(v) = axis eq "x" && 0.2 + 0.15 * strlen(text_of(v)) > room ? 0.2 + 0.15 * strlen(text_of(v)) : room
   fits(step) = labels_of(step) * text_room(ceil(low / step) * step) <= length
