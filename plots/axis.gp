@@ -9,6 +9,7 @@ eval sprintf("set %srange [%.15g:%.15g]", axis, low, high)
 eval sprintf("set %stics ('' %.15g 1)", axis, low)
 room = axis eq "x" ? 0.65 : 0.6  # cm for a label
 common_power = 0
+longest_label = 0  # in characters, of a linear axis
 
 if (is_wide(low, high)) {
   eval sprintf("set logscale %s", axis)
@@ -47,6 +48,7 @@ if (!is_wide(low, high)) {
   }
   do for [j = floor(parts * low / chosen):ceil(parts * high / chosen)] {
     text = j % parts == 0 && is_labelled ? text_of(j / parts * chosen) : ""
+    longest_label = strlen(text) > longest_label ? strlen(text) : longest_label
     eval sprintf("set %stics add ('%s' %.15g %d)", axis, text, j * chosen / parts, j % parts != 0)
   }
 }

@@ -91,6 +91,12 @@ is_wide(low, high) = low > 0 && high > wide * low  # worth a logarithmic axis
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
 value_at(low, high, s) = is_wide(low, high) ? low * (1.0 * high / low) ** s : low + s * (high - low)
 
+# The range of values that lie between `low` and `high`; about a single value, but for rounding errors, some room.
+is_single(low, high) = high - low <= 1e-9 * (abs(low) + abs(high))
+room_about(v) = abs(v) < 1e-12 ? 1 : 0.1 * abs(v)
+spread(low, high) = is_single(low, high) ? sprintf("%.17g %.17g", low - room_about(low), high + room_about(high)) : \
+                                           sprintf("%.17g %.17g", low, high)
+
 # To be used as `eval place_panel(...)`.
 place_panel(left, right, bottom, top) = sprintf("set margins at screen %g, screen %g, screen %g, screen %g", \
                                                 across(left), across(right), up(bottom), up(top))

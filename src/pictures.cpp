@@ -72,7 +72,7 @@ std::string plain(std::string text) {
   return text;
 }
 
-std::string italic(const std::string& text) { return "{/:Italic " + text + "}"; }
+std::string italic(const std::string& text) { return fmt::format("{{/:Italic {}}}", text); }
 
 /// A name of a library problem: Greek letters by their sign, "u1" and "u_mid" with indices, words as they
 /// are.
@@ -123,11 +123,11 @@ std::string axis_title(const std::string& name, bool is_friction) {
   return fmt::format("{}{}{}{}", found->second, blank, blank, symbol(name));
 }
 
-std::string quote(const std::string& text) { return '"' + text + '"'; }
+std::string quote(const std::string& text) { return fmt::format("\"{}\"", text); }
 
 std::string quote_all(const Names& texts) {
   std::string words;
-  for (const std::string& text : texts) words += (words.empty() ? "" : " ") + quote(text);
+  for (const std::string& text : texts) words += fmt::format("{}\"{}\"", words.empty() ? "" : " ", text);
   return words;
 }
 
@@ -246,7 +246,8 @@ class Decision {
         parameter == "eta" && is_friction_
             ? axis_title(parameter, true) + fmt::format("{}={}{{/:Italic ω}}/{{/:Italic Ω}}_D", blank, blank)
             : axis_title(parameter, is_friction_);
-    return {parameter + " " + style, colours_.labels, colours_.groups, quote(title) + " " + names};
+    return {fmt::format("{} {}", parameter, style), colours_.labels, colours_.groups,
+            fmt::format("{} {}", quote(title), names)};
   }
 
   /// A picture with a panel for each of the columns over the parameter.
