@@ -2,6 +2,7 @@
 # kind, each in white first. The branches are lines through the points, thin in stick and thick in slip, or dashed where
 # unstable. With `refine` above 1, smooth.gp puts that many pieces between two points.
 
+has_shape(n) = !is_backing(n) || backing[nth_kind(n)]
 special_y(s, k) = special_kinds[s] == k && is_marked(xs[special_points[s]]) ? ys[special_points[s]] : NaN
 special_colour(s) = special_branches[s] > branches ? grey : branch_colour(special_branches[s])
 nth_kind(n) = (n + 1) / 2
@@ -29,6 +30,6 @@ plot keyentry, \
     using (x_at(row_of(b, j), part_of(j))):(lower_y(b, j)) \
     with lines linewidth (lines eq "regimes" ? thick : medium) @lower_dashes linecolor rgb branch_colour(b), \
   for [n = 1:2 * kinds] [s = 1.25:specials + 1.75:1] '+' using (xs[special_points[int(s)]]): \
-    (special_y(int(s), nth_kind(n))):(is_backing(n) ? 0xFFFFFF : special_colour(int(s))) \
+    (has_shape(n) ? special_y(int(s), nth_kind(n)) : NaN):(is_backing(n) ? 0xFFFFFF : special_colour(int(s))) \
     with points pointtype (is_backing(n) ? backing[nth_kind(n)] : symbol[nth_kind(n)]) \
     pointsize symbol_size(nth_kind(n)) * (is_backing(n) ? 1.35 : 1) linewidth frame linecolor rgb variable

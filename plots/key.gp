@@ -34,9 +34,10 @@ array way_start[ways]
 array way_line[ways]
 array line_width[ways]
 array way_width[styles] = [thin, thick, medium, medium, medium]
+stable_found = lines eq "stability" ? sum [i = 1:rows] (counts[i] == 0) : 0
 unstable_found = lines eq "stability" ? sum [i = 1:rows] (counts[i] > 0) : 0
 array style_found[styles] = [lines eq "regimes" && stick_found, lines eq "regimes" && slip_found, \
-                             unstable_found, unstable_found, lines eq "plain" && strlen(lines_title)]
+                             stable_found && unstable_found, unstable_found, lines eq "plain" && strlen(lines_title)]
 do for [k = 1:kinds] { way_title[styles + k] = kind_title[k] }
 is_shown(i) = i <= styles ? style_found[i] : found[i - styles] > 0
 way_sample(i) = i <= styles ? sample : 0.25

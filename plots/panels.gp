@@ -4,7 +4,7 @@
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; axis_and_lines = ARG5; labels = ARG6; groups = ARG7; names = ARG8
 panels = ARG9
 load style."/style.gp"
-wide = 10
+wide = 20
 load style."/data.gp"
 refine = rows <= 3000 ? 8 : 1
 number = words(panels) / 2
@@ -29,6 +29,7 @@ do for [n = 1:number] {
   longest = longest_label > longest ? longest_label : longest
   has_power = has_power || common_power
 }
+if (strlen(lines_title)) { load style."/cusps.gp" }
 left_edge = 0.72 + 0.17 * longest
 top = bottom + number * row + (number - 1) * gap_between
 body = top + (has_power ? 0.4 : 0.15)

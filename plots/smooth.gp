@@ -13,7 +13,11 @@ if (refine > 1) {
   unscaled_y(v) = y_log ? exp(v) : v
   secant_x(i, k) = (scaled_x(xs[k]) - scaled_x(xs[i])) / (lengths[k] - lengths[i])
   secant_y(i, k) = (scaled_y(ys[k]) - scaled_y(ys[i])) / (lengths[k] - lengths[i])
-  parabola(before, after, d_before, d_after) = (d_before * after + d_after * before) / (before + after)
+  # No steeper than keeps to the rows' own order where they go one way (Fritsch and Carlson 1980).
+  smaller(a, b) = abs(a) < abs(b) ? a : b
+  tame(slope, a, b) = a * b > 0 && abs(slope) > 3 * abs(smaller(a, b)) ? 3 * smaller(a, b) : slope
+  parabola(before, after, d_before, d_after) = \
+    tame((d_before * after + d_after * before) / (before + after), before > 0 ? d_before : 0, after > 0 ? d_after : 0)
 
   do for [b = 1:branches] {
     do for [i = first[b]:last[b] * (last[b] > first[b] + 1)] {

@@ -63,15 +63,16 @@ shade = 0xEAEAEA
 # ---- Special points, in the order in which they are drawn, each over its own shape in white ----
 
 kinds = 13
-array kind_type[kinds] = ["switch", "user", "event", "branch_point", "fold", "corner_fold", "hopf", "peak", "trough", \
+array kind_type[kinds] = ["switch", "user", "event", "branch_point", "corner_fold", "hopf", "peak", "trough", "fold", \
                           "cusp", "bogdanov_takens", "zero_hopf", "hopf_hopf"]
 r_equals_s = "{/:Italic R}".blank."=".blank."{/:Italic S}"
-array kind_title[kinds] = [r_equals_s, "requested", "event", "branch".blank."point", "fold", "fold".blank."at".blank. \
-                           "corner", "Hopf", "peak", "trough", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf"]
-array symbol[kinds] = [6, 2, 1, 13, 5, 4, 7, 9, 11, 12, 15, 14, 8]
-array backing[kinds] = [7, 7, 7, 13, 5, 5, 7, 9, 11, 13, 15, 15, 9]
+array kind_title[kinds] = [r_equals_s, "requested", "event", "branch".blank."point", "corner".blank."fold", "Hopf", \
+                           "peak", "trough", "fold", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf"]
+array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8]
+array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9]  # 0: none, a fold may be a peak, too
 is_triangle(k) = symbol[k] == 8 || symbol[k] == 9 || symbol[k] == 11
-symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : is_triangle(k) ? 1.5 : 1.25)
+enlarged(k) = symbol[k] == 4 ? 1.5 : is_triangle(k) && !is_svg ? 1.2 : symbol[k] > 11 ? 1.25 : 1
+symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : 1.25) * enlarged(k)
 kind_of(type) = type eq "regular" ? 0 : sum [k = 1:kinds] (kind_type[k] eq type ? k : 0)
 
 x_title = word(names, 1)
@@ -85,14 +86,14 @@ do for [n = 3:words(names) - 1:2] {
 # ---- Ranges ----
 
 wide = 4
-is_wide(low, high) = low > 0 && high > wide * low  # worth a logarithmic axis
+is_wide(low, high) = low > 1e-15 * high && high > wide * low && low > 0  # worth a logarithmic axis
 
 # The place of a value on an axis, from 0 to 1, and the value at a place.
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
 value_at(low, high, s) = is_wide(low, high) ? low * (1.0 * high / low) ** s : low + s * (high - low)
 
 # The range of values that lie between `low` and `high`; about a single value, but for rounding errors, some room.
-is_single(low, high) = high - low <= 1e-9 * (abs(low) + abs(high))
+is_single(low, high) = high - low <= 1e-9 * (abs(low) + abs(high)) || (low <= 0 && high - low < 1e-12)
 room_about(v) = abs(v) < 1e-12 ? 1 : 0.1 * abs(v)
 spread(low, high) = is_single(low, high) ? sprintf("%.17g %.17g", low - room_about(low), high + room_about(high)) : \
                                            sprintf("%.17g %.17g", low, high)

@@ -131,15 +131,21 @@ std::string quote_all(const Names& texts) {
   return words;
 }
 
+std::string value_text(const ordered_json& value) {
+  if (value.is_string()) return plain(value.get<std::string>());
+  if (!value.is_number()) return plain(value.dump());
+  std::string text = fmt::format("{:.6g}", value.get<double>());
+  for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos; at += std::string_view("−").size())
+    text.replace(at, 1, "−");
+  return text;
+}
+
 /// "P = 0.1" for those of a branch's values that `differ`.
 std::string label(const ordered_json& values, const Names& differ) {
   Names parts;
   for (const auto& [key, value] : values.items()) {
     if (std::find(differ.begin(), differ.end(), key) == differ.end()) continue;
-    const std::string text = value.is_number()   ? fmt::format("{:.6g}", value.get<double>())
-                             : value.is_string() ? plain(value.get<std::string>())
-                                                 : plain(value.dump());
-    parts.push_back(fmt::format("{}{}={}{}", symbol(key), blank, blank, text));
+    parts.push_back(fmt::format("{}{}={}{}", symbol(key), blank, blank, value_text(value)));
   }
   return fmt::format("{}", fmt::join(parts, fmt::format(",{}", blank)));
 }
