@@ -15,8 +15,9 @@ part_of(j) = 1.0 * (int(j) % refine) / refine
 is_stable(i) = counts[i] == 0
 touches(b, i, stable, part) = (i < last[b] && is_stable(i) == stable) || \
                               (part == 0 && i > first[b] && is_stable(i - 1) == stable)
-upper_y(b, j) = lines ne "stability" || touches(b, row_of(b, j), 1, part_of(j)) ? y_at(row_of(b, j), part_of(j)) : NaN
-lower_y(b, j) = lines eq "plain" ? NaN : lines eq "regimes" ? slip_y_at(row_of(b, j), part_of(j)) : \
+upper_y(b, j) = last[b] == first[b] ? NaN : \
+                lines ne "stability" || touches(b, row_of(b, j), 1, part_of(j)) ? y_at(row_of(b, j), part_of(j)) : NaN
+lower_y(b, j) = last[b] == first[b] || lines eq "plain" ? NaN : lines eq "regimes" ? slip_y_at(row_of(b, j), part_of(j)) : \
                 touches(b, row_of(b, j), 0, part_of(j)) ? y_at(row_of(b, j), part_of(j)) : NaN
 lower_dashes = lines eq "stability" ? "dashtype ".dashes : ""
 

@@ -37,10 +37,9 @@ bounds = spread(STATS_min, STATS_max)
 x_low = real(word(bounds, 1))
 x_high = real(word(bounds, 2))
 has_room = strlen(lines_title) > 0  # curves in two parameters end anywhere
-low = x_low < ends_low || has_room ? value_at(x_low, x_high, -0.04) : x_low
-high = x_high > ends_high || has_room ? value_at(x_low, x_high, 1.04) : x_high
-x_low = low
-x_high = high
+bounds = with_room(x_low, x_high, x_low < ends_low || has_room ? 0.04 : 0, x_high > ends_high || has_room ? 0.04 : 0)
+x_low = real(word(bounds, 1))
+x_high = real(word(bounds, 2))
 
 # A point for each row; and which of them are special, with their kinds.
 array xs[rows]

@@ -8,7 +8,8 @@ is_labelled = is_lowest
 axis = "x"; low = from; high = to; length = r - l
 load style."/axis.gp"
 is_labelled = 1
-axis = "y"; low = value_at(y_low, y_high, -0.05); high = value_at(y_low, y_high, 1.07); length = t - b
+bounds = with_room(y_low, y_high, 0.05, 0.07)
+axis = "y"; low = real(word(bounds, 1)); high = real(word(bounds, 2)); length = t - b
 load style."/axis.gp"
 if (common_power) {
   set label sprintf("×10^{%s%d}", common_power < 0 ? "−" : "", abs(common_power)) at screen across(l), up(t + 0.2)

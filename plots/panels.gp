@@ -24,7 +24,8 @@ do for [n = 1:number] {
   name = panel_column(n)
   load style."/read.gp"
   load style."/height.gp"
-  axis = "y"; low = value_at(y_low, y_high, -0.06); high = value_at(y_low, y_high, 1.06); length = row; is_labelled = 1
+  bounds = with_room(y_low, y_high, 0.05, 0.07)
+  axis = "y"; low = real(word(bounds, 1)); high = real(word(bounds, 2)); length = row; is_labelled = 1
   load style."/axis.gp"
   longest = longest_label > longest ? longest_label : longest
   has_power = has_power || common_power

@@ -92,6 +92,13 @@ is_wide(low, high) = low > 1e-15 * high && high > wide * low && low > 0  # worth
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
 value_at(low, high, s) = is_wide(low, high) ? low * (1.0 * high / low) ** s : low + s * (high - low)
 
+# The range from `low` to `high` with a part `s` of it added below and `t` above. A linear one that would turn wide by that
+# grows by factors, too.
+grown(low, high, s, t) = sprintf("%.17g %.17g", value_at(low, high, -s), value_at(low, high, 1 + t))
+grown_by_factors(low, high, s, t) = sprintf("%.17g %.17g", low * (1.0 * high / low) ** -s, high * (1.0 * high / low) ** t)
+stays_linear(low, high, s, t) = is_wide(low, high) || low <= 0 || !is_wide(low - s * (high - low), high + t * (high - low))
+with_room(low, high, s, t) = stays_linear(low, high, s, t) ? grown(low, high, s, t) : grown_by_factors(low, high, s, t)
+
 # The range of values that lie between `low` and `high`; about a single value, but for rounding errors, some room.
 is_single(low, high) = high - low <= 1e-9 * (abs(low) + abs(high)) || (low <= 0 && high - low < 1e-12)
 room_about(v) = abs(v) < 1e-12 ? 1 : 0.1 * abs(v)

@@ -95,7 +95,7 @@ std::string library_symbol(const std::string& name) {
 }
 
 /// The symbol that the paper has for a key of [system] or a column, in gnuplot's markup.
-std::string symbol(const std::string& name) {
+std::string symbol(const std::string& name, bool is_friction) {
   static const std::map<std::string, std::string, std::less<>> symbols = {
       {"preload", italic("P")},
       {"force", italic("F")},
@@ -108,7 +108,7 @@ std::string symbol(const std::string& name) {
       {"interface_stiffness", italic("K") + "_{FD}"},
       {"R_over_S", italic("R") + "/" + italic("S")}};
   const auto found = symbols.find(name);
-  return found == symbols.end() ? library_symbol(name) : found->second;
+  return !is_friction || found == symbols.end() ? library_symbol(name) : found->second;
 }
 
 /// What stands along an axis.
@@ -119,8 +119,8 @@ std::string axis_title(const std::string& name, bool is_friction) {
                                                                         {"R_over_S", "relative amplitude"},
                                                                         {"Y", "amplitude"}};
   const auto found = words.find(name);
-  if (!is_friction || found == words.end()) return symbol(name);
-  return fmt::format("{}{}{}{}", found->second, blank, blank, symbol(name));
+  if (!is_friction || found == words.end()) return symbol(name, is_friction);
+  return fmt::format("{}{}{}{}", found->second, blank, blank, symbol(name, true));
 }
 
 std::string quote(const std::string& text) { return fmt::format("\"{}\"", text); }
@@ -141,11 +141,11 @@ std::string value_text(const ordered_json& value) {
 }
 
 /// "P = 0.1" for those of a branch's values that `differ`.
-std::string label(const ordered_json& values, const Names& differ) {
+std::string label(const ordered_json& values, const Names& differ, bool is_friction) {
   Names parts;
   for (const auto& [key, value] : values.items()) {
     if (std::find(differ.begin(), differ.end(), key) == differ.end()) continue;
-    parts.push_back(fmt::format("{}{}={}{}", symbol(key), blank, blank, value_text(value)));
+    parts.push_back(fmt::format("{}{}={}{}", symbol(key, is_friction), blank, blank, value_text(value)));
   }
   return fmt::format("{}", fmt::join(parts, fmt::format(",{}", blank)));
 }
@@ -157,7 +157,7 @@ struct Colours {
   std::string groups;  ///< one word for each branch: the number of its colour
 };
 
-Colours colours_of(const ordered_json& branches) {
+Colours colours_of(const ordered_json& branches, bool is_friction) {
   Names differ;
   const ordered_json& first = branches.at(0).at("values");
   for (const auto& [key, value] : first.items()) {
@@ -169,7 +169,7 @@ Colours colours_of(const ordered_json& branches) {
   Names labels;
   Names groups;
   for (const ordered_json& branch : branches) {
-    const std::string text = label(branch.at("values"), differ);
+    const std::string text = label(branch.at("values"), differ, is_friction);
     const auto known = std::find(labels.begin(), labels.end(), text);
     const auto group = differ.empty() ? groups.size() : static_cast<std::size_t>(known - labels.begin());
     if (differ.empty()) labels.emplace_back();
@@ -187,7 +187,7 @@ class Decision {
     const std::string model = system_.at("model").get<std::string>();
     is_friction_ = model == "rods" || model == "beams";
     is_requested_ = !summary.at("case").at("continuation").at("stop_at").empty();
-    colours_ = colours_of(summary.at("branches"));
+    colours_ = colours_of(summary.at("branches"), is_friction_);
   }
 
   std::vector<Picture> pictures() const {
@@ -232,9 +232,9 @@ class Decision {
     const std::string type = branch_.at("curve").get<std::string>();
     // Along a curve the special points are those of the second parameter and of the first as a function of
     // it.
-    const std::string second = fmt::format("fold{}in{}{}", blank, blank, symbol(pair.at(1)));
+    const std::string second = fmt::format("fold{}in{}{}", blank, blank, symbol(pair.at(1), is_friction_));
     const auto extremum = [&](const char* kind) {
-      return fmt::format("{}{}of{}{}", kind, blank, blank, symbol(pair.at(0)));
+      return fmt::format("{}{}of{}{}", kind, blank, blank, symbol(pair.at(0), is_friction_));
     };
     const std::string names = quote_all({lines.at(type), "fold", second, "peak", extremum("peak"), "trough",
                                          extremum("trough"), "user", is_requested_ ? "requested" : ""});
