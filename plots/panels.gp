@@ -1,7 +1,7 @@
 # One quantity or several over the parameter, in panels one above the other. `panels` has for each of them, in double
 # quotes, its column and the title of its axis.
 
-style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; axis_and_lines = ARG5; labels = ARG6; groups = ARG7; names = ARG8
+style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; shared = ARG5; labels = ARG6; groups = ARG7; names = ARG8
 panels = ARG9
 load style."/style.gp"
 wide = 20

@@ -4,7 +4,7 @@
 #   csv       branches.csv of `arcslip run`
 #   picture   the file to write
 #   format    png or svg
-#   axis_and_lines  the continuation parameter, which is the axis that the panels share; and what the lines tell:
+#   shared    the continuation parameter, which is the axis that the panels share; and what the lines tell:
 #             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable) or "plain" (nothing)
 #   labels    one word in double quotes for each colour, "" for one without a name
 #   groups    for each branch the number of its colour
@@ -22,8 +22,8 @@ left_edge = 1.4
 right_edge = width - 0.32
 line_height = 0.38
 type_size = 8.5
-parameter = word(axis_and_lines, 1)
-lines = word(axis_and_lines, 2)
+parameter = word(shared, 1)
+lines = word(shared, 2)
 branches = words(groups)
 colours = words(labels)
 are_many = colours > 12  # branches that are many are drawn more finely, and only a few of them are named
