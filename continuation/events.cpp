@@ -236,7 +236,12 @@ class Search {
         return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;
       };
       const int before = after > signs_.unstable ? -1 : 1;
-      const Zero zero = locate(stepper_, {upper_, 0, before, eigenvalues_at_upper_(i).real()}, value);
+      watch_.look(stepper_.here());
+      const double here = watch_.eigenvalues()(i).real();
+      Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
+      // The step may begin where the pair crosses, with the crossing still to come by its last bit.
+      if (zero.state == Zero::State::absent && std::abs(here) < 1e-12 * std::abs(eigenvalues_at_upper_(i)))
+        zero = {Zero::State::found, 0};
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);
       const Complex at_zero = watch_.eigenvalues()(i);

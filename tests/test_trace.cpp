@@ -4,6 +4,7 @@
 
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/continuation/trace.hpp"
+#include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
 
@@ -17,22 +18,6 @@ Guess guess_of(std::initializer_list<double> unknowns, double parameter, int reg
   Guess guess{Vector(static_cast<Index>(unknowns.size())), Vector::Constant(1, parameter), regime};
   std::copy(unknowns.begin(), unknowns.end(), guess.unknowns.begin());
   return guess;
-}
-
-TraceOptions over(const std::string& parameter, double from, double to) {
-  TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
-  return options;
-}
-
-std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
-  std::vector<BranchPoint> points;
-  for (const BranchPoint& point : branch.points) {
-    if (point.type == type) points.push_back(point);
-  }
-  return points;
 }
 
 }  // namespace
