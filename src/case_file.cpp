@@ -177,7 +177,9 @@ class BranchSection {
     const std::vector<double> window = section_.numbers("window", parameter_rule(model_, curve.active));
     if (window.size() != 2 || window[0] == window[1])
       section_.mismatch("window", "two different numbers, the range of " + curve.active);
-    curve.window = {std::min(window[0], window[1]), std::max(window[0], window[1])};
+    curve.from = window[0];
+    curve.to = window[1];
+    curve.window = {std::min(curve.from, curve.to), std::max(curve.from, curve.to)};
     branch.curve = curve;
   }
 

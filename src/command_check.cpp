@@ -50,9 +50,8 @@ std::string describe(const CaseBranch& branch) {
   if (branch.curve) {
     return fmt::format(
         "curve of {} points: {} from {:g} to {:g}, {} from {:g} to {:g}, looked for at {} = {:g}",
-        to_string(branch.curve->type), branch.curve->active, branch.curve->window.low,
-        branch.curve->window.high, options.parameter, options.from, options.to, options.parameter,
-        branch.curve->seed);
+        to_string(branch.curve->type), branch.curve->active, branch.curve->from, branch.curve->to,
+        options.parameter, options.from, options.to, options.parameter, branch.curve->seed);
   }
   std::string text =
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
@@ -76,8 +75,8 @@ continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
   CaseBranch plain = request;
   if (request.curve) {
     plain.options.parameter = request.curve->active;
-    plain.options.from = request.curve->window.low;
-    plain.options.to = request.curve->window.high;
+    plain.options.from = request.curve->from;
+    plain.options.to = request.curve->to;
     plain.options.stop_at.clear();
     plain.curve.reset();
   }
