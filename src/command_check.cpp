@@ -70,7 +70,8 @@ double depth(const continuation::Problem& problem, const continuation::BranchPoi
   return least;
 }
 
-/// The worst of all derivatives, at the first point of the branch that lies well inside each regime.
+/// The worst of all derivatives, at the first point of the branch that lies well inside each regime; infinite
+/// if there is none.
 continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
   CaseBranch plain = request;
   if (request.curve) {
@@ -82,7 +83,7 @@ continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
   }
   const std::vector<TracedBranch> traced = trace(plain);
   const continuation::Problem& problem = *traced.front().base;
-  continuation::DerivativeReport worst{0, "the branch has no start"};
+  continuation::DerivativeReport worst{0, ""};
   std::vector<bool> seen(problem.regime_names().size(), false);
   for (const continuation::BranchPoint& point : traced.front().branch.points) {
     const auto regime = static_cast<std::size_t>(point.regime);
@@ -92,6 +93,7 @@ continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
         continuation::check_derivatives(problem, point.unknowns, point.parameters, point.regime);
     if (report.worst >= worst.worst) worst = report;
   }
+  if (worst.where.empty()) return {std::numeric_limits<double>::infinity(), "for want of a point"};
   return worst;
 }
 

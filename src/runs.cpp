@@ -133,6 +133,24 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
 
 }  // namespace
 
+std::vector<std::string> tracked_observables(const ProblemRequest& request) {
+  std::unique_ptr<const continuation::Problem> problem;
+  if (request.model != nullptr) {
+    problem = request.model->build(request.settings);
+  } else if (request.limit_cycle) {
+    problem = std::make_unique<problems::LimitCycle>(build_system(request.system));
+  } else if (request.system.cubic_stiffness != 0) {
+    problem = std::make_unique<problems::CubicResponse>(build_system(request.system));
+  } else {
+    problem = std::make_unique<problems::ForcedResponse>(build_system(request.system));
+  }
+  std::vector<std::string> names;
+  for (const continuation::Observable& observable : problem->observables()) {
+    if (observable.has_gradient) names.push_back(observable.name);
+  }
+  return names;
+}
+
 Subject build(const ProblemRequest& request, const std::string& parameter, double value) {
   if (request.model != nullptr) return build_library(request, parameter, value);
   if (request.limit_cycle) return build_cycle(request, parameter, value);
