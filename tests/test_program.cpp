@@ -158,7 +158,10 @@ TEST_CASE("Help and version explain the program with status 0") {
   for (const std::string word : {"run", "check", "plot", "Exit status", "Examples"}) {
     CHECK_THAT(help.out, ContainsSubstring(word));
   }
-  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each"));
+  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each") &&
+                                                    ContainsSubstring("curve = \"peak\"") &&
+                                                    ContainsSubstring("stop_after") &&
+                                                    ContainsSubstring("limit_cycle"));
 }
 
 TEST_CASE("check says what would run, and refuses what run would refuse") {
