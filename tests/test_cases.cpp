@@ -92,6 +92,9 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
     for (const TracedBranch& one : run.traced) {
       INFO(one.branch.explanation);
       CHECK(one.branch.complete());
+      const Stop first = one.branch.first_stop.value_or(Stop::reached_end);  // of what is traced both ways
+      CHECK((first == Stop::reached_end || first == Stop::left_range || first == Stop::left_regime ||
+             first == Stop::requested));
       CHECK(one.branch.points.size() > 1);
       double worst = 0;
       for (const BranchPoint& point : one.branch.points) worst = std::max(worst, point.residual);
@@ -258,26 +261,17 @@ TEST_CASE("Bratu's cases converge to the exact fold and the exact solutions as h
 }
 
 TEST_CASE("Duffing's case has the folds of NLvib's example for every number of harmonics", "[cases]") {
-  struct Folds {
-    int harmonics;
-    double upper, lower;
+  const auto check_folds = [](const Settings& settings, double upper, double lower) {
+    const Run run("duffing", settings);
+    check(run.traced[0], PointType::fold, {{{"W", upper}}, {{"W", lower}}});
   };
-  for (const Folds& folds :
-       {Folds{1, 1.267536959513, 1.115585927182}, Folds{3, 1.269600032145, 1.115700246882},
-        Folds{5, 1.269601954391, 1.115700251771}, Folds{9, 1.269601955546, 1.115700251771}}) {
-    INFO(folds.harmonics << " harmonics");
-    const Run run("duffing", {"system.harmonics=" + std::to_string(folds.harmonics)});
-    check(run.traced[0], PointType::fold, {{{"W", folds.upper}}, {{"W", folds.lower}}});
-  }
-  struct Force {
-    double force, upper, lower;
-  };
-  for (const Force& at :
-       {Force{0.06, 1.051404521411, 1.049467203819}, Force{0.1, 1.115508359522, 1.076067057413},
-        Force{0.3, 1.489393339365, 1.161865303909}}) {
-    const Run run("duffing", {"system.harmonics=1", fmt::format("system.force={}", at.force)});
-    check(run.traced[0], PointType::fold, {{{"W", at.upper}}, {{"W", at.lower}}});
-  }
+  check_folds({"system.harmonics=1"}, 1.267536959513, 1.115585927182);
+  check_folds({"system.harmonics=3"}, 1.269600032145, 1.115700246882);
+  check_folds({"system.harmonics=5"}, 1.269601954391, 1.115700251771);
+  check_folds({"system.harmonics=9"}, 1.269601955546, 1.115700251771);
+  check_folds({"system.harmonics=1", "system.force=0.06"}, 1.051404521411, 1.049467203819);
+  check_folds({"system.harmonics=1", "system.force=0.1"}, 1.115508359522, 1.076067057413);
+  check_folds({"system.harmonics=1", "system.force=0.3"}, 1.489393339365, 1.161865303909);
 }
 
 // ---- Friction ----

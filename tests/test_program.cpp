@@ -327,6 +327,25 @@ TEST_CASE("A branch that comes back out of its range, or ends where stop_after s
   CHECK_THAT(cusp["special"].back()["mu"].get<double>(), WithinRel(2 / (3 * std::sqrt(3)), 1e-9));
 }
 
+TEST_CASE("A branch traced both ways has status 0 only if both parts have an end, a border among them") {
+  const TemporaryFolder folder;
+  // With a damper that loses energy the cycle ends on the border of stick before zeta_B = 0.
+  const std::string to_the_border = "run " + case_named("limit_cycle") + " -o " + folder.path("r") +
+                                    " --set system.fixed_damper=false --set system.damping.damper=1e-2";
+  const Outcome before = arcslip_program(to_the_border + " --set branch.from=-1e-9");
+  CHECK(before.status == 0);
+  const Outcome behind = arcslip_program(to_the_border + " --set branch.from=-0.02 --set branch.to=-1e-9");
+  CHECK(behind.status == 0);
+  CHECK_THAT(behind.out, ContainsSubstring("left_regime: the branch ends on the border of its regime"));
+  // Five points are enough for the part behind the start, which reaches its end, but not for the other one.
+  const Outcome cut =
+      arcslip_program("run " + case_named("limit_cycle") + " --quiet -o " + folder.path("s") +
+                      " --set branch.from=-0.02 --set branch.to=-1e-4 --set continuation.max_points=7");
+  CHECK(cut.status == 3);
+  CHECK(is_one_line(cut.err));
+  CHECK_THAT(cut.err, ContainsSubstring("branch 0: max_points: this ended the part before the start"));
+}
+
 TEST_CASE("A curve that is nowhere found has status 3 and says where it was looked for") {
   const TemporaryFolder folder;
   const Outcome outcome = arcslip_program("run " + case_named("cubic_fold_curve") + " --quiet -o " +
