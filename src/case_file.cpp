@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "arcslip/runs.hpp"
 #include "system_section.hpp"
 #include "toml_reader.hpp"
 
@@ -86,7 +87,7 @@ std::vector<continuation::StopAfter> read_stop_after(const TomlDocument& documen
   const auto type_of = [&](const std::string& name, const toml::node& place, const std::string& key) {
     const auto type = continuation::point_type(name);
     if (!type || *type == PointType::regular || *type == PointType::start || *type == PointType::end)
-      document.mismatch(place, key, expected);
+      document.fail(&place, key, fmt::format("unknown type '{}'; expected {}", name, expected));
     return *type;
   };
   if (const toml::table* table = node.as_table()) {
@@ -177,7 +178,9 @@ class BranchSection {
     const std::vector<double> window = section_.numbers("window", parameter_rule(model_, curve.active));
     if (window.size() != 2 || window[0] == window[1])
       section_.mismatch("window", "two different numbers, the range of " + curve.active);
-    curve.window = {std::min(window[0], window[1]), std::max(window[0], window[1])};
+    curve.from = window[0];
+    curve.to = window[1];
+    curve.window = {std::min(curve.from, curve.to), std::max(curve.from, curve.to)};
     branch.curve = curve;
   }
 
@@ -202,10 +205,13 @@ class BranchSection {
     } else if (model_ == nullptr && !branch.problem.limit_cycle) {
       branch.options.extrema_of = {"Y"};
     }
-    const bool extrema =
-        branch.curve && (branch.curve->type == PointType::peak || branch.curve->type == PointType::trough);
-    if (extrema && branch.options.extrema_of.empty())
-      section_.require("extrema_of", "the observable whose extrema the curve is made of");
+    if (!branch.curve) return;
+    const char* expected = "the one observable whose extrema the curve is made of";
+    const bool ridge = branch.curve->type == PointType::peak || branch.curve->type == PointType::trough;
+    if (!ridge && section_.has("extrema_of"))
+      section_.fail("extrema_of", "only beside curves of peaks or troughs");
+    if (ridge && branch.options.extrema_of.empty()) section_.require("extrema_of", expected);
+    if (ridge && branch.options.extrema_of.size() != 1) section_.mismatch("extrema_of", expected);
   }
 
   const TomlDocument& document_;
@@ -228,8 +234,20 @@ ordered_json resolve(const TomlDocument& document, const Case& built) {
   return resolved;
 }
 
-/// Refuses what `for_each` or `eta` would set although it is continued.
-void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::string& parameter) {
+/// Refuses observables that the problem does not have.
+void check_extrema(const TomlSection& branch, const CaseBranch& first) {
+  if (!branch.has("extrema_of")) return;
+  const std::vector<std::string> names = tracked_observables(first.problem);
+  if (names.empty()) branch.fail("extrema_of", "this model has no observables with extrema to look for");
+  branch.texts("extrema_of", names, fmt::format("names among \"{}\"", fmt::join(names, "\", \"")));
+}
+
+/// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
+void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseBranch& common,
+                 const std::string& parameter) {
+  if (common.problem.limit_cycle && (branch.has("eta") || for_each.sets("eta"))) {
+    branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
+  }
   if (parameter == "P" && for_each.sets("preload")) {
     branch.fail("for_each", "preload cannot be listed where P is the continuation parameter");
   }
@@ -268,7 +286,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   // Of a curve, the branch on which its first points are looked for is what counts.
   const std::string& parameter = common.curve ? common.curve->active : common.options.parameter;
   const ForEach for_each = read_for_each(document, section, model);
-  if (model == nullptr) check_fixed(section, for_each, parameter);
+  if (model == nullptr) check_fixed(section, for_each, common, parameter);
+  if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
   for (std::size_t i = 0; i < for_each.count; ++i) {
     const Replacements replacements = replacements_of(for_each, i);
     CaseBranch branch = common;
@@ -288,6 +307,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
     }
     result.branches.push_back(std::move(branch));
   }
+  check_extrema(section, result.branches.front());
   result.resolved = resolve(document, result);
   return result;
 }

@@ -74,9 +74,18 @@ std::vector<TracedBranch> trace_all(const Case& input, bool quiet) {
   return all;
 }
 
-/// A curve may also end where the regime of its points does.
-bool ended_well(const TracedBranch& traced) {
-  return traced.branch.complete() || (traced.curve && traced.branch.stop == continuation::Stop::left_regime);
+/// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
+/// as good as any, and of a branch traced both ways both parts must have one.
+std::string complaint(const continuation::Branch& branch) {
+  const auto is_end = [](continuation::Stop stop) {
+    continuation::Branch ended;
+    ended.stop = stop;
+    return ended.complete() || stop == continuation::Stop::left_regime;
+  };
+  if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
+  if (branch.first_stop && !is_end(*branch.first_stop))
+    return fmt::format("{}: this ended the part before the start", to_string(*branch.first_stop));
+  return "";
 }
 
 std::string tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
@@ -123,10 +132,10 @@ int run_command(const RunOptions& options) {
 
   int result = status::done;
   for (std::size_t i = 0; i < traced.size(); ++i) {
-    if (ended_well(traced[i])) continue;
+    const std::string why = complaint(traced[i].branch);
+    if (why.empty()) continue;
     result = status::incomplete_branch;
-    fmt::print(stderr, "arcslip: branch {}: {}: {}\n", i, to_string(traced[i].branch.stop),
-               traced[i].branch.explanation);
+    fmt::print(stderr, "arcslip: branch {}: {}\n", i, why);
   }
   const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
   const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;

@@ -9,7 +9,8 @@
 namespace {
 
 constexpr const char* about =
-    "arcslip traces the response of structures damped by dry friction: continuation through stick and slip.";
+    "arcslip traces the response of structures damped by dry friction: continuation through stick, slip and "
+    "folds.";
 
 constexpr const char* examples = R"(
 Examples
@@ -17,6 +18,8 @@ Examples
   arcslip run problems/figure_8.toml -o fine --set continuation.max_step=0.02
   arcslip plot out/figure_8                       its pictures, PNG and SVG
   arcslip check problems/figure_8.toml            what would run
+  arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
+  arcslip run problems/ridge.toml                 the peaks over the preload: a curve in two parameters
 
 Exit status
   0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced to its end; 4 a file could not be written)";
@@ -25,30 +28,50 @@ constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
 the special points. Ctrl-C ends a run cleanly: what was traced is written and marked as interrupted.
 
-A case file, every key of [continuation] optional:
+A case file; what follows "optional" need not be given:
   title = "Two beams"
   [system]
-  model = "beams"            # or "rods"
+  model = "beams"            # or "rods"; or a model of the library with its parameters:
+                             # ab bratu bratu_2d cusp duffing enz freudenstein_roth lorenz84 pp2
   wave_number = 1            # n
   elements = 30              # N > 2n
   mass_ratio = 5.0           # M*
   frequency_ratio = 4.0      # gamma
   slenderness = 33.3         # L/h_D, beams; or interface_stiffness = K_FD
-  poisson_ratio = 0.3
-  damping = { base = 1e-4, damper = 1e-4 }
   force = 1.0                # F
   preload = 1.0              # P
+  # optional
+  poisson_ratio = 0.3
+  damping = { base = 1e-4, damper = 1e-4, kind = "viscous" }   # base may be < 0; kind: or "structural"
+  preload_growth = 0.0       # P_2 of the preload P + P_2 eta^2
+  cubic_stiffness = 0.0      # of springs between base and ground
+  fixed_damper = false       # true: friction against a rigid ring
   [branch]
-  parameter = "eta"          # or "P", with eta = ... for the fixed frequency
+  parameter = "eta"          # or "P", with eta = ... for the fixed frequency; or a library model's parameter
   from = 0.5
   to = 120.0
+  # optional
+  response = "forced"        # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
+  start = 3.0                # trace both ways from here
+  switching = false          # true: follow all branches that meet this one; not beside start
+  extrema_of = ["Y"]         # observables whose peaks and troughs are located
   for_each = { preload = [0.1, 1.0, 10.0] }   # one branch for each; several lists are walked together
-  [continuation]
+  [continuation]             # all optional
   tolerance = 1e-10
   max_step = 0.1
   min_step = 1e-10
   max_points = 100000
-  stop_at = [3.9, 4.1]       # values to land on exactly)";
+  max_seconds = 60
+  stop_at = [3.9, 4.1]       # values to land on exactly
+  stop_after = "fold"        # or { fold = 2, peak = 5 }: the branch ends there
+
+A curve of special points in two parameters, in place of parameter, from and to:
+  [branch]
+  curve = "peak"             # "trough", "switch", "fold", "branch_point", "hopf"
+  parameters = ["eta", "P"]  # first points on a branch over eta at [system]'s P, then both move
+  window = [0.5, 120.0]      # of eta, searched from its first value to its second
+  from = 0.1                 # of P
+  to = 100.0)";
 
 int dispatch(int argc, char** argv) {
   using namespace arcslip;

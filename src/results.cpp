@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 /// parameter is an observable; it stands among the parameters, in the base's order.
 class Columns {
  public:
-  explicit Columns(const TracedBranch& traced) : problem_(traced.problem()) {
+  explicit Columns(const TracedBranch& traced) : problem_(traced.problem()), request_(*traced.request) {
     names_ = problem_.parameter_names();
     parameters_ = static_cast<Index>(names_.size());
     if (traced.curve) moved_ = traced.curve->active();
@@ -50,14 +50,24 @@ class Columns {
     }
     if (find("R_over_S") >= 0) return indices;
     indices.clear();
-    for (Index i = 0; i < static_cast<Index>(names_.size()) && i < most_shown; ++i) indices.push_back(i);
+    for (Index i = 0; i < static_cast<Index>(names_.size()) && indices.size() < most_shown; ++i) {
+      if (!is_constant(names_[static_cast<std::size_t>(i)])) indices.push_back(i);
+    }
     return indices;
   }
 
  private:
-  static constexpr Index most_shown = 8;
+  static constexpr std::size_t most_shown = 8;
+
+  /// Whether a parameter is the same on all branches of the case.
+  bool is_constant(const std::string& name) const {
+    const std::vector<std::string> parameters = problem_.parameter_names();
+    return std::find(parameters.begin(), parameters.end(), name) != parameters.end() &&
+           name != request_.options.parameter && !request_.values.contains(name);
+  }
 
   const continuation::Problem& problem_;
+  const CaseBranch& request_;
   std::vector<std::string> names_;
   Index parameters_ = 0;
   Index moved_ = -1;

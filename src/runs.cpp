@@ -98,15 +98,16 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
   const CurveRequest& asked = *request.curve;
   continuation::TraceOptions along = request.options;
   along.parameter = asked.active;
-  along.from = asked.window.low;
-  along.to = asked.window.high;
+  along.from = asked.from;
+  along.to = asked.to;
   along.stop_at.clear();
   along.stop_after.clear();
   const Branch seeds = continuation::trace(*subject.problem, subject.guess, along);
 
   continuation::TraceOptions options = request.options;
   const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
-  options.extrema_of = {asked.active};
+  const bool ridge = asked.type == PointType::peak || asked.type == PointType::trough;
+  options.extrema_of = {ridge ? observable : asked.active};  // one of the two, or rows would be ambiguous
   options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
   std::vector<TracedBranch> curves;
   for (const BranchPoint& seed : seeds.points) {
@@ -126,11 +127,29 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
   if (!curves.empty()) return curves;
   return {unstarted(request, subject,
                     fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
-                                asked.active, asked.window.low, asked.window.high, options.parameter,
-                                asked.seed, seeds.complete() ? "" : ": " + seeds.explanation))};
+                                asked.active, asked.from, asked.to, options.parameter, asked.seed,
+                                seeds.complete() ? "" : ": " + seeds.explanation))};
 }
 
 }  // namespace
+
+std::vector<std::string> tracked_observables(const ProblemRequest& request) {
+  std::unique_ptr<const continuation::Problem> problem;
+  if (request.model != nullptr) {
+    problem = request.model->build(request.settings);
+  } else if (request.limit_cycle) {
+    problem = std::make_unique<problems::LimitCycle>(build_system(request.system));
+  } else if (request.system.cubic_stiffness != 0) {
+    problem = std::make_unique<problems::CubicResponse>(build_system(request.system));
+  } else {
+    problem = std::make_unique<problems::ForcedResponse>(build_system(request.system));
+  }
+  std::vector<std::string> names;
+  for (const continuation::Observable& observable : problem->observables()) {
+    if (observable.has_gradient) names.push_back(observable.name);
+  }
+  return names;
+}
 
 Subject build(const ProblemRequest& request, const std::string& parameter, double value) {
   if (request.model != nullptr) return build_library(request, parameter, value);
@@ -142,10 +161,9 @@ Subject build(const ProblemRequest& request, const std::string& parameter, doubl
 
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
-  const Subject subject =
-      request.curve
-          ? build(request.problem, request.curve->active, request.curve->window.low)
-          : build(request.problem, request.options.parameter, request.start.value_or(request.options.from));
+  const Subject subject = request.curve ? build(request.problem, request.curve->active, request.curve->from)
+                                        : build(request.problem, request.options.parameter,
+                                                request.start.value_or(request.options.from));
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
   if (request.curve) return trace_curves(request, subject, observer);
   std::vector<TracedBranch> traced = trace_branches(request, subject, observer);

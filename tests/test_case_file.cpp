@@ -43,6 +43,20 @@ std::string error_of(const std::string& text, const std::vector<std::string>& se
   return "no error";
 }
 
+/// A change to a case, and what its message must hold: where, which key, what was expected and given.
+struct Mistake {
+  std::string from, to, place, key, expected, given;
+};
+
+void check_refused(const std::string& text, const Mistake& mistake) {
+  const std::string message = error_of(replaced(text, mistake.from, mistake.to));
+  INFO(message);
+  CHECK_THAT(message, ContainsSubstring("case.toml" + mistake.place));
+  CHECK_THAT(message, ContainsSubstring(mistake.key) && ContainsSubstring(mistake.expected) &&
+                          ContainsSubstring(mistake.given));
+  CHECK(message.find('\n') == std::string::npos);
+}
+
 }  // namespace
 
 TEST_CASE("A case file is read with its defaults") {
@@ -101,9 +115,6 @@ TEST_CASE("Settings on the command line replace and add values; bare words need 
 }
 
 TEST_CASE("Wrong input is refused in one line with place, key, what was expected and what was given") {
-  struct Mistake {
-    std::string from, to, place, key, expected, given;
-  };
   const Mistake mistakes[] = {
       {"preload = 1.0", "preloud = 1.0", ":10:", "system.preloud", "unknown key; did you mean 'preload'?",
        ""},
@@ -160,14 +171,171 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"title = \"A case\"", "title = 3", ":1:9", "title", "a string", "got 3"},
       {"title = \"A case\"", "title = ", ":1:", "not valid TOML", "", ""},
   };
-  for (const Mistake& mistake : mistakes) {
-    const std::string message = error_of(replaced(good, mistake.from, mistake.to));
-    INFO(message);
-    CHECK_THAT(message, ContainsSubstring("case.toml" + mistake.place));
-    CHECK_THAT(message, ContainsSubstring(mistake.key) && ContainsSubstring(mistake.expected) &&
-                            ContainsSubstring(mistake.given));
-    CHECK(message.find('\n') == std::string::npos);
-  }
+  for (const Mistake& mistake : mistakes) check_refused(good, mistake);
+}
+
+TEST_CASE("Wrong input for what goes beyond a forced response is refused as well") {
+  const Mistake mistakes[] = {
+      {"parameter = \"eta\"", "curve = \"fold\"\nparameters = [\"eta\", \"P\"]", ":12:", "branch.window",
+       "missing; expected two different numbers, the range of eta", ""},
+      {"parameter = \"eta\"", "curve = \"fold\"\nwindow = [1, 2]", ":12:", "branch.parameters",
+       R"(missing; expected two different names among "eta", "P")", ""},
+      {"parameter = \"eta\"", "curve = \"folds\"", ":13:9", "branch.curve", R"("fold" or "branch_point")",
+       "got \"folds\""},
+      {"parameter = \"eta\"", "parameters = [\"eta\", \"P\"]", ":13:14", "branch.parameters",
+       "only beside curve", ""},
+      {"to = 120.0", "to = 120.0\nwindow = [1, 2]", ":16:10", "branch.window", "only beside curve", ""},
+      {"to = 120.0", "to = 120.0\nstart = 0.4", ":16:9", "branch.start", ">= 0.5 and <= 120", "got 0.4"},
+      {"to = 120.0", "to = 120.0\nstart = 1\nswitching = true", ":16:9", "branch.start",
+       "not beside switching", ""},
+      {"to = 120.0", "to = 120.0\nswitching = 1", ":16:13", "branch.switching", "true or false", "got 1"},
+      {"to = 120.0", "to = 120.0\nresponse = \"free\"", ":16:12", "branch.response",
+       R"("forced" or "limit_cycle")", "got \"free\""},
+      {"to = 120.0", "to = 120.0\nresponse = \"limit_cycle\"", ":13:13", "branch.parameter",
+       R"("zeta_B" or "P")", "got \"eta\""},
+      {"to = 120.0", "to = 120.0\nextrema_of = \"Y\"", ":16:14", "branch.extrema_of",
+       "an array of observables", "got \"Y\""},
+      {"to = 120.0", "to = 120.0\nextrema_of = [\"y\"]", ":16:15", "branch.extrema_of[0]",
+       "names among \"Y\"", "got \"y\""},
+      {"force = 1.0", "force = 1.0\ndamping = { kind = \"hysteretic\" }", ":10:20", "system.damping.kind",
+       R"("viscous" or "structural")", "got \"hysteretic\""},
+      {"force = 1.0", "force = 1.0\ndamping = { base = 0 }", ":10:20", "system.damping.base", "not 0",
+       "got 0"},
+      {"force = 1.0", "force = 1.0\nfixed_damper = 1", ":10:16", "system.fixed_damper", "true or false",
+       "got 1"},
+      {"force = 1.0", "force = 1.0\ncubic_stifness = 1", ":10:", "system.cubic_stifness",
+       "did you mean 'cubic_stiffness'?", ""},
+      {"force = 1.0", "force = 1.0\ncubic_stiffness = inf", ":10:19", "system.cubic_stiffness",
+       "a finite number", "got inf"},
+      {"force = 1.0", "force = 1.0\npreload_growth = \"much\"", ":10:18", "system.preload_growth",
+       "a finite number", "got \"much\""},
+      {"to = 120.0", "to = 120.0\n[continuation]\nstop_after = \"folds\"", ":17:14",
+       "continuation.stop_after", "unknown type 'folds'; expected the type of a special point", ""},
+      {"to = 120.0", "to = 120.0\n[continuation]\nstop_after = \"regular\"", ":17:14",
+       "continuation.stop_after", "unknown type 'regular'", ""},
+      {"to = 120.0", "to = 120.0\n[continuation]\nstop_after = { fold = 0 }",
+       ":17:", "continuation.stop_after.fold", "an integer >= 1", "got 0"},
+      {"to = 120.0", "to = 120.0\n[continuation]\nstop_after = { foold = 1 }",
+       ":17:", "continuation.stop_after.foold", "unknown type 'foold'", ""},
+      {"to = 120.0", "to = 120.0\n[continuation]\nmax_seconds = 0", ":17:15", "continuation.max_seconds",
+       "> 0", "got 0"},
+  };
+  for (const Mistake& mistake : mistakes) check_refused(good, mistake);
+}
+
+TEST_CASE("Wrong input for models of the library and for curves is refused") {
+  const Mistake of_models[] = {
+      {"\"cusp\"", "\"cups\"", ":2:9", "system.model", R"("bratu" or "bratu_2d" or "cusp")", "got \"cups\""},
+      {"lambda = 1", "mu = 1", ":3:6", "system.mu", "has its values from [branch]", ""},
+      {"lambda = 1", "lamda = 1", ":3:", "system.lamda", "did you mean 'lambda'?", ""},
+      {"lambda = 1", "lambda = \"1\"", ":3:10", "system.lambda", "a finite number", "got \"1\""},
+      {"lambda = 1", "preload = 1", ":3:", "system.preload", "unknown key", ""},
+      {"\"mu\"", "\"eta\"", ":5:13", "branch.parameter", R"("mu" or "lambda")", "got \"eta\""},
+      {"to = 2", "to = 2\nresponse = \"forced\"", ":8:12", "branch.response",
+       "only for systems with friction", ""},
+      {"to = 2", "to = 2\neta = 1", ":8:7", "branch.eta", "only for systems with friction", ""},
+      {"to = 2", "to = 2\nextrema_of = [\"Y\"]", ":8:15", "branch.extrema_of[0]", "names among", "got \"Y\""},
+      {"to = 2", "to = 2\nfor_each = { mu = [1] }", ":8:", "branch.for_each.mu[0]",
+       "has its values from [branch]", ""},
+      {"to = 2", "to = 2\nfor_each = { lambda = [1, true] }", ":8:", "branch.for_each.lambda[1]",
+       "a finite number", "got true"},
+      {"\"mu\"", "\"mu\"\nwindow = [1, 2]", ":6:10", "branch.window", "only beside curve", ""},
+  };
+  const std::string cusp =
+      "[system]\nmodel = \"cusp\"\nlambda = 1\n[branch]\nparameter = \"mu\"\nfrom = -2\nto = 2\n";
+  for (const Mistake& mistake : of_models) check_refused(cusp, mistake);
+
+  const std::string expected = R"(two different names among "mu", "lambda")";
+  const Mistake of_curves[] = {
+      {"\"lambda\"]", "\"mu\"]", ":6:14", "branch.parameters", expected, ""},
+      {", \"lambda\"]", "]", ":6:14", "branch.parameters", expected, ""},
+      {"\"lambda\"]", "\"nu\"]", ":6:21", "branch.parameters[1]", expected, "got \"nu\""},
+      {"[-5, 5]", "[5, 5]", ":7:10", "branch.window", "two different numbers, the range of mu", ""},
+      {"[-5, 5]", "[\"a\", 5]", ":7:11", "branch.window[0]", "a finite number", "got \"a\""},
+      {"from = -1", "from = 2", ":8:8", "branch.from",
+       "looked for at lambda = 1, which is not between 2 and 3", ""},
+      {"from = -1", "from = -1\nstart = 1", ":9:9", "branch.start", "not beside curve", ""},
+      {"from = -1", "from = -1\nswitching = true", ":9:13", "branch.switching", "not beside curve", ""},
+      {"from = -1", "from = -1\nparameter = \"mu\"", ":9:13", "branch.parameter", "not beside curve", ""},
+      {"\"fold\"", "\"peak\"", ":4:", "branch.extrema_of", "missing; expected the one observable", ""},
+      {"\"fold\"", "\"fold\"\nextrema_of = [\"x\"]", ":6:14", "branch.extrema_of",
+       "only beside curves of peaks or troughs", ""},
+  };
+  const std::string curve =
+      "[system]\nmodel = \"cusp\"\nlambda = 1\n[branch]\ncurve = \"fold\"\nparameters = [\"mu\", "
+      "\"lambda\"]\nwindow = [-5, 5]\nfrom = -1\nto = 3\n";
+  for (const Mistake& mistake : of_curves) check_refused(curve, mistake);
+}
+
+TEST_CASE("Sizes of models have their ranges") {
+  const auto model = [](const std::string& name, const std::string& setting, const std::string& parameter) {
+    return "[system]\nmodel = \"" + name + "\"\n" + setting + "\n[branch]\nparameter = \"" + parameter +
+           "\"\nfrom = 0.5\nto = 2\n";
+  };
+  CHECK_THAT(
+      error_of(model("bratu", "intervals = 1", "lambda")),
+      ContainsSubstring("case.toml:3:13: system.intervals: expected an integer >= 2 and <= 1e+06, got 1"));
+  CHECK_THAT(error_of(model("bratu", "intervals = 2.5", "lambda")), ContainsSubstring("got 2.5"));
+  CHECK_THAT(error_of(model("duffing", "harmonics = 1000", "W")),
+             ContainsSubstring("system.harmonics: expected an integer >= 1 and <= 999, got 1000"));
+  CHECK_THAT(error_of(model("ab", "p3 = -1", "p1")),
+             ContainsSubstring("system.p3: expected a finite number >= 0, got -1"));
+}
+
+TEST_CASE("A limit cycle takes no frequency, and the damping that it continues") {
+  const std::string cycle = replaced(replaced(good, "parameter = \"eta\"", "parameter = \"P\""),
+                                     "preload = 1.0\n", "damping = { base = -1e-3 }\n") +
+                            "response = \"limit_cycle\"\n";
+  const Case input = read_text(cycle);
+  CHECK(input.branches[0].problem.limit_cycle);
+  CHECK(input.branches[0].options.extrema_of.empty());
+  CHECK_THAT(error_of(cycle + "eta = 4\n"),
+             ContainsSubstring(":17:7: branch.eta: a limit cycle has an eta of its own"));
+}
+
+TEST_CASE("What goes beyond a forced response is read from a case file") {
+  const Case curve = read_text(
+      replaced(good, "parameter = \"eta\"\nfrom = 0.5\nto = 120.0",
+               "curve = \"peak\"\nparameters = [\"eta\", \"P\"]\nwindow = [120, 0.5]\nfrom = 0.1\nto = 10"));
+  REQUIRE(curve.branches[0].curve);
+  const CurveRequest& request = *curve.branches[0].curve;
+  CHECK(request.type == continuation::PointType::peak);
+  CHECK(request.active == "eta");
+  CHECK(request.window.low == 0.5);
+  CHECK(request.window.high == 120);
+  CHECK(request.from == 120);  // the search begins there
+  CHECK(request.to == 0.5);
+  CHECK(request.seed == 1);
+  CHECK(curve.branches[0].options.parameter == "P");
+
+  const Case system = read_text(replaced(good, "force = 1.0",
+                                         "force = 1.0\ndamping = { base = -0.01, kind = \"structural\" }\n"
+                                         "cubic_stiffness = -3\npreload_growth = 0.1\nfixed_damper = true"));
+  const SystemParameters& parameters = system.branches[0].problem.system;
+  CHECK(parameters.base_damping == -0.01);
+  CHECK(parameters.base_damping_kind == DampingKind::structural);
+  CHECK(parameters.cubic_stiffness == -3);
+  CHECK(parameters.preload_growth == 0.1);
+  CHECK(parameters.fixed_damper);
+  CHECK(system.resolved["system"]["damping"]["damper"] == 1e-4);
+
+  const Case ended = read_text(good +
+                               "start = 3\n[continuation]\nstop_after = { fold = 2, peak = 5 }\n"
+                               "max_seconds = 60\n");
+  CHECK(ended.branches[0].start == 3.0);
+  CHECK(ended.branches[0].options.max_seconds == 60);
+  REQUIRE(ended.branches[0].options.stop_after.size() == 2);
+  CHECK(ended.branches[0].options.stop_after[1].type == continuation::PointType::peak);
+  CHECK(ended.branches[0].options.stop_after[1].count == 5);
+
+  const Case model = read_text(
+      "[system]\nmodel = \"bratu\"\n[branch]\nparameter = \"lambda\"\nfrom = 0\nto = 4\nswitching = true\n"
+      "for_each = { intervals = [10, 20] }\n");
+  REQUIRE(model.branches.size() == 2);
+  CHECK(model.branches[0].switching);
+  CHECK(model.branches[1].problem.model->name == "bratu");
+  CHECK(model.branches[1].problem.settings == problems::LibraryModel::Values{0, 20});
+  CHECK(model.resolved["system"]["lambda"] == 0);
 }
 
 TEST_CASE("A case without a section, and a file that cannot be read, are refused") {

@@ -2,7 +2,9 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,7 +21,12 @@ using arcslip::testing::TemporaryFolder;
 namespace {
 
 const std::string program = ARCSLIP_PROGRAM;
-const std::string figure_8 = std::string(ARCSLIP_SOURCE_DIR) + "/problems/figure_8.toml";
+
+std::string case_named(const std::string& name) {
+  return std::string(ARCSLIP_SOURCE_DIR) + "/problems/" + name + ".toml";
+}
+
+const std::string figure_8 = case_named("figure_8");
 
 struct Outcome {
   int status;
@@ -151,7 +158,10 @@ TEST_CASE("Help and version explain the program with status 0") {
   for (const std::string word : {"run", "check", "plot", "Exit status", "Examples"}) {
     CHECK_THAT(help.out, ContainsSubstring(word));
   }
-  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each"));
+  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each") &&
+                                                    ContainsSubstring("curve = \"peak\"") &&
+                                                    ContainsSubstring("stop_after") &&
+                                                    ContainsSubstring("limit_cycle"));
 }
 
 TEST_CASE("check says what would run, and refuses what run would refuse") {
@@ -219,4 +229,128 @@ TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   CHECK(summary["branches"][0]["stop"] == "interrupted");
   CHECK(summary["branches"][0]["points"].get<std::size_t>() + 1 ==
         read_csv(folder.path("r/branches.csv")).size());
+}
+
+TEST_CASE("check --derivatives finds those of every kind of problem exact, with status 0") {
+  for (const std::string name :
+       {"figure_8", "cubic_response", "limit_cycle", "ridge", "enz", "bratu_2d", "lorenz84_fold_curve"}) {
+    const Outcome outcome = arcslip_program("check --derivatives " + case_named(name));
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, ContainsSubstring("derivatives against differences: "));
+    CHECK(outcome.out.find("NOT exact") == std::string::npos);
+  }
+}
+
+TEST_CASE("check --derivatives has status 3 where there is no point to compare them at") {
+  // zeta_B = -0.02 lies beyond the last limit cycle.
+  const Outcome outcome =
+      arcslip_program("check --derivatives " + case_named("limit_cycle") + " --set branch.start=-0.02");
+  CHECK(outcome.status == 3);
+  CHECK_THAT(outcome.out, ContainsSubstring("NOT exact"));
+}
+
+TEST_CASE("A library model's rows hold its parameters, its unknowns, and for equilibria what is unstable") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("run " + case_named("ab") + " --quiet -o " + folder.path("r")).status == 0);
+  const auto rows = read_csv(folder.path("r/branches.csv"));
+  const std::vector<std::string> header = {"branch",    "point",      "type",    "regime", "p1",
+                                           "p2",        "p3",         "u1",      "u2",     "unstable",
+                                           "arclength", "iterations", "residual"};
+  REQUIRE(rows.front() == header);
+  // One passage through hopf, fold, fold, hopf: a pair of unstable eigenvalues comes, one goes and comes
+  // back, the pair goes.
+  std::vector<std::string> unstable;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    CHECK(rows[i][3] == "smooth");
+    if (rows[i][2] == "regular" && (unstable.empty() || unstable.back() != rows[i][9]))
+      unstable.push_back(rows[i][9]);
+  }
+  CHECK(unstable == std::vector<std::string>{"0", "2", "1", "2", "0"});
+}
+
+TEST_CASE("A problem that is no equilibrium, and a curve, have no column of unstable eigenvalues") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"duffing", "cusp_curve"}) {
+    REQUIRE(arcslip_program("run " + case_named(name) + " --quiet -o " + folder.path(name)).status == 0);
+    const auto header = read_csv(folder.path(name + "/branches.csv")).front();
+    CHECK(std::find(header.begin(), header.end(), "unstable") == header.end());
+  }
+}
+
+TEST_CASE("A curve's rows have the columns of a branch, with both parameters among them") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + case_named("ridge") + " -o " + folder.path("r"));
+  CHECK(outcome.status == 0);
+  const auto rows = read_csv(folder.path("r/branches.csv"));
+  const std::vector<std::string> header = {
+      "branch", "point", "type", "regime", "eta", "P",          "R",         "S",          "R_over_S",
+      "Y",      "U",     "beta", "alpha",  "psi", "dissipated", "arclength", "iterations", "residual"};
+  REQUIRE(rows.front() == header);
+  // At P = 1 the ridges start on the peaks of the response.
+  std::vector<std::string> starts;
+  for (const auto& row : rows) {
+    if (row[2] == "start") starts.push_back(row[4].substr(0, 8));
+  }
+  CHECK(starts == std::vector<std::string>{"3.468053", "3.841129", "98.26063"});
+  const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
+  CHECK(summary["branches"].size() == 3);
+  CHECK(summary["branches"][1]["peak"].is_null());  // of a ridge it would not be one of the response
+}
+
+TEST_CASE("Branches that are switched to are written one after the other") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + case_named("pp2") + " -o " + folder.path("r"));
+  CHECK(outcome.status == 0);
+  CHECK_THAT(outcome.out, ContainsSubstring("5 branches") && ContainsSubstring("0.671593847"));
+  std::set<std::string> numbers;
+  for (const auto& row : read_csv(folder.path("r/branches.csv"))) numbers.insert(row[0]);
+  CHECK(numbers == std::set<std::string>{"branch", "0", "1", "2", "3", "4"});
+}
+
+TEST_CASE("A branch that comes back out of its range, or ends where stop_after says, has status 0") {
+  const TemporaryFolder folder;
+  const Outcome back = arcslip_program("run " + case_named("limit_cycle") + " -o " + folder.path("a"));
+  CHECK(back.status == 0);
+  CHECK(back.err.empty());
+  CHECK_THAT(back.out, ContainsSubstring("left_range: the branch came back to its first value"));
+  const auto cycle = nlohmann::json::parse(read(folder.path("a/summary.json")))["branches"][0];
+  CHECK(cycle["stop"] == "left_range");
+  CHECK(cycle["first_stop"] == "left_range");
+
+  const Outcome stopped = arcslip_program("run " + case_named("cusp") + " -o " + folder.path("b") +
+                                          " --set continuation.stop_after=fold");
+  CHECK(stopped.status == 0);
+  const auto cusp = nlohmann::json::parse(read(folder.path("b/summary.json")))["branches"][0];
+  CHECK(cusp["stop"] == "requested");
+  CHECK(cusp["special"].back()["type"] == "fold");
+  CHECK_THAT(cusp["special"].back()["mu"].get<double>(), WithinRel(2 / (3 * std::sqrt(3)), 1e-9));
+}
+
+TEST_CASE("A branch traced both ways has status 0 only if both parts have an end, a border among them") {
+  const TemporaryFolder folder;
+  // With a damper that loses energy the cycle ends on the border of stick before zeta_B = 0.
+  const std::string to_the_border = "run " + case_named("limit_cycle") + " -o " + folder.path("r") +
+                                    " --set system.fixed_damper=false --set system.damping.damper=1e-2";
+  const Outcome before = arcslip_program(to_the_border + " --set branch.from=-1e-9");
+  CHECK(before.status == 0);
+  const Outcome behind = arcslip_program(to_the_border + " --set branch.from=-0.02 --set branch.to=-1e-9");
+  CHECK(behind.status == 0);
+  CHECK_THAT(behind.out, ContainsSubstring("left_regime: the branch ends on the border of its regime"));
+  // Five points are enough for the part behind the start, which reaches its end, but not for the other one.
+  const Outcome cut =
+      arcslip_program("run " + case_named("limit_cycle") + " --quiet -o " + folder.path("s") +
+                      " --set branch.from=-0.02 --set branch.to=-1e-4 --set continuation.max_points=7");
+  CHECK(cut.status == 3);
+  CHECK(is_one_line(cut.err));
+  CHECK_THAT(cut.err, ContainsSubstring("branch 0: max_points: this ended the part before the start"));
+}
+
+TEST_CASE("A curve that is nowhere found has status 3 and says where it was looked for") {
+  const TemporaryFolder folder;
+  const Outcome outcome = arcslip_program("run " + case_named("cubic_fold_curve") + " --quiet -o " +
+                                          folder.path("r") + " --set system.preload=3");
+  CHECK(outcome.status == 3);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring("no fold was found for eta = 0.5 to 12 at P = 3"));
 }

@@ -25,6 +25,8 @@ struct CurveRequest {
   continuation::PointType type;      ///< of the special points
   std::string active;                ///< the first parameter, in which they are looked for at first
   continuation::CurveWindow window;  ///< its range
+  double from = 0;                   ///< the end of the range at which the search begins
+  double to = 0;                     ///< the other end
   double seed = 0;                   ///< value of the second parameter at which they are looked for
 };
 

@@ -19,6 +19,9 @@ struct Subject {
   std::string failure;  ///< why there is no guess, or empty
 };
 
+/// The observables of which `extrema_of` may ask for the extrema.
+std::vector<std::string> tracked_observables(const ProblemRequest& request);
+
 /// Builds the problem, with a guess where `parameter` has this value and all else is as requested.
 Subject build(const ProblemRequest& request, const std::string& parameter, double value);
 

@@ -1,4 +1,4 @@
-# Installs the build to a fresh prefix, builds the consumer beside it against that prefix, and runs both.
+# Installs the build to a fresh prefix, builds the consumers beside it against that prefix, and runs all.
 set(work ${BUILD_DIR}/install_and_consume)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -17,4 +17,15 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${work}/build -G ${GENERATO
     -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
     -DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${work}/bin)
 run(${CMAKE_COMMAND} --build ${work}/build --config ${CONFIG})
-run(${work}/bin/consumer)
+run(${work}/bin/friction)
+run(${work}/bin/further)
+
+# At k = 1/5 the arch snaps at u = 1 -+ sqrt(1/5), d = 1 +- sqrt(1/5).
+execute_process(COMMAND ${work}/bin/own_problem OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+message(STATUS "${output}")
+foreach(expected IN ITEMS "fold: d = 1.44721, u = 0.552786\n" "fold: d = 0.552786, u = 1.44721\n")
+  string(FIND "${output}" "${expected}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "own_problem did not print: ${expected}")
+  endif()
+endforeach()

@@ -6,12 +6,15 @@
 #include <iostream>
 
 int main() {
-  const arcslip::SystemParameters rods{.model = arcslip::StructureModel::rods, .interface_stiffness = 1000};
+  const arcslip::SystemParameters rods{.model = arcslip::StructureModel::rods,
+                                       .mass_ratio = 5,
+                                       .frequency_ratio = 4,
+                                       .interface_stiffness = 1000};
   const arcslip::problems::ForcedResponse problem(arcslip::build_system(rods));
 
   arcslip::continuation::TraceOptions options;
   options.parameter = "eta";
-  options.from = 0.2;
+  options.from = 0.5;
   options.to = 20;
   options.extrema_of = {"Y"};
   const auto branch = trace(problem, problem.guess(options.from, rods.preload), options);

@@ -1,0 +1,78 @@
+// What the README shows is what the project holds.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "arcslip/case_file.hpp"
+#include "catch.hpp"
+#include "temporary_folder.hpp"
+
+using arcslip::testing::read;
+
+namespace {
+
+const std::string source = ARCSLIP_SOURCE_DIR;
+
+/// Each line without what it is indented by.
+std::string flush_left(const std::string& text) {
+  std::string result;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t first = line.find_first_not_of(' ');
+    result += (first == std::string::npos ? "" : line.substr(first)) + "\n";
+  }
+  return result;
+}
+
+/// The blocks between ```language and ```.
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
+  const std::string opening = "```" + language + "\n";
+  std::vector<std::string> found;
+  for (std::size_t at = text.find(opening); at != std::string::npos; at = text.find(opening, at)) {
+    at += opening.size();
+    found.push_back(text.substr(at, text.find("```", at) - at));
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("The README's C++ is that of the project which the tests build against the installed package") {
+  const std::string readme = read(source + "/README.md");
+  std::vector<std::string> files;
+  for (const std::string name : {"own_problem", "friction", "further"})
+    files.push_back(read(source + "/tests/consumer/" + name + ".cpp"));
+  CHECK_THAT(readme, ContainsSubstring("```cpp\n" + files[0] + "```"));  // this one as a whole
+  const auto shown = blocks(readme, "cpp");
+  CHECK(shown.size() >= 6);
+  for (const std::string& block : shown) {
+    INFO(block);
+    int times = 0;
+    for (const std::string& file : files)
+      times += static_cast<int>(flush_left(file).find(flush_left(block)) != std::string::npos);
+    CHECK(times == 1);
+  }
+}
+
+TEST_CASE("The README's case is problems/figure_8.toml, its curve that of the folds of rods on springs") {
+  const auto shown = blocks(read(source + "/README.md"), "toml");
+  REQUIRE(shown.size() == 2);
+  const arcslip::testing::TemporaryFolder folder;
+  const arcslip::Case first = arcslip::read_case(folder.write("case.toml", shown[0]));
+  const arcslip::Case figure_8 = arcslip::read_case(source + "/problems/figure_8.toml");
+  CHECK(first.resolved == figure_8.resolved);
+  CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[1]));
+}
+
+TEST_CASE("Every case file stands in the README's table") {
+  const std::string readme = read(source + "/README.md");
+  for (const auto& entry : std::filesystem::directory_iterator(source + "/problems")) {
+    if (entry.path().extension() != ".toml") continue;
+    INFO(entry.path());
+    CHECK_THAT(readme, ContainsSubstring(fmt::format("`{}`", entry.path().stem().string())));
+  }
+}
