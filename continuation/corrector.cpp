@@ -15,6 +15,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       size_(problem.size()),
       parameter_(parameter),
       options_(options),
+      tolerance_(options.tolerance),
       linearization_(problem),
       solver_(make_bordered_solver(size_, 1, problem.sparse())),
       correction_(size_ + 1),
@@ -51,6 +52,15 @@ void Corrector::displace(const CurvePoint& origin, const Vector& displacement, C
   point.regime = origin.regime;
 }
 
+bool Corrector::calibrate(CurvePoint& point) {
+  constexpr double large = 1e3;  // where 1 is large for F
+  if (!evaluate(point)) return false;
+  linearization_.multiply_absolute(point.scale.head(size_), magnitudes_);
+  const double size = magnitudes_.maxCoeff() / std::sqrt(static_cast<double>(size_));
+  tolerance_ = options_.tolerance * (size > large ? size : 1);
+  return true;
+}
+
 bool Corrector::evaluate(CurvePoint& point) {
   ++work_.evaluations;
   if (!linearization_.evaluate(point.unknowns, point.parameters, point.regime)) return false;
@@ -76,10 +86,25 @@ bool Corrector::solve_direction() {
 }
 
 double Corrector::rounding_level(const CurvePoint& point) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   linearization_.multiply_absolute(point.unknowns, magnitudes_);
+  const double of_unknowns = magnitudes_.maxCoeff();
   magnitudes_ +=
       (linearization_.parameter_jacobian().col(parameter_) * point.parameters(parameter_)).cwiseAbs();
-  return 4 * std::numeric_limits<double>::epsilon() * (1 + magnitudes_.maxCoeff());
+  const double all = magnitudes_.maxCoeff();
+  parameter_rounds_ = all > 10 * (1 + of_unknowns);
+  return 4 * epsilon * (1 + all);
+}
+
+/// The next correction and its length; with `held` without a change along the normal.
+double Corrector::solve_correction(const CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                                   double distance, bool held) {
+  difference(point, origin, correction_);
+  const double gap = held ? 0 : distance - normal.dot(correction_);
+  correction_.head(size_) = -linearization_.residual();
+  correction_(size_) = gap;
+  solver_->solve(correction_);
+  return correction_.norm();
 }
 
 Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
@@ -93,26 +118,30 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     if (!evaluate(point)) return Correction::cannot_evaluate;
     if (!factor(origin.scale, normal)) return Correction::singular;
     const bool last = point.iterations >= options_.max_iterations;
-    const bool good = point.residual <= options_.tolerance;
     const bool stagnant = point.residual >= 0.5 * last_residual;
-    const bool rounded = stagnant && point.residual <= rounding_level(point);
-    if (point.residual == 0 || (good && (!to_rounding || stagnant || last)) || (rounded && held)) {
+    double length = solve_correction(point, origin, normal, distance, held);
+    // The correction that is left, too, since the residual is in units of the problem's.
+    const bool good = point.residual <= tolerance_ && (stagnant || length <= options_.tolerance);
+    const bool rounded = !good && (stagnant || (!to_rounding && length <= options_.tolerance)) &&
+                         point.residual <= rounding_level(point);
+    if (point.residual == 0 || (good && (!to_rounding || stagnant || last)) ||
+        (rounded && (held || !parameter_rounds_))) {
       return solve_direction() ? Correction::converged : Correction::singular;
     }
     if (last) return Correction::too_many_iterations;
-    held = held || rounded;  // the parameter's own rounding is what is left: keep it and correct the unknowns
-    if (held && !factor(origin.scale, parameter_normal_)) return Correction::singular;
-    difference(point, origin, correction_);
-    const double gap = held ? 0 : distance - normal.dot(correction_);
-    correction_.head(size_) = -linearization_.residual();
-    correction_(size_) = gap;
-    solver_->solve(correction_);
-    const double length = correction_.norm();
+    held = held || rounded;  // keep the parameter, whose rounding is what is left, and correct the unknowns
+    if (held) {
+      if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
+      length = solve_correction(point, origin, normal, distance, held);
+    }
     if (!std::isfinite(length)) return Correction::singular;
-    const auto telling = [&] { return last_residual > rounding_level(point); };  // no ratio of two roundings
-    if (point.iterations == 1 && !held && telling()) contraction_ = length / last_length;
-    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded)
+    // A ratio of two roundings does not count, unless it is too small to shorten a step.
+    const auto counts = [&](double ratio) { return ratio < 0.01 || last_residual > rounding_level(point); };
+    if (point.iterations == 1 && !held && counts(length / last_length)) contraction_ = length / last_length;
+    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded &&
+        point.residual > rounding_level(point)) {
       return Correction::diverging;
+    }
     last_length = length;
     last_residual = point.residual;
     apply(point, origin);

@@ -82,8 +82,11 @@ std::optional<double> Stepper::passes(const CurvePoint& past) {
     corrector_.difference(past, crossing_->point, predicted_);
     if (predicted_.norm() < 1e-7 && crossing_->point.tangent.dot(past.tangent) > 0) return crossing_->s;
   }
-  corrector_.difference(past, here_, predicted_);
   const double length = step_.norm();
+  const Index parameter = corrector_.parameter();
+  const double aside = past.parameters(parameter) - here_.parameters(parameter);
+  if (!(std::abs(aside) < 2 * length * here_.scale(corrector_.size()))) return std::nullopt;  // most often
+  corrector_.difference(past, here_, predicted_);
   const double s = normal_.dot(predicted_);
   if (!(predicted_.norm() < 2 * length) || !(s > 0) || !(s <= distance_)) return std::nullopt;
   interpolate(s, work_);

@@ -1,8 +1,10 @@
 #include "arcslip/continuation/events.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 namespace {
@@ -27,9 +29,11 @@ struct Bracket {
 template <class Function>
 Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   bool solved = true;
+  std::vector<std::pair<double, double>> seen;  // s and the value there
   const auto along = [&](double s) {
     solved = solved && stepper.probe(s);
-    return solved ? f(stepper) : 0.0;
+    seen.emplace_back(s, solved ? f(stepper) : 0.0);
+    return seen.back().second;
   };
   double lower = 0;
   double at_lower = bracket.at_zero;
@@ -49,9 +53,12 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   std::uintmax_t iterations = 100;
   const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower,
                                                         bracket.at_upper, close, iterations);
-  const double at_a = a > lower ? std::abs(along(a)) : std::abs(at_lower);
-  const double at_b = std::abs(along(b));
-  return {solved ? Zero::State::found : Zero::State::failed, at_a < at_b ? a : b};
+  if (!solved) return {Zero::State::failed};
+  const auto size_at = [&](double s) {
+    const auto at = std::find_if(seen.begin(), seen.end(), [s](const auto& pair) { return pair.first == s; });
+    return std::abs(at != seen.end() ? at->second : s == lower ? at_lower : bracket.at_upper);
+  };
+  return {Zero::State::found, size_at(a) < size_at(b) ? a : b};
 }
 
 /// Looks for the end of the regime first: what lies beyond it is not the branch, so that everything else is
@@ -120,10 +127,35 @@ class Search {
   }
 
   void fold() {
-    if (signs_.parameter * sign_of(rate_at_upper_) >= 0) return;
+    if (signs_.parameter * sign_of(rate_at_upper_) > 0) return hidden_fold();
+    if (signs_.parameter * sign_of(rate_at_upper_) < 0) fold_before(upper_, rate_at_upper_);
+  }
+
+  void fold_before(double s, double rate) {
     note(Event::Kind::fold, PointType::fold, 0,
-         locate(stepper_, {upper_, stepper_.parameter_rate_from(), signs_.parameter, rate_at_upper_},
-                [](Stepper& s) { return s.probed_parameter_rate(); }));
+         locate(stepper_, {s, stepper_.parameter_rate_from(), signs_.parameter, rate},
+                [](Stepper& stepper) { return stepper.probed_parameter_rate(); }));
+  }
+
+  /// Two folds in one step, the second of which turns the parameter back.
+  void hidden_fold() {
+    const std::optional<double> suspected = stepper_.suspected_folds();
+    if (!suspected || *suspected >= upper_) return;
+    double least = std::numeric_limits<double>::infinity();  // rate of the parameter in its direction
+    double lowest = 0;
+    const auto rate = [&](double s) {
+      if (least < 0 || !result_.solved) return least;  // there it is
+      result_.solved = stepper_.probe(s);
+      const double value = signs_.parameter * stepper_.probed_parameter_rate();
+      if (value < least) lowest = s;
+      least = std::min(least, value);
+      return value;
+    };
+    const double ends = std::min(std::abs(stepper_.parameter_rate_from()), std::abs(rate_at_upper_));
+    if (rate(*suspected) > 0.2 * ends) return;
+    std::uintmax_t iterations = 40;
+    boost::math::tools::brent_find_minima(rate, 0.0, upper_, 24, iterations);
+    if (least < 0 && result_.solved) fold_before(lowest, signs_.parameter * least);
   }
 
   Zero locate_extremum(std::size_t monitor, int before) {
@@ -177,6 +209,8 @@ class Search {
   void function(std::size_t i) {
     const int before = signs_.functions[i];
     const double at_upper = functions_at_upper_[i];
+    if (before != 0 && at_upper == 0)
+      return note(Event::Kind::function, watch_.type(i), static_cast<Index>(i), {Zero::State::found, upper_});
     if (before * sign_of(at_upper) >= 0) return;
     const auto value = [&](Stepper& stepper) {
       watch_.look(stepper.probed_point());
@@ -202,7 +236,12 @@ class Search {
         return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;
       };
       const int before = after > signs_.unstable ? -1 : 1;
-      const Zero zero = locate(stepper_, {upper_, 0, before, eigenvalues_at_upper_(i).real()}, value);
+      watch_.look(stepper_.here());
+      const double here = watch_.eigenvalues()(i).real();
+      Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
+      // The step may begin where the pair crosses, with the crossing still to come by its last bit.
+      if (zero.state == Zero::State::absent && std::abs(here) < 1e-12 * std::abs(eigenvalues_at_upper_(i)))
+        zero = {Zero::State::found, 0};
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);
       const Complex at_zero = watch_.eigenvalues()(i);

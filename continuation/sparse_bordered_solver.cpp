@@ -15,6 +15,7 @@ constexpr double border_weight = 1e-6;  // of a border row's largest entry where
 constexpr double worst_growth = 1e-3;   // of the pivots' growth when they were chosen
 constexpr double exact_enough = 1e-8;   // of a correction: its square is below rounding
 constexpr int most_refinements = 4;
+constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
 
 /// The sign of a permutation; `seen` is work space.
 double permutation_sign(const int* image, std::vector<char>& seen) {
@@ -61,6 +62,7 @@ struct SparseBorderedSolver::Factors {
     symbolic = klu_analyze_given(static_cast<int>(matrix.rows()), matrix.outerIndexPtr(),
                                  matrix.innerIndexPtr(), order.data(), order.data(), &common);
     if (symbolic == nullptr) check_memory();
+    least_fill = 0;
   }
 
   bool factor_with_new_pivots(SparseMatrix& matrix) {
@@ -69,17 +71,20 @@ struct SparseBorderedSolver::Factors {
         klu_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic, &common);
     check_memory();
     if (numeric == nullptr || common.status != KLU_OK) return false;
+    least_fill = least_fill > 0 ? std::min(least_fill, fill()) : fill();
     chosen_growth = growth(matrix);
     permutations_sign = permutation_sign(numeric->Pnum, seen) * permutation_sign(symbolic->Q, seen);
     return true;
   }
 
   bool factor_with_old_pivots(SparseMatrix& matrix) {
-    if (numeric == nullptr) return false;
+    if (numeric == nullptr || fill() > most_fill * least_fill) return false;
     const int done = klu_refactor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic,
                                   numeric, &common);
     return done != 0 && common.status == KLU_OK && growth(matrix) >= worst_growth * chosen_growth;
   }
+
+  double fill() const { return static_cast<double>(numeric->lnz) + static_cast<double>(numeric->unz); }
 
   /// Reciprocal growth of the entries in the elimination: small where the pivots are bad.
   double growth(SparseMatrix& matrix) {
@@ -102,6 +107,7 @@ struct SparseBorderedSolver::Factors {
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
   double chosen_growth = 1;
+  double least_fill = 0;  // since the matrix was analysed
   double permutations_sign = 1;
   std::vector<char> seen;
 };

@@ -7,18 +7,19 @@
 namespace arcslip::continuation {
 namespace {
 
-/// Whether the cubic on [0, 1] with these end slopes of one sign and this change has, or nearly has, a pair
-/// of extrema inside: its slope falls there below a third of that at either end, and by more than `shallow`.
-bool hides_extrema(double slope_0, double slope_1, double change, double shallow) {
-  if (!(slope_0 * slope_1 > 0)) return false;
+/// Where the slope of the cubic on [0, 1] with these end slopes of one sign and this change is least, if that
+/// is less than a third of the slope at either end, by more than `shallow`: there may be a pair of extrema.
+std::optional<double> dip(double slope_0, double slope_1, double change, double shallow) {
+  if (!(slope_0 * slope_1 > 0)) return std::nullopt;
   const double sign = slope_0 > 0 ? 1 : -1;
   const double a = sign * slope_0;
   const double b = 6 * sign * change - 4 * a - 2 * sign * slope_1;  // slope a + b x + c x^2
   const double c = -b + sign * slope_1 - a;
-  if (!(c > 0) || !(b < 0) || !(-b < 2 * c)) return false;
+  if (!(c > 0) || !(b < 0) || !(-b < 2 * c)) return std::nullopt;
   const double least = std::min(a, sign * slope_1);
   const double lowest = a - b * b / (4 * c);
-  return lowest < least / 3 && least - lowest > shallow;
+  if (!(lowest < least / 3) || !(least - lowest > shallow)) return std::nullopt;
+  return -b / (2 * c);
 }
 
 }  // namespace
@@ -48,6 +49,7 @@ Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int 
   here_.parameters = parameters;
   here_.regime = regime;
   corrector_.set_scale(here_);
+  if (!corrector_.calibrate(here_)) return Correction::cannot_evaluate;
   there_ = here_;
   normal_.setZero();
   normal_(normal_.size() - 1) = forward;
@@ -64,6 +66,7 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
   here_.parameters = parameters;
   here_.regime = regime;
   corrector_.set_scale(here_);
+  if (!corrector_.calibrate(here_)) return Correction::cannot_evaluate;
   normal_ = direction.cwiseQuotient(here_.scale);
   normal_.normalize();
   if (!normal_.allFinite()) return Correction::singular;
@@ -88,6 +91,8 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
 }
 
 void Stepper::restore(const Checkpoint& checkpoint) {
+  here_ = checkpoint.start;
+  corrector_.calibrate(here_);
   here_ = checkpoint.here;
   bend_ = checkpoint.bend;
   at_here_ = checkpoint.monitors;
@@ -206,7 +211,7 @@ bool Stepper::finish(bool lands, double value) {
   from_ = at_here_;
   for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
-  if (!hides_folds() && resolved(distance_, to_)) return true;
+  if (resolved(distance_, to_)) return true;
   signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
   return false;
 }
@@ -228,9 +233,14 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
   }
 }
 
-bool Stepper::hides_folds() const {
+std::optional<double> Stepper::suspected_folds() const {
+  constexpr double steep = 1e-8;  // the parameter's own rounding hides what is below
   const Index n = corrector_.size();
-  return hold_ == Hold::tangent && hides_extrema(slope_from_(n), slope_to_(n), step_(n) / distance_, 1e-13);
+  const double from = slope_from_(n) / slope_from_.norm();  // over arclength, for which the chord stands
+  const double to = slope_to_(n) / slope_to_.norm();
+  if (from * to > 0 && std::max(std::abs(from), std::abs(to)) < steep) return 0.5 * distance_;
+  const auto place = dip(from, to, step_(n) / step_.norm(), 1e-13);
+  return place ? std::optional(*place * distance_) : std::nullopt;
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
@@ -248,7 +258,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
     if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
-    if (hides_extrema(a.slope * s, b.slope * s, change, shallow * size)) return false;
+    if (dip(a.slope * s, b.slope * s, change, shallow * size)) return false;
   }
   return true;
 }
@@ -260,15 +270,19 @@ void Stepper::interpolate(double s, Vector& out) const {
 }
 
 bool Stepper::probe(double s) {
+  if (s == probed_s_ && corrector_.work().evaluations == probed_when_) return true;
   interpolate(s, work_);
   corrector_.displace(here_, work_, probe_);
   if (corrector_.correct(probe_, here_, normal_, s, true) != Correction::converged) return false;
   probe_slope_ = corrector_.direction();
   monitor(probe_, here_.scale, probe_slope_, probed_);
+  probed_s_ = s;
+  probed_when_ = corrector_.work().evaluations;
   return true;
 }
 
 void Stepper::cut(double s) {
+  probed_when_ = -1;
   std::swap(there_, probe_);
   slope_to_ = probe_slope_;
   std::swap(to_, probed_);

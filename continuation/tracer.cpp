@@ -71,8 +71,13 @@ Branch Tracer::go_on() {
   return std::move(branch_);
 }
 
-void Tracer::check_limits() {
+bool Tracer::out_of_time() const {
+  if (!std::isfinite(options_.max_seconds)) return false;
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
+  return spent.count() >= options_.max_seconds;
+}
+
+void Tracer::check_limits() {
   const CurvePoint& here = stepper_.here();
   const Index n = corrector_.size();
   if (interrupted_) return stop(Stop::interrupted, fmt::format("interrupted at {}", place()));
@@ -81,7 +86,7 @@ void Tracer::check_limits() {
     return stop(Stop::max_points, fmt::format("max_points = {} points were stored; the branch stands at {}",
                                               options_.max_points, place()));
   }
-  if (spent.count() >= options_.max_seconds) {
+  if (out_of_time()) {
     return stop(Stop::time_limit, fmt::format("max_seconds = {:g} have passed; the branch stands at {}",
                                               options_.max_seconds, place()));
   }
@@ -321,9 +326,19 @@ std::string Tracer::place() const { return fmt::format("{} = {:.10g}", options_.
 
 void Tracer::store(PointType type, const std::string& label, const Vector& arrival) {
   const CurvePoint& here = stepper_.here();
-  branch_.points.push_back({type, here.regime, here.unknowns, here.parameters, state_.arclength,
-                            here.iterations, here.residual, raw_tangent(), arrival, watch_.eigenvalues(),
-                            watch_.unstable(), label});
+  BranchPoint& point = branch_.points.emplace_back();
+  point.type = type;
+  point.regime = here.regime;
+  point.unknowns = here.unknowns;
+  point.parameters = here.parameters;
+  point.arclength = state_.arclength;
+  point.iterations = here.iterations;
+  point.residual = here.residual;
+  point.tangent = here.tangent.cwiseProduct(here.scale);
+  point.arrival = arrival;
+  point.eigenvalues = watch_.eigenvalues();
+  point.unstable = watch_.unstable();
+  point.label = label;
   if (type != PointType::regular && (type != PointType::start) && !options_.stop_after.empty()) {
     const long found = ++state_.found[std::string(to_string(type)) + label];
     for (const StopAfter& rule : options_.stop_after)

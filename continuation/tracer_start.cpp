@@ -68,7 +68,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   BasePoint unfolded = near;
   unfolded.extras = Vector::Zero(1);
   BranchPointProblem branch_point(problem_, parameter_);
-  if (const auto located = locate(branch_point, unfolded, options_.tolerance);
+  if (const auto located = locate(branch_point, unfolded, corrector_.tolerance());
       located && is_there(located->point)) {
     const Guess at{located->point.unknowns, located->point.parameters, guess.regime, {}};
     const auto form = branch_point_form(problem_, parameter_, at);
@@ -79,7 +79,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
     }
   }
   FoldProblem fold(problem_, parameter_);
-  if (const auto located = locate(fold, near, options_.tolerance); located && is_there(located->point)) {
+  if (const auto located = locate(fold, near, corrector_.tolerance()); located && is_there(located->point)) {
     Vector direction = Vector::Zero(corrector_.size() + 1);
     direction.head(corrector_.size()) = fold.right_null();
     return stepper_.start_along(located->point.unknowns, located->point.parameters, guess.regime, direction);

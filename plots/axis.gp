@@ -9,6 +9,7 @@ eval sprintf("set %srange [%.15g:%.15g]", axis, low, high)
 eval sprintf("set %stics ('' %.15g 1)", axis, low)
 room = axis eq "x" ? 0.65 : 0.6  # cm for a label
 common_power = 0
+longest_label = 0  # in characters, of a linear axis
 
 if (is_wide(low, high)) {
   eval sprintf("set logscale %s", axis)
@@ -30,7 +31,7 @@ if (!is_wide(low, high)) {
   eval sprintf("unset logscale %s", axis)
   largest = abs(low) > abs(high) ? abs(low) : abs(high)
   common_power = axis eq "y" && (largest < 0.05 || largest >= 1e4) ? int(floor(log10(largest))) : 0
-  text_of(v) = sprintf("%.9g", v / 10.0 ** common_power)
+  text_of(v) = (v < 0 ? "−" : "").sprintf("%.9g", abs(v) / 10.0 ** common_power)
   labels_of(step) = floor(high / step) - ceil(low / step) + 1
   text_room(v) = axis eq "x" && 0.2 + 0.15 * strlen(text_of(v)) > room ? 0.2 + 0.15 * strlen(text_of(v)) : room
   fits(step) = labels_of(step) * text_room(ceil(low / step) * step) <= length
@@ -47,6 +48,7 @@ if (!is_wide(low, high)) {
   }
   do for [j = floor(parts * low / chosen):ceil(parts * high / chosen)] {
     text = j % parts == 0 && is_labelled ? text_of(j / parts * chosen) : ""
+    longest_label = strlen(text) > longest_label ? strlen(text) : longest_label
     eval sprintf("set %stics add ('%s' %.15g %d)", axis, text, j * chosen / parts, j % parts != 0)
   }
 }

@@ -1,6 +1,7 @@
 # What there is to draw. Every row is read once to see how much there is, and once for each quantity, by read.gp, into
 # arrays from which the panels are drawn: the time grows with the rows, not with the rows times the branches.
 
+refine = 1  # pieces of a curve from one row to the next
 set datafile separator comma
 set datafile columnheaders
 
@@ -21,20 +22,31 @@ slip_found = 0
 note_branch(b) = b > branches ? 0 : (first[b] == 0 ? first[b] = rows : 0, last[b] = rows)
 note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
 note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
+ends_low = 1e300  # of x where branches start and end
+ends_high = -1e300
+note_end(x) = (ends_low = x < ends_low ? x : ends_low, ends_high = x > ends_high ? x : ends_high)
+is_end(type) = type eq "start" || type eq "end"
 rows = 0
-note(row) = (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)))
+note(row) = (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), \
+             is_end(strcol("type")) ? note_end(column(parameter)) : 0)
 stats csv using (note(0), column(parameter)) nooutput
 do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # a single point draws no line
-x_low = STATS_min < STATS_max ? STATS_min : 0.99 * STATS_min
-x_high = STATS_min < STATS_max ? STATS_max : 1.01 * STATS_max
-x_title = parameter eq "eta" ? \
-  "frequency".blank.blank."{/:Italic η}".blank."=".blank."{/:Italic ω}/{/:Italic Ω}_D" : \
-  "preload".blank.blank."{/:Italic P}"
+
+# No wider than where branches start and end; beyond those there is room for what turns there.
+bounds = spread(STATS_min, STATS_max)
+x_low = real(word(bounds, 1))
+x_high = real(word(bounds, 2))
+has_room = strlen(lines_title) > 0  # curves in two parameters end anywhere
+bounds = with_room(x_low, x_high, x_low < ends_low || has_room ? 0.04 : 0, x_high > ends_high || has_room ? 0.04 : 0)
+x_low = real(word(bounds, 1))
+x_high = real(word(bounds, 2))
 
 # A point for each row; and which of them are special, with their kinds.
 array xs[rows]
 array ys[rows]
 array slip_ys[rows]  # undefined where there is no slip
+array lengths[rows]  # along the branch
+array counts[rows]   # of unstable eigenvalues, of the stretch that begins here
 specials = int(sum [k = 1:kinds] found[k])
 array special_points[specials + 1]  # one more, of no kind, since an array may not be empty
 array special_kinds[specials + 1]

@@ -1,5 +1,5 @@
-# Opens the picture, with `body` cm for the panels and, above them, the key: the branches by their labels, then how
-# stick, slip and the special points are drawn. It is set by hand, since gnuplot's own may lie over the curves.
+# Opens the picture, with `body` cm for the panels and, above them, the key: the colours by their labels, then what
+# lines and symbols tell. It is set by hand, since gnuplot's own may lie over the curves.
 
 sample = 0.45  # of a line, with the blank behind it
 gap = 0.28     # between entries
@@ -11,12 +11,12 @@ text_width(text) = (strlen(text) - 11 * italics(text)) * 0.45 * type_size / 72 *
 # ---- The branches, in columns ----
 
 # Of many branches six are named, evenly chosen: the colours tell the order of the others.
-named = strlen(word(labels, 1)) == 0 ? 0 : are_many ? 6 : branches
-named_branch(i) = named < branches ? int(1 + (i - 1.0) * (branches - 1) / (named - 1) + 0.5) : i
+named = strlen(word(labels, 1)) == 0 ? 0 : are_many ? 6 : colours
+named_colour(i) = named < colours ? int(1 + (i - 1.0) * (colours - 1) / (named - 1) + 0.5) : i
 
 column_width = 0
 do for [i = 1:named] {
-  entry = sample + text_width(word(labels, named_branch(i))) + gap
+  entry = sample + text_width(word(labels, named_colour(i))) + gap
   column_width = entry > column_width ? entry : column_width
 }
 columns = named == 0 ? 1 : int((width - 0.2 + gap) / column_width)
@@ -24,16 +24,23 @@ columns = columns < 1 ? 1 : columns
 branch_lines = ceil(1.0 * named / columns)
 columns = named == 0 ? 1 : ceil(1.0 * named / branch_lines)  # lines of much the same length
 
-# ---- Stick, slip and the special points: those that there are, in lines filled one after the other ----
+# ---- What the lines and symbols tell: what there is of it, in lines filled one after the other ----
 
-ways = 2 + kinds
-array way_title[ways] = ["stick", "slip"]
+styles = 5
+ways = styles + kinds
+in_regime(regime) = strlen(lines_title) ? lines_title.blank."in".blank.regime : regime
+array way_title[ways] = [in_regime("stick"), in_regime("slip"), "stable", "unstable", lines_title]
 array way_start[ways]
 array way_line[ways]
 array line_width[ways]
-do for [k = 1:kinds] { way_title[2 + k] = kind_title[k] }
-is_shown(i) = i == 1 ? stick_found : i == 2 ? slip_found : found[i - 2] > 0
-way_sample(i) = i <= 2 ? sample : 0.25
+array way_width[styles] = [thin, thick, medium, medium, medium]
+stable_found = lines eq "stability" ? sum [i = 1:rows] (counts[i] == 0) : 0
+unstable_found = lines eq "stability" ? sum [i = 1:rows] (counts[i] > 0) : 0
+array style_found[styles] = [lines eq "regimes" && stick_found, lines eq "regimes" && slip_found, \
+                             stable_found && unstable_found, unstable_found, lines eq "plain" && strlen(lines_title)]
+do for [k = 1:kinds] { way_title[styles + k] = kind_title[k] }
+is_shown(i) = i <= styles ? style_found[i] : found[i - styles] > 0
+way_sample(i) = i <= styles ? sample : 0.25
 
 way_lines = 1
 line_width[1] = 0
@@ -48,6 +55,8 @@ do for [i = 1:ways] {
   line_width[way_lines] = line_width[way_lines] + entry
 }
 
+if (line_width[1] == 0) { way_lines = 0 }
+
 # ---- Setting it, by labels and arrows that the first panel draws ----
 
 height = body + (branch_lines + way_lines) * line_height + 0.1
@@ -60,19 +69,19 @@ do for [i = 1:named] {
   x0 = start(columns * column_width) + (i - 1) % columns * column_width
   y0 = height_of_line((i - 1) / columns + 1)
   set arrow from screen across(x0), up(y0) to screen across(x0 + sample - 0.1), up(y0) \
-    nohead linewidth 2 * thin linecolor rgb colour(named_branch(i))
-  set label word(labels, named_branch(i)) at screen across(x0 + sample), up(y0)
+    nohead linewidth 2 * thin linecolor rgb colour(named_colour(i))
+  set label word(labels, named_colour(i)) at screen across(x0 + sample), up(y0)
 }
 do for [i = 1:ways] {
   if (is_shown(i)) {
     x0 = start(line_width[way_line[i]]) + way_start[i]
     y0 = height_of_line(branch_lines + way_line[i])
-    if (i <= 2) {
-      set arrow from screen across(x0), up(y0) to screen across(x0 + sample - 0.1), up(y0) \
-        nohead linewidth (i == 1 ? thin : thick) linecolor rgb grey
+    if (i <= styles) {
+      eval sprintf("set arrow from screen %.9g, %.9g to screen %.9g, %.9g nohead linewidth %g %s linecolor rgb grey", \
+                   across(x0), up(y0), across(x0 + sample - 0.1), up(y0), way_width[i], i == 4 ? "dashtype ".dashes : "")
     } else {
       set label '' at screen across(x0 + 0.08), up(y0) \
-        point pointtype symbol[i - 2] pointsize symbol_size(i - 2) linewidth frame linecolor rgb grey
+        point pointtype symbol[i - styles] pointsize symbol_size(i - styles) linewidth frame linecolor rgb grey
     }
     set label way_title[i] at screen across(x0 + way_sample(i)), up(y0)
   }

@@ -1,24 +1,15 @@
 # A panel from `from` to `to` of the parameter, its edges at `l`, `r`, `b` and `t` cm, as high as the values there are.
 
 eval place_panel(l, r, b, t)
-y_inside(i) = xs[i] >= from && xs[i] <= to ? ys[i] : NaN
-set xrange [*:*]  # since stats keeps to the ranges that are set
-set yrange [*:*]
-unset logscale
-stats xs using (y_inside(int($1))) nooutput
-if (exists("STATS_min")) {
-  y_low = STATS_min < STATS_max ? STATS_min : 0.9 * STATS_min
-  y_high = STATS_min < STATS_max ? STATS_max : 1.1 * STATS_max
-} else {
-  y_low = 0.1
-  y_high = 1
-  set label "nothing to show" at graph 0.5, graph 0.5 center
-}
+load style."/height.gp"
+if (!is_defined) { set label "nothing to show" at graph 0.5, graph 0.5 center }
 
-is_labelled = 1
+is_labelled = is_lowest
 axis = "x"; low = from; high = to; length = r - l
 load style."/axis.gp"
-axis = "y"; low = value_at(y_low, y_high, -0.05); high = value_at(y_low, y_high, 1.07); length = t - b
+is_labelled = 1
+bounds = with_room(y_low, y_high, 0.05, 0.07)
+axis = "y"; low = real(word(bounds, 1)); high = real(word(bounds, 2)); length = t - b
 load style."/axis.gp"
 if (common_power) {
   set label sprintf("×10^{%s%d}", common_power < 0 ? "−" : "", abs(common_power)) at screen across(l), up(t + 0.2)

@@ -1,7 +1,7 @@
 # Phases of base, damper and relative motion behind the excitation, followed through whole turns from the start of a
 # branch, so that a curve does not jump at the ends of (-pi, pi]. Beside the whole range, where peaks crowd.
 
-style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; parameter = ARG5; labels = ARG6
+style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; shared = ARG5; labels = ARG6; groups = ARG7; names = ARG8
 load style."/style.gp"
 load style."/data.gp"
 

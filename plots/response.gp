@@ -2,6 +2,7 @@
 # vertical axis is called `y_title` and `y_symbol`. At `reference`, if there is one, a line is drawn, and called
 # `reference_title`.
 
+is_lowest = 1
 load style."/read.gp"
 load style."/windows.gp"
 

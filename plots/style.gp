@@ -1,11 +1,15 @@
 # How the pictures look: sizes, colours, symbols. A script names its arguments before it loads other files:
 #
-#   style      this folder
-#   csv        branches.csv of `arcslip run`
-#   picture    the file to write
-#   format     png or svg
-#   parameter  the continuation parameter, eta or P: the axis that the panels share
-#   labels     one word in double quotes for each branch, "" for a branch without a name
+#   style     this folder
+#   csv       branches.csv of `arcslip run`
+#   picture   the file to write
+#   format    png or svg
+#   shared    the continuation parameter, which is the axis that the panels share; and what the lines tell:
+#             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable) or "plain" (nothing)
+#   labels    one word in double quotes for each colour, "" for one without a name
+#   groups    for each branch the number of its colour
+#   names     words in double quotes: the title of the shared axis; what the lines are, or ""; then pairs of a type of
+#             special points and its name here, "" if they are not to be marked
 
 set encoding utf8
 set minussign
@@ -18,11 +22,16 @@ left_edge = 1.4
 right_edge = width - 0.32
 line_height = 0.38
 type_size = 8.5
-branches = words(labels)
-are_many = branches > 12  # branches that are many are drawn more finely, and only a few of them are named
+parameter = word(shared, 1)
+lines = word(shared, 2)
+branches = words(groups)
+colours = words(labels)
+are_many = colours > 12  # branches that are many are drawn more finely, and only a few of them are named
 frame = 0.5
 thin = are_many ? 0.4 : 0.55
 thick = are_many ? 0.9 : 1.4
+medium = are_many ? 0.55 : 1.0  # where lines do not tell of regimes
+dashes = "(9, 6)"
 
 is_svg = format eq "svg"
 dot = is_svg ? 96 / 72.0 : 300 / 72.0  # for each point: CSS pixels, or 300 dots per inch
@@ -46,28 +55,55 @@ channel(rgb, shift) = (rgb >> shift) & 255
 mix(a, b, t, shift) = int(channel(a, shift) + t * (channel(b, shift) - channel(a, shift)) + 0.5) << shift
 blend(a, b, t) = mix(a, b, t, 16) | mix(a, b, t, 8) | mix(a, b, t, 0)
 on_scale(s) = blend(scale[int(s) + 1], scale[int(s) + 2], s - int(s))
-colour(b) = branches <= |few| ? few[b] : on_scale((b - 1.0) / (branches - 1) * (|scale| - 1 - 1e-9))
+colour(c) = colours <= |few| ? few[c] : on_scale((c - 1.0) / (colours - 1) * (|scale| - 1 - 1e-9))
+branch_colour(b) = colour(int(word(groups, b)))
 grey = 0x606060
 shade = 0xEAEAEA
 
 # ---- Special points, in the order in which they are drawn, each over its own shape in white ----
 
-kinds = 6
-array kind_type[kinds] = ["switch", "user", "branch_point", "fold", "peak", "trough"]
+kinds = 13
+array kind_type[kinds] = ["switch", "user", "event", "branch_point", "corner_fold", "hopf", "peak", "trough", "fold", \
+                          "cusp", "bogdanov_takens", "zero_hopf", "hopf_hopf"]
 r_equals_s = "{/:Italic R}".blank."=".blank."{/:Italic S}"
-array kind_title[kinds] = [r_equals_s, "requested", "branch point", "fold", "peak", "trough"]
-array symbol[kinds] = [6, 2, 13, 5, 9, 11]
-array backing[kinds] = [7, 7, 13, 5, 9, 11]
-symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : symbol[k] == 9 || symbol[k] == 11 ? 1.5 : 1.25)
+array kind_title[kinds] = [r_equals_s, "requested", "event", "branch".blank."point", "corner".blank."fold", "Hopf", \
+                           "peak", "trough", "fold", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf"]
+array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8]
+array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9]  # 0: none, a fold may be a peak, too
+is_triangle(k) = symbol[k] == 8 || symbol[k] == 9 || symbol[k] == 11
+enlarged(k) = symbol[k] == 4 ? 1.5 : is_triangle(k) && !is_svg ? 1.2 : symbol[k] > 11 ? 1.25 : 1
+symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : 1.25) * enlarged(k)
 kind_of(type) = type eq "regular" ? 0 : sum [k = 1:kinds] (kind_type[k] eq type ? k : 0)
+
+x_title = word(names, 1)
+lines_title = word(names, 2)
+do for [n = 3:words(names) - 1:2] {
+  k = kind_of(word(names, n))
+  kind_title[k] = word(names, n + 1)
+  if (strlen(kind_title[k]) == 0) { kind_type[k] = "-" }
+}
 
 # ---- Ranges ----
 
-is_wide(low, high) = low > 0 && high > 4 * low  # worth a logarithmic axis
+wide = 4
+is_wide(low, high) = low > 1e-15 * high && high > wide * low && low > 0  # worth a logarithmic axis
 
 # The place of a value on an axis, from 0 to 1, and the value at a place.
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
 value_at(low, high, s) = is_wide(low, high) ? low * (1.0 * high / low) ** s : low + s * (high - low)
+
+# The range from `low` to `high` with a part `s` of it added below and `t` above. A linear one that would turn wide by that
+# grows by factors, too.
+grown(low, high, s, t) = sprintf("%.17g %.17g", value_at(low, high, -s), value_at(low, high, 1 + t))
+grown_by_factors(low, high, s, t) = sprintf("%.17g %.17g", low * (1.0 * high / low) ** -s, high * (1.0 * high / low) ** t)
+stays_linear(low, high, s, t) = is_wide(low, high) || low <= 0 || !is_wide(low - s * (high - low), high + t * (high - low))
+with_room(low, high, s, t) = stays_linear(low, high, s, t) ? grown(low, high, s, t) : grown_by_factors(low, high, s, t)
+
+# The range of values that lie between `low` and `high`; about a single value, but for rounding errors, some room.
+is_single(low, high) = high - low <= 1e-9 * (abs(low) + abs(high)) || (low <= 0 && high - low < 1e-12)
+room_about(v) = abs(v) < 1e-12 ? 1 : 0.1 * abs(v)
+spread(low, high) = is_single(low, high) ? sprintf("%.17g %.17g", low - room_about(low), high + room_about(high)) : \
+                                           sprintf("%.17g %.17g", low, high)
 
 # To be used as `eval place_panel(...)`.
 place_panel(left, right, bottom, top) = sprintf("set margins at screen %g, screen %g, screen %g, screen %g", \

@@ -12,6 +12,7 @@
 #include "arcslip/continuation/hopf_problem.hpp"
 #include "arcslip/continuation/trace.hpp"
 #include "arcslip/problems/library.hpp"
+#include "branches.hpp"
 
 namespace arcslip::testing {
 
@@ -51,23 +52,6 @@ struct Instance {
     values[position(key)] = value;
   }
 };
-
-inline continuation::TraceOptions over(const std::string& parameter, double from, double to) {
-  continuation::TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
-  return options;
-}
-
-inline std::vector<continuation::BranchPoint> of_type(const continuation::Branch& branch,
-                                                      continuation::PointType type) {
-  std::vector<continuation::BranchPoint> points;
-  for (const continuation::BranchPoint& point : branch.points) {
-    if (point.type == type) points.push_back(point);
-  }
-  return points;
-}
 
 /// omega of a Hopf point: the imaginary part of the eigenvalue next to the imaginary axis.
 inline double omega_of(const continuation::BranchPoint& hopf) {

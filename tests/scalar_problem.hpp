@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "arcslip/continuation/trace.hpp"
+#include "branches.hpp"
 
 namespace arcslip::testing {
 
@@ -53,23 +53,6 @@ inline Vector vector_of(std::initializer_list<double> values) {
   Vector v(static_cast<Index>(values.size()));
   std::copy(values.begin(), values.end(), v.begin());
   return v;
-}
-
-inline continuation::TraceOptions over(const std::string& parameter, double from, double to) {
-  continuation::TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
-  return options;
-}
-
-inline std::vector<continuation::BranchPoint> of_type(const continuation::Branch& branch,
-                                                      continuation::PointType type) {
-  std::vector<continuation::BranchPoint> points;
-  for (const continuation::BranchPoint& point : branch.points) {
-    if (point.type == type) points.push_back(point);
-  }
-  return points;
 }
 
 }  // namespace arcslip::testing

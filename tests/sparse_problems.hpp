@@ -117,12 +117,13 @@ class Buckling : public Chain {
   }
 };
 
-/// Bratu's problem in the unit square, u_xx + u_yy + L e^u = 0 with u = 0 around, five-point differences on
-/// side x side inner points, times h^2. Sparse.
-class BratuSquare : public continuation::Problem {
+/// Bratu's problem in a rectangle of width 1, u_xx + u_yy + L e^u = 0 with u = 0 around, by five-point
+/// differences on across x along inner points in a square grid, times h^2. Sparse.
+class BratuRectangle : public continuation::Problem {
  public:
-  explicit BratuSquare(Index side) : side_(side), square_(1 / static_cast<double>((side + 1) * (side + 1))) {}
-  Index size() const override { return side_ * side_; }
+  BratuRectangle(Index across, Index along)
+      : across_(across), along_(along), square_(1 / static_cast<double>((across + 1) * (across + 1))) {}
+  Index size() const override { return across_ * along_; }
   bool sparse() const override { return true; }
   std::vector<std::string> parameter_names() const override { return {"L"}; }
 
@@ -131,22 +132,22 @@ class BratuSquare : public continuation::Problem {
     SparseMatrix* const entries = out.sparse_jacobian;
     if (entries != nullptr && entries->nonZeros() == 0) set_pattern(*entries);
     double* value = entries != nullptr ? entries->valuePtr() : nullptr;
-    for (Index y = 0, i = 0; y < side_; ++y) {
-      for (Index x = 0; x < side_; ++x, ++i) {
+    for (Index y = 0, i = 0; y < along_; ++y) {
+      for (Index x = 0; x < across_; ++x, ++i) {
         const double source = square_ * std::exp(u(i));
         double sum = -4 * u(i);
-        if (y > 0) sum += u(i - side_);
+        if (y > 0) sum += u(i - across_);
         if (x > 0) sum += u(i - 1);
-        if (x + 1 < side_) sum += u(i + 1);
-        if (y + 1 < side_) sum += u(i + side_);
+        if (x + 1 < across_) sum += u(i + 1);
+        if (y + 1 < along_) sum += u(i + across_);
         if (out.residual != nullptr) (*out.residual)(i) = sum + p(0) * source;
         if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(i, 0) = source;
         if (value == nullptr) continue;
         if (y > 0) *value++ = 1;
         if (x > 0) *value++ = 1;
         *value++ = -4 + p(0) * source;
-        if (x + 1 < side_) *value++ = 1;
-        if (y + 1 < side_) *value++ = 1;
+        if (x + 1 < across_) *value++ = 1;
+        if (y + 1 < along_) *value++ = 1;
       }
     }
     return true;
@@ -157,16 +158,17 @@ class BratuSquare : public continuation::Problem {
     matrix.reserve(5 * size());
     for (Index i = 0; i < size(); ++i) {
       matrix.startVec(i);
-      if (i >= side_) matrix.insertBack(i - side_, i) = 1;
-      if (i % side_ > 0) matrix.insertBack(i - 1, i) = 1;
+      if (i >= across_) matrix.insertBack(i - across_, i) = 1;
+      if (i % across_ > 0) matrix.insertBack(i - 1, i) = 1;
       matrix.insertBack(i, i) = 0;
-      if (i % side_ + 1 < side_) matrix.insertBack(i + 1, i) = 1;
-      if (i + side_ < size()) matrix.insertBack(i + side_, i) = 1;
+      if (i % across_ + 1 < across_) matrix.insertBack(i + 1, i) = 1;
+      if (i + across_ < size()) matrix.insertBack(i + across_, i) = 1;
     }
     matrix.finalize();
   }
 
-  Index side_;
+  Index across_;
+  Index along_;
   double square_;
 };
 

@@ -39,6 +39,28 @@ class BogdanovTakens : public Problem {
   }
 };
 
+/// Two oscillators at rest, u' = A u, with the eigenvalues p +- i and p + q - 1 +- 2i.
+class TwoOscillators : public Problem {
+ public:
+  Index size() const override { return 4; }
+  std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
+  bool is_equilibrium() const override { return true; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const double a = p(0), b = p(0) + p(1) - 1;
+    Matrix matrix = Matrix::Zero(4, 4);
+    matrix.topLeftCorner(2, 2) << a, -1, 1, a;
+    matrix.bottomRightCorner(2, 2) << b, -2, 2, b;
+    if (out.residual != nullptr) *out.residual = matrix * u;
+    if (out.jacobian != nullptr) *out.jacobian = matrix;
+    if (out.parameter_jacobian != nullptr) {
+      out.parameter_jacobian->setZero();
+      out.parameter_jacobian->col(0) = u;
+      out.parameter_jacobian->col(1).tail(2) = u.tail(2);
+    }
+    return true;
+  }
+};
+
 /// u = p - q^2 with a border at u = 0.
 class Parabola : public ScalarProblem {
  public:
@@ -84,7 +106,8 @@ TEST_CASE("The fold curve of the cusp is 27 mu^2 = 4 lambda^3 with the cusp at i
   CHECK(curve.points.back().parameters(0) == 3);
   for (const BasePoint& point : base_points(*start.problem, curve)) {
     const double mu = point.parameters(0), lambda = point.parameters(1);
-    CHECK_THAT(27 * mu * mu, WithinAbs(4 * lambda * lambda * lambda, 1e-9));
+    CHECK_THAT(27 * mu * mu, WithinAbs(4 * lambda * lambda * lambda, 1e-9) ||
+                                 WithinRel(4 * lambda * lambda * lambda, 1e-9));
     CHECK_THAT(3 * point.unknowns(0) * point.unknowns(0), WithinAbs(lambda, 1e-9));
   }
   const auto cusps = of_type(curve, PointType::cusp);
@@ -141,6 +164,25 @@ TEST_CASE("Folds and Hopf points of the Bogdanov-Takens normal form meet where t
   REQUIRE(on_fold.size() == 1);
   CHECK_THAT(on_fold[0].parameters(0), WithinAbs(0, 1e-10));
   CHECK(of_type(fold_curve, PointType::cusp).empty());
+}
+
+TEST_CASE("On a curve of Hopf points the crossing of a second pair is found") {
+  const TwoOscillators problem;
+  const Branch branch = trace(problem, {Vector::Zero(4), vector_of({-1, 0})}, over("p", -1, 2));
+  const auto hopfs = of_type(branch, PointType::hopf);
+  REQUIRE(hopfs.size() == 2);
+  CHECK_THAT(hopfs[0].parameters(0), WithinAbs(0, 1e-10));
+  CHECK_THAT(hopfs[1].parameters(0), WithinAbs(1, 1e-10));
+  CHECK(branch.points.front().unstable == 0);
+  CHECK(branch.points.back().unstable == 4);
+  const CurveStart start = curve_through(problem, "p", hopfs[0]);
+  const Branch curve = trace_curve(*start.problem, start.point, over("q", 0, 3));
+  REQUIRE(curve.complete());
+  const auto both = of_type(curve, PointType::hopf_hopf);
+  REQUIRE(both.size() == 1);
+  CHECK_THAT(both[0].parameters(0), WithinAbs(1, 1e-10));
+  for (const BasePoint& point : base_points(*start.problem, curve))
+    CHECK_THAT(point.extras(0), WithinRel(1.0, 1e-9));
 }
 
 TEST_CASE("Branch points that a symmetry keeps are followed") {

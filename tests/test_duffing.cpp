@@ -152,3 +152,40 @@ TEST_CASE("The cubic term is projected without aliasing", "[library]") {
   exact(n - 1) = 1 + 0.75 * cubic;
   CHECK((residual - exact).lpNorm<Eigen::Infinity>() < 1e-15);
 }
+
+TEST_CASE("Without damping and next to no force the oscillator's frequency is that of its elliptic integral",
+          "[library]") {
+  // Section C2: w(A) = pi sqrt(1 + g A^2)/(2 K(m)), m = g A^2/(2 (1 + g A^2)), here g = 1; A is the sum of
+  // the cosines, which are in phase at the turning point. A small force fixes the phase; its two signs have
+  // the free vibration as their mean, to second order.
+  struct Row {
+    double amplitude, frequency;
+  };
+  const Row row = GENERATE(values<Row>({{0.1, 1.003741836178},
+                                        {0.5, 1.089158178779},
+                                        {1, 1.317776064966},
+                                        {2, 1.976016364071},
+                                        {5, 4.357461856523},
+                                        {10, 8.533586188999}}));
+  CAPTURE(row.amplitude);
+  const auto amplitude_of = [&](double harmonics, double frequency) {
+    double mean = 0;
+    for (const double sign : {1, -1}) {
+      const Instance duffing("duffing",
+                             {{"harmonics", harmonics}, {"delta", 0}, {"k3", 1}, {"W", frequency}});
+      Guess guess = duffing.guess();
+      guess.unknowns.setZero();
+      guess.unknowns(0) = (1 + sign * 0.01) * row.amplitude;
+      const double square = row.amplitude * row.amplitude;
+      const double pull = sign * 0.02 * row.amplitude * square / (1 + square);  // a per cent of the amplitude
+      const Branch branch = trace(*duffing.problem, guess, over("force", pull, 1e-5 * pull));
+      REQUIRE(branch.stop == Stop::reached_end);
+      const Vector& end = branch.points.back().unknowns;
+      for (Index i = 0; i < end.size(); i += 2) mean += 0.5 * end(i);
+    }
+    return mean;
+  };
+  CHECK_THAT(amplitude_of(23, row.frequency), WithinRel(row.amplitude, 1e-8));
+  const double one_harmonic = std::sqrt(1 + 0.75 * row.amplitude * row.amplitude);
+  CHECK_THAT(amplitude_of(1, one_harmonic), WithinRel(row.amplitude, 1e-8));
+}

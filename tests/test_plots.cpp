@@ -59,9 +59,10 @@ std::set<std::string> names_in(const std::string& folder) {
 bool is_one_line(const std::string& text) { return !text.empty() && text.find('\n') == text.size() - 1; }
 
 /// Requires all pictures in the folder, from their first bytes to their last, and nothing besides.
-void require_pictures(const std::string& folder, std::size_t least_size) {
+void require_pictures(const std::string& folder, std::size_t least_size,
+                      const std::vector<std::string>& drawn = pictures) {
   std::set<std::string> expected = results;
-  for (const std::string& picture : pictures) {
+  for (const std::string& picture : drawn) {
     CAPTURE(picture);
     const fs::path path = fs::path(folder) / picture;
     const std::string png = read(path.string() + ".png");
@@ -75,6 +76,24 @@ void require_pictures(const std::string& folder, std::size_t least_size) {
     expected.insert({picture + ".png", picture + ".svg"});
   }
   CHECK(names_in(folder) == expected);
+}
+
+constexpr const char* rods =
+    "[system]\nmodel = 'rods'\nwave_number = 1\nelements = 30\nmass_ratio = 5\nfrequency_ratio = 4\nforce = "
+    "1\n";
+constexpr const char* stiffening =
+    "interface_stiffness = 1000\ncubic_stiffness = 10\ndamping = { base = 5e-3, damper = 1e-4 }\n";
+
+/// Traces a case file of this text and draws it; the pictures are required to be whole and to be these.
+void draw(const TemporaryFolder& folder, const std::string& text, const std::vector<std::string>& drawn) {
+  const std::string file = folder.write("case.toml", text);
+  const Outcome run = arcslip_program("run " + file + " --quiet -o " + folder.path("r"));
+  REQUIRE(run.err.empty());
+  REQUIRE(run.status == 0);
+  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  require_pictures(folder.path("r"), 8'000, drawn);
 }
 
 /// A folder with a stand-in for gnuplot: a shell script of this text.
@@ -210,4 +229,110 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
   CHECK(outcome.status == 1);
   CHECK(is_one_line(outcome.err));
   CHECK_THAT(outcome.err, ContainsSubstring(folder.path("none")));
+}
+
+TEST_CASE("plot draws the branches of every problem of the library", "[plots]") {
+  if (!has_gnuplot()) return;
+  const std::string problem =
+      GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "bratu", "duffing");
+  CAPTURE(problem);
+  const TemporaryFolder folder;
+  run(problem, folder.path("r"));
+  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out == folder.path("r/branch.png") + "\n" + folder.path("r/branch.svg") + "\n");
+  require_pictures(folder.path("r"), 8'000, {"branch"});
+  const std::string svg = read(folder.path("r/branch.svg"));
+  const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2";
+  CHECK((svg.find(">stable<") != std::string::npos) == loses_stability);
+  CHECK((svg.find(">Hopf<") != std::string::npos) == (problem == "ab" || problem == "lorenz84"));
+}
+
+TEST_CASE("plot gives the branches that one request led to no names, and those of several theirs",
+          "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  draw(folder, "[system]\nmodel = 'enz'\n[branch]\nparameter = 's0'\nfrom = 0\nto = 60\nswitching = true\n",
+       {"branch"});
+  const std::string one = read(folder.path("r/branch.svg"));
+  CHECK_THAT(one, ContainsSubstring("branch") && !ContainsSubstring("=\u00a0"));
+  draw(folder,
+       "[system]\nmodel = 'cusp'\n[branch]\nparameter = 'mu'\nfrom = -2\nto = 2\n"
+       "for_each = { lambda = [-1, 0.5] }\n",
+       {"branch"});
+  CHECK_THAT(read(folder.path("r/branch.svg")), ContainsSubstring("−1") && ContainsSubstring(">λ<"));
+}
+
+TEST_CASE("plot draws a curve of special points in the plane of its two parameters", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  draw(folder,
+       "[system]\nmodel = 'cusp'\nlambda = 1\n[branch]\ncurve = 'fold'\nparameters = ['mu', 'lambda']\n"
+       "window = [-2.5, 2.5]\nfrom = -1\nto = 3\n",
+       {"curve"});
+  const std::string svg = read(folder.path("r/curve.svg"));
+  CHECK_THAT(svg, ContainsSubstring(">folds<") && ContainsSubstring(">cusp<") && ContainsSubstring(">μ<"));
+  CHECK_THAT(svg, !ContainsSubstring("requested"));  // the value from which the curve starts is no request
+}
+
+TEST_CASE(
+    "plot draws a curve of a system with friction a second time, as amplitude over its second parameter",
+    "[plots]") {
+  if (!has_gnuplot()) return;
+  const std::string curve = GENERATE("fold", "peak", "switch");
+  CAPTURE(curve);
+  const TemporaryFolder folder;
+  draw(folder,
+       std::string(rods) + stiffening + "preload = 0.1\n[branch]\ncurve = '" + curve +
+           "'\nparameters = ['eta', 'P']\nwindow = [0.5, 12]\nfrom = 0.05\nto = 10\n",
+       {"curve", "amplitude"});
+}
+
+TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  draw(folder,
+       std::string(rods) +
+           "interface_stiffness = 100\nfixed_damper = true\npreload = 1\n"
+           "damping = { base = -1e-3, damper = 1e-4, kind = 'structural' }\n[branch]\n"
+           "response = 'limit_cycle'\nparameter = 'zeta_B'\nfrom = -1e-4\nto = -0.05\nstart = -1e-3\n",
+       {"limit_cycle"});
+  const std::string svg = read(folder.path("r/limit_cycle.svg"));
+  CHECK_THAT(svg, ContainsSubstring(">ζ<") && ContainsSubstring(">η<") && ContainsSubstring(">fold<"));
+}
+
+TEST_CASE("plot draws responses that fold, and marks the folds", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  draw(folder,
+       std::string(rods) + stiffening +
+           "[branch]\nparameter = 'eta'\nfrom = 0.5\nto = 12\nfor_each = { preload = [0.05, 0.1] }\n",
+       pictures);
+  CHECK_THAT(read(folder.path("r/amplitude.svg")), ContainsSubstring(">fold<"));
+}
+
+TEST_CASE("plot leaves out a key that would be empty", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  const auto height = [&](const std::string& lambda) {
+    draw(folder,
+         "[system]\nmodel = 'cusp'\nlambda = " + lambda + "\n[branch]\nparameter = 'mu'\nfrom = -2\nto = 2\n",
+         {"branch"});
+    const std::string svg = read(folder.path("r/branch.svg"));
+    return std::stoi(svg.substr(svg.find("height=\"") + 8));
+  };
+  CHECK(height("-1") < height("1"));  // without folds all is stable
+}
+
+TEST_CASE("plot refuses a table without the columns that its case tells of", "[plots]") {
+  const TemporaryFolder folder;
+  run("cusp", folder.path("r"));
+  const std::string table = read(folder.path("r/branches.csv"));
+  folder.write("r/branches.csv", "branch,point,type,regime,x,arclength" + table.substr(table.find('\n')));
+  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  CHECK(outcome.status == 1);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err,
+             ContainsSubstring(folder.path("r/branches.csv")) && ContainsSubstring("no column mu"));
 }

@@ -4,6 +4,7 @@
 
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/continuation/trace.hpp"
+#include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
 
@@ -17,22 +18,6 @@ Guess guess_of(std::initializer_list<double> unknowns, double parameter, int reg
   Guess guess{Vector(static_cast<Index>(unknowns.size())), Vector::Constant(1, parameter), regime};
   std::copy(unknowns.begin(), unknowns.end(), guess.unknowns.begin());
   return guess;
-}
-
-TraceOptions over(const std::string& parameter, double from, double to) {
-  TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
-  return options;
-}
-
-std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
-  std::vector<BranchPoint> points;
-  for (const BranchPoint& point : branch.points) {
-    if (point.type == type) points.push_back(point);
-  }
-  return points;
 }
 
 }  // namespace
@@ -97,9 +82,7 @@ TEST_CASE("Freudenstein and Roth's branch has its published folds") {
 
 TEST_CASE("A change of units changes neither the branch nor its folds") {
   const Branch plain = trace(FreudensteinRoth(), guess_of({15, -2}, 0), over("x3", 0, 1));
-  TraceOptions options = over("x3", 0, 1);
-  options.tolerance = 1e-10 * 1e6;  // residuals in other units, so the tolerance on them
-  const Branch scaled = trace(Rescaled(1e6, 1e6), guess_of({15e6, -2e6}, 0), options);
+  const Branch scaled = trace(Rescaled(1e6, 1e6), guess_of({15e6, -2e6}, 0), over("x3", 0, 1));
   REQUIRE(scaled.points.size() == plain.points.size());
   for (std::size_t i = 0; i < plain.points.size(); ++i) {
     CHECK(scaled.points[i].type == plain.points[i].type);

@@ -49,7 +49,11 @@ class Corrector {
 
   Index size() const { return size_; }
   Index parameter() const { return parameter_; }
-  double tolerance() const { return options_.tolerance; }
+  double tolerance() const { return tolerance_; }
+
+  /// Sets the tolerance for a branch that starts at `point`, with its scale: as given, but of a problem whose
+  /// F is in such units that its terms are above 1e3 relative to these. False where it has no value.
+  bool calibrate(CurvePoint& point);
 
   /// An unset point of the right sizes.
   CurvePoint make_point() const;
@@ -94,18 +98,22 @@ class Corrector {
   bool evaluate(CurvePoint& point);
   bool factor(const Vector& scale, const Vector& normal);
   bool solve_direction();
+  double solve_correction(const CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                          double distance, bool held);
   void apply(CurvePoint& point, const CurvePoint& origin);
-  double rounding_level(const CurvePoint& point);
+  double rounding_level(const CurvePoint& point);  // also sets parameter_rounds_
 
   const Problem& problem_;
   Index size_;
   Index parameter_;
   CorrectorOptions options_;
+  double tolerance_;  // on the largest entry of F
   Linearization linearization_;
   std::unique_ptr<BorderedSolver> solver_;
   Work work_;
   double contraction_ = 0;
-  double border_sign_ = 0;  // sign of det [J F_p; normal^T]
+  bool parameter_rounds_ = false;  // whether the parameter's last bit is most of the rounding level
+  double border_sign_ = 0;         // sign of det [J F_p; normal^T]
   Vector correction_;
   Vector direction_;
   Vector unknown_scale_;

@@ -77,6 +77,9 @@ class Stepper {
   double parameter_rate_from() const { return slope_from_(slope_from_.size() - 1); }
   double parameter_rate_to() const { return slope_to_(slope_to_.size() - 1); }
 
+  /// Where the parameter may turn twice within the step although it runs the same way at both ends.
+  std::optional<double> suspected_folds() const;
+
   /// The branch at 0 <= s <= distance within the step, solved to rounding: false if that fails.
   bool probe(double s);
   const std::vector<Monitor>& probed() const { return probed_; }
@@ -122,8 +125,6 @@ class Stepper {
   bool finish(bool lands, double value);
   void monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
   void bend_along(Vector& out) const;
-  /// Whether the parameter may turn twice within the step.
-  bool hides_folds() const;
 
   const Problem& problem_;
   Corrector& corrector_;
@@ -153,6 +154,9 @@ class Stepper {
   std::vector<Monitor> from_;
   std::vector<Monitor> to_;
   std::vector<Monitor> probed_;
+  double probed_s_ = 0;
+  long probed_when_ =
+      -1;  // the corrector's evaluations when it was done; it stands as long as there are no others
   Gradient gradient_;
 };
 

@@ -33,6 +33,7 @@ class Tracer {
   void start(const Guess& guess, double forward);
   Vector raw_tangent() const;
   Correction start_singular(const Guess& guess, double forward);
+  bool out_of_time() const;
   void check_limits();
   void step();
   bool try_step();

@@ -1,0 +1,16 @@
+#pragma once
+
+// Which pictures there are of a folder of results. The section `case` of summary.json and the names of the
+// columns of branches.csv decide it.
+
+#include <string>
+#include <vector>
+
+#include "gnuplot.hpp"
+
+namespace arcslip {
+
+/// Throws InputError where the folder does not hold what `arcslip run` writes, or holds no points.
+std::vector<Picture> pictures_of(const std::string& folder);
+
+}  // namespace arcslip
