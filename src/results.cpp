@@ -78,8 +78,7 @@ class Columns {
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
   ordered_json listed = ordered_json::array();
-  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
-    const BranchPoint& point = traced.branch.points[i];
+  for (const BranchPoint& point : traced.branch.points) {
     if (point.type == PointType::regular) continue;
     const std::vector<double>& values = columns.values(point);
     ordered_json special = {{"type", to_string(point.type)}};

@@ -73,6 +73,7 @@ std::vector<TracedBranch> trace_branches(const CaseBranch& request, const Subjec
     branches.push_back(continuation::trace(*subject.problem, subject.guess, request.options, observer));
   }
   std::vector<TracedBranch> traced;
+  traced.reserve(branches.size());
   for (Branch& branch : branches)
     traced.push_back({&request, subject.problem, nullptr, std::move(branch), 0});
   return traced;

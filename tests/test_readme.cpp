@@ -45,7 +45,7 @@ TEST_CASE("The README's C++ is that of the project which the tests build against
   const std::string readme = read(source + "/README.md");
   std::vector<std::string> files;
   for (const std::string name : {"own_problem", "friction", "further"})
-    files.push_back(read(source + "/tests/consumer/" + name + ".cpp"));
+    files.push_back(read(fmt::format("{}/tests/consumer/{}.cpp", source, name)));
   CHECK_THAT(readme, ContainsSubstring("```cpp\n" + files[0] + "```"));  // this one as a whole
   const auto shown = blocks(readme, "cpp");
   CHECK(shown.size() >= 6);

@@ -2,7 +2,6 @@
 
 // What the choice of borders has in common.
 
-#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/linearization.hpp"
@@ -16,12 +15,13 @@ inline Vector spread(Index size, int which) {
   return v.normalized();
 }
 
-/// The size of dF/du D, its largest row sum, for columns beside it. Of a single unknown it vanishes at a
-/// fold, so that there is a least one.
+/// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at the
+/// folds of a single unknown, 1, which is large for F.
 inline double column_size(const Linearization& at, const Vector& scale) {
   Vector sums(scale.size());
   at.multiply_absolute(scale, sums);
-  return std::max(1e-3, sums.lpNorm<Eigen::Infinity>());
+  const double size = sums.lpNorm<Eigen::Infinity>();
+  return size > 1e-3 ? size : 1;
 }
 
 /// Takes the eigenvalue that is nearest to `away` out of the list.
