@@ -53,6 +53,7 @@ bool BranchPointProblem::adapt(const BasePoint& point) {
     rows_.col(1).normalize();
     if (!rows_.allFinite()) return false;
   }
+  unfolding_ *= steepness(point);
   return solve_borders();
 }
 

@@ -44,6 +44,20 @@ bool ExtendedProblem::adapt(const BasePoint& point) {
   return at_.evaluate(point.unknowns, point.parameters, point.regime);
 }
 
+double ExtendedProblem::steepness(const BasePoint& point) {
+  if (!conditions(point, values_, &gradients_)) return 1;
+  const Index n = base_.size();
+  Vector unknown_scale(n);
+  Vector parameter_scale(point.parameters.size());
+  base_.scale(point.unknowns, point.parameters, unknown_scale, parameter_scale);
+  double steepest = 1;
+  for (const auto& row : gradients_.rowwise()) {
+    const double by_unknowns = row.head(n).transpose().cwiseProduct(unknown_scale).norm();
+    steepest = std::max(steepest, std::hypot(by_unknowns, row(n + active_) * parameter_scale(active_)));
+  }
+  return std::isfinite(steepest) ? steepest : 1;
+}
+
 std::vector<std::string> ExtendedProblem::parameter_names() const {
   std::vector<std::string> names = base_.parameter_names();
   names.erase(names.begin() + active_);

@@ -44,14 +44,7 @@ bool ExtremumProblem::adapt(const BasePoint& point) {
   if (!(size_ > 0)) size_ = 1;
   if (!solve_tangent(point)) return false;
   row_ = tangent_.normalized();
-  // The condition as a distance from the extremum: at a needle's tip it would be of any steepness.
-  Vector value(1);
-  Matrix gradient(1, base().size() + point.parameters.size());
-  if (!conditions(point, value, &gradient)) return false;
-  const Vector by_unknowns = gradient.row(0).head(base().size()).transpose().cwiseProduct(unknown_scale);
-  const double steepness =
-      std::hypot(by_unknowns.norm(), gradient(0, base().size() + active()) * active_scale_);
-  if (steepness > 1 && std::isfinite(steepness)) size_ *= steepness;
+  size_ *= steepness(point);
   return true;
 }
 

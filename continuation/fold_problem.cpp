@@ -38,6 +38,7 @@ bool FoldProblem::adapt(const BasePoint& point) {
     column_ = left_.head(n) * (size / left_.head(n).norm());
     row_ = right_.head(n).normalized();
   }
+  column_ *= steepness(point);
   return true;
 }
 

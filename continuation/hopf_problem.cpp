@@ -53,6 +53,7 @@ bool HopfProblem::adapt(const BasePoint& point) {
     row_ << right_.head(n), -right_.segment(n, n);
     row_.normalize();
   }
+  column_ *= steepness(point);
   return true;
 }
 

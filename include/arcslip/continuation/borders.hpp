@@ -15,8 +15,8 @@ inline Vector spread(Index size, int which) {
   return v.normalized();
 }
 
-/// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at the
-/// folds of a single unknown, 1, which is large for F.
+/// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at
+/// the folds of a single unknown, 1, which is large for F.
 inline double column_size(const Linearization& at, const Vector& scale) {
   Vector sums(scale.size());
   at.multiply_absolute(scale, sums);

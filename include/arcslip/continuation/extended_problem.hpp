@@ -67,6 +67,10 @@ class ExtendedProblem : public Problem {
 
   Index conditions_count() const { return conditions_; }
 
+  /// The steepest condition's slope over (u, p_a) in the base's scale, at least 1: divided by it a condition
+  /// is as good as a distance from the special point, be the base as sharply bent as it may.
+  double steepness(const BasePoint& point);
+
   mutable Linearization at_;
   Vector scale_;      ///< n, of the base's unknowns where the borders were chosen
   Vector unfolding_;  ///< the column b of e_0, or empty
