@@ -10,8 +10,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double same_place = 1e-7;  ///< in the problem's scale; branch points are located to 1e-10
-constexpr double same_way = 1e-4;    ///< between unit directions
+constexpr double same_place = 1e-7;     ///< in the problem's scale; branch points are located to 1e-10
+constexpr double same_solution = 1e-6;  ///< in the problem's scale, by entries
+constexpr double same_way = 1e-4;       ///< between unit directions
 
 /// A direction from a point, of unit length in the problem's scale there.
 struct Way {
@@ -116,6 +117,34 @@ std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, 
     if (map.gone(way)) continue;
     map.go(std::move(way));
     collect(trace(problem, next, options, observer));
+  }
+  return branches;
+}
+
+std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,
+                                  const TraceOptions& options, const Observer& observer) {
+  const Index active = index_of(problem.parameter_names(), options.parameter);
+  TraceOptions landing = options;
+  std::vector<Branch> branches;
+  const auto passed = [&](const Guess& solution) {
+    Vector scale(solution.unknowns.size());
+    Vector parameter_scale(solution.parameters.size());
+    problem.scale(solution.unknowns, solution.parameters, scale, parameter_scale);
+    const auto here = [&](const BranchPoint& point) {
+      return point.parameters(active) == solution.parameters(active) && point.regime == solution.regime &&
+             (point.unknowns - solution.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
+                 same_solution;
+    };
+    return std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
+      return std::any_of(branch.points.begin(), branch.points.end(), here);
+    });
+  };
+  for (const Guess& solution : solutions) {
+    if (passed(solution)) continue;
+    landing.stop_at = options.stop_at;
+    landing.stop_at.push_back(solution.parameters(active));
+    branches.push_back(trace_both(problem, solution, landing, observer));
+    if (branches.back().stop == Stop::interrupted) break;
   }
   return branches;
 }

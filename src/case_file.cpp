@@ -17,9 +17,9 @@ using continuation::PointType;
 using nlohmann::ordered_json;
 using problems::LibraryModel;
 
-const std::vector<std::string> branch_keys = {"parameter", "parameters", "from",      "to",
-                                              "eta",       "start",      "switching", "curve",
-                                              "window",    "response",   "for_each",  "extrema_of"};
+const std::vector<std::string> branch_keys = {"parameter", "parameters",    "from",      "to",    "eta",
+                                              "start",     "all_solutions", "switching", "curve", "window",
+                                              "response",  "for_each",      "extrema_of"};
 const std::vector<std::string> continuation_keys = {"tolerance", "max_step",   "min_step",   "max_points",
                                                     "stop_at",   "stop_after", "max_seconds"};
 const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
@@ -164,7 +164,7 @@ class BranchSection {
 
  private:
   void read_curve(CaseBranch& branch) {
-    for (const char* key : {"parameter", "start", "switching"}) {
+    for (const char* key : {"parameter", "start", "all_solutions", "switching"}) {
       if (section_.has(key)) section_.fail(key, "not beside curve, which has parameters and a window");
     }
     CurveRequest curve{};
@@ -195,6 +195,9 @@ class BranchSection {
     options.stop_at = TomlSection(document_, "continuation").numbers("stop_at", in_range);
     if (section_.has("start")) branch.start = section_.number("start", in_range);
     branch.switching = section_.boolean("switching", false);
+    branch.all_solutions = section_.boolean("all_solutions", false);
+    if (branch.all_solutions)
+      section_.require("start", "the value of the parameter to find all solutions at");
     if (branch.start && branch.switching)
       section_.fail("start", "not beside switching, which follows the branch that begins at branch.from");
   }

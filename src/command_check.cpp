@@ -59,6 +59,7 @@ std::string describe(const CaseBranch& branch) {
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
   if (branch.problem.limit_cycle) text += ", limit cycle";
   if (branch.start) text += fmt::format(", both ways from {:g}", *branch.start);
+  if (branch.all_solutions) text += ", through every solution found there";
   if (branch.switching) text += ", with the branches that it meets";
   return text;
 }

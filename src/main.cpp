@@ -53,6 +53,7 @@ A case file; what follows "optional" need not be given:
   # optional
   response = "forced"        # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
   start = 3.0                # trace both ways from here
+  all_solutions = false      # true: trace through every solution at start that deflation finds
   switching = false          # true: follow all branches that meet this one; not beside start
   extrema_of = ["Y"]         # observables whose peaks and troughs are located
   for_each = { preload = [0.1, 1.0, 10.0] }   # one branch for each; several lists are walked together

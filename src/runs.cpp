@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "arcslip/continuation/newton.hpp"
 #include "arcslip/continuation/switching.hpp"
 #include "arcslip/problems/cubic_response.hpp"
 #include "arcslip/problems/forced_response.hpp"
@@ -62,11 +63,30 @@ TracedBranch unstarted(const CaseBranch& request, const Subject& subject, const 
   return none;
 }
 
+/// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
+std::vector<continuation::Guess> solutions_around(const Subject& subject) {
+  constexpr Index small = 50;
+  constexpr double wide = 10;  // of the problem's scale
+  const continuation::Guess& guess = subject.guess;
+  continuation::SolveAllOptions options;
+  if (guess.unknowns.size() <= small) {
+    Vector scale(guess.unknowns.size());
+    Vector parameter_scale(guess.parameters.size());
+    subject.problem->scale(guess.unknowns, guess.parameters, scale, parameter_scale);
+    options.lower = guess.unknowns - wide * scale;
+    options.upper = guess.unknowns + wide * scale;
+  }
+  return continuation::solve_all(*subject.problem, {guess}, options);
+}
+
 std::vector<TracedBranch> trace_branches(const CaseBranch& request, const Subject& subject,
                                          const continuation::Observer& observer) {
   std::vector<Branch> branches;
   if (request.switching) {
     branches = continuation::trace_connected(*subject.problem, subject.guess, request.options, {}, observer);
+  } else if (request.all_solutions) {
+    branches =
+        continuation::trace_through(*subject.problem, solutions_around(subject), request.options, observer);
   } else if (request.start) {
     branches.push_back(continuation::trace_both(*subject.problem, subject.guess, request.options, observer));
   } else {
@@ -91,6 +111,14 @@ bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::stri
                1e-12 * std::abs(seed.parameters(parameter)) &&
            same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
   });
+}
+
+/// Whether a `user` point is one that was asked for.
+bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
+  const continuation::TraceOptions& options = curve.request->options;
+  const double value =
+      point.parameters(continuation::index_of(curve.curve->parameter_names(), options.parameter));
+  return std::count(options.stop_at.begin(), options.stop_at.end(), value) > 0;
 }
 
 /// The special points on the branch over the first parameter, then the curve through each, but once.
@@ -124,6 +152,11 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
     const bool interrupted = branch.stop == continuation::Stop::interrupted;
     curves.push_back({&request, subject.problem, curve, std::move(branch), seconds.count()});
     if (interrupted) break;
+  }
+  for (TracedBranch& curve : curves) {
+    for (BranchPoint& point : curve.branch.points) {
+      if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;
+    }
   }
   if (!curves.empty()) return curves;
   return {unstarted(request, subject,

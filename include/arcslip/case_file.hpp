@@ -45,6 +45,7 @@ struct CaseBranch {
   ProblemRequest problem;
   continuation::TraceOptions options;
   std::optional<double> start;  ///< value of the parameter from which the branch is traced both ways
+  bool all_solutions = false;   ///< one for each solution at `start` that deflated Newton finds
   bool switching = false;       ///< follow the branches that branch points and corners lead to
   std::optional<CurveRequest> curve;
 };

@@ -22,4 +22,9 @@ struct FollowOptions {
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow = {}, const Observer& observer = {});
 
+/// The branches through solutions at one value of the parameter, as `solve_all` finds them, both ways, each
+/// branch once however many of the solutions it holds. Each gets a `user` point at the value.
+std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,
+                                  const TraceOptions& options, const Observer& observer = {});
+
 }  // namespace arcslip::continuation
