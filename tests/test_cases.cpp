@@ -59,6 +59,14 @@ double value(const TracedBranch& traced, const BranchPoint& point, const std::st
   return 0;
 }
 
+/// Largest entry of F at a point of a curve, whose own residual has the curve's conditions, in other units.
+double residual_of_base(const TracedBranch& traced, const BranchPoint& point) {
+  const auto at = traced.curve->split(point.unknowns, point.parameters, point.regime);
+  Vector residual(traced.base->size());
+  if (!traced.base->evaluate(at.unknowns, at.parameters, at.regime, {&residual})) return INFINITY;
+  return residual.lpNorm<Eigen::Infinity>();
+}
+
 constexpr double published = 1e-8;  // relative, for problems that are algebraic
 
 /// The special points of a type, in order, by some of their columns.
@@ -69,7 +77,6 @@ void check(const TracedBranch& traced, PointType type,
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (const auto& [name, number] : expected[i]) {
-      INFO(name << " of number " << i);
       CHECK_THAT(value(traced, found[i], name), WithinRel(number, tolerance) || WithinAbs(number, 1e-12));
     }
   }
@@ -97,7 +104,8 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
              first == Stop::requested));
       CHECK(one.branch.points.size() > 1);
       double worst = 0;
-      for (const BranchPoint& point : one.branch.points) worst = std::max(worst, point.residual);
+      for (const BranchPoint& point : one.branch.points)
+        worst = std::max(worst, one.curve ? residual_of_base(one, point) : point.residual);
       CHECK(worst <= one.request->options.tolerance);
     }
   }
@@ -213,8 +221,7 @@ TEST_CASE("The Hopf curves of Lorenz 1984 meet the curve of folds and each other
   // Where two pairs lie on the imaginary axis either curve has the same state.
   const auto one = points(run.traced[0], PointType::hopf_hopf);
   const auto other = points(run.traced[1], PointType::hopf_hopf);
-  REQUIRE(one.size() == 1);
-  REQUIRE(other.size() == 1);
+  REQUIRE((one.size() == 1 && other.size() == 1));
   for (const std::string name : {"F", "T", "X", "Y", "Z", "U"}) {
     CHECK_THAT(value(run.traced[0], one[0], name),
                WithinRel(value(run.traced[1], other[0], name), published));
@@ -283,8 +290,7 @@ TEST_CASE("Preload takes the folds of the rods on hardening springs away", "[cas
   check(run.traced[0], PointType::fold, {{{"eta", 5.04621820}}, {{"eta", 4.18805203}}});
   check(run.traced[1], PointType::fold, {{{"eta", 4.65636307}}, {{"eta", 4.18165880}}});
   check(run.traced[2], PointType::fold, {{{"eta", 4.17135586}}, {{"eta", 4.14370809}}});
-  check(run.traced[3], PointType::fold, {});
-  check(run.traced[4], PointType::fold, {});
+  for (const int i : {3, 4}) check(run.traced[i], PointType::fold, {});
 }
 
 TEST_CASE("The curve of folds of the rods on springs passes the response's folds and ends them in a cusp",
@@ -324,7 +330,6 @@ TEST_CASE("The limit cycle's case folds at R = 2S, with zeta_B = -k a/(2 pi eta_
       -system.contact_stiffness * mode.residue / (2 * std::numbers::pi * mode.frequency * mode.frequency);
   check(run.traced[0], PointType::fold, {{{"zeta_B", zeta}}}, 1e-12);  // stationary, so that all digits hold
   check(run.traced[0], PointType::fold, {{{"zeta_B", -0.00505776343777}, {"R_over_S", 2}}});
-  CHECK(run.traced[0].branch.first_stop.has_value());  // both ways
 }
 
 TEST_CASE("A preload that grows with the speed changes stick and slip where R = S, without folds",
