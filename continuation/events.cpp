@@ -46,7 +46,9 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
       lower = s;
       at_lower = value;
     } else if (sign_of(at_lower) != bracket.before) {
-      return {Zero::State::absent};
+      // No zero in sight, or the step begins on it, by the last bits behind it.
+      const bool begins_there = std::abs(at_lower) < 1e-6 * std::abs(bracket.at_upper);
+      return {begins_there ? Zero::State::found : Zero::State::absent, 0};
     }
   }
   const auto close = [&](double a, double b) { return std::abs(b - a) <= 1e-14 * bracket.upper; };
@@ -77,13 +79,34 @@ class Search {
     const auto borders = static_cast<Index>(at_upper_->size()) - stepper_.tracked_count();
     for (Index b = 0; b < borders; ++b) border(b);
     if (result_.solved && !result_.events.empty()) {
-      for (const Event& event : result_.events) upper_ = std::min(upper_, event.s);
-      result_.solved = stepper_.probe(upper_) && stepper_.resolved(upper_, stepper_.probed());
-      cut_ = stepper_.probed();
-      at_upper_ = &cut_;
-      rate_at_upper_ = stepper_.probed_parameter_rate();
+      double first = upper_;
+      for (const Event& event : result_.events) first = std::min(first, event.s);
+      result_.solved = end_at(first) && stepper_.resolved(upper_, stepper_.probed());
     }
     if (!result_.solved) return result_;
+    search_inside();
+    while (search_before_first()) {
+    }
+    return result_;
+  }
+
+ private:
+  void note(Event::Kind kind, PointType type, Index index, const Zero& zero) {
+    if (zero.state == Zero::State::failed) result_.solved = false;
+    if (zero.state == Zero::State::found) result_.events.push_back({kind, type, index, zero.s});
+  }
+
+  /// Leaves out of the search what lies behind s.
+  bool end_at(double s) {
+    if (!stepper_.probe(s)) return false;
+    upper_ = s;
+    cut_ = stepper_.probed();
+    at_upper_ = &cut_;
+    rate_at_upper_ = stepper_.probed_parameter_rate();
+    return true;
+  }
+
+  void search_inside() {
     look_at_upper();
     fold();
     for (Index i = 0; i < stepper_.tracked_count(); ++i) extremum(i);
@@ -92,13 +115,23 @@ class Search {
     for (std::size_t i = 0; i < functions_at_upper_.size(); ++i) function(i);
     eigenvalues();
     keep_first();
-    return result_;
   }
 
- private:
-  void note(Event::Kind kind, PointType type, Index index, const Zero& zero) {
-    if (zero.state == Zero::State::failed) result_.solved = false;
-    if (zero.state == Zero::State::found) result_.events.push_back({kind, type, index, zero.s});
+  /// The step is to end at the first event. What changes its sign twice within all of the step, and so was
+  /// not seen, may do so once up to there. Returns whether something was found.
+  bool search_before_first() {
+    const std::vector<Event> known = result_.events;
+    if (!result_.solved || known.empty() || !(known.front().s < upper_)) return false;
+    if (known.front().kind == Event::Kind::crossing) return false;  // a probe there would be singular
+    if (!end_at(known.front().s)) return false;
+    result_.events.clear();
+    search_inside();
+    const auto earlier = [&](const Event& event) {
+      return event.s < known.front().s - 1e-9 * stepper_.distance();
+    };
+    const bool found = result_.solved && std::any_of(result_.events.begin(), result_.events.end(), earlier);
+    if (!found) result_ = {true, known};
+    return found;
   }
 
   /// Within what part of the step a fold is one with such a point. On the turning branch of a pitchfork the
@@ -238,10 +271,7 @@ class Search {
       const int before = after > signs_.unstable ? -1 : 1;
       watch_.look(stepper_.here());
       const double here = watch_.eigenvalues()(i).real();
-      Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
-      // The step may begin where the pair crosses, with the crossing still to come by its last bit.
-      if (zero.state == Zero::State::absent && std::abs(here) < 1e-12 * std::abs(eigenvalues_at_upper_(i)))
-        zero = {Zero::State::found, 0};
+      const Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);
       const Complex at_zero = watch_.eigenvalues()(i);
