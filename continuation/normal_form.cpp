@@ -44,8 +44,7 @@ class CubicTerm {
         psi_(at.left_null()),
         scale_(at.null_scale()),
         at_(problem),
-        second_(problem),
-        step_(0.02) {}
+        second_(problem) {}
 
   /// v, n, of unit length, and the other branch's direction d, n + 1.
   double coefficient(const Vector& v, const Vector& d) {
@@ -103,7 +102,7 @@ class CubicTerm {
   Vector scale_;
   Linearization at_;
   SecondDerivative second_;
-  double step_;
+  double step_ = 0.02;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace arcslip::problems {
 
-LimitCycle::LimitCycle(FrictionSystem system) : system_(std::move(system)), zeta_scale_(0) {
+LimitCycle::LimitCycle(FrictionSystem system) : system_(std::move(system)) {
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
   for (const Mode& mode : system_.base.modes())
     zeta_scale_ += mode.residue / (mode.frequency * mode.frequency);

@@ -230,11 +230,15 @@ class Decision {
         {"trough", "troughs"},   {"switch", italic("R") + blank + "=" + blank + italic("S")}};
     const Names pair = branch_.at("parameters").get<Names>();
     const std::string type = branch_.at("curve").get<std::string>();
-    // Along a curve the special points are those of the second parameter and of the first as a function of
-    // it.
+    // Along a curve the parameter turns; extrema are those of the first parameter, or on a ridge its
+    // height's.
+    const bool is_ridge = type == "peak" || type == "trough";
+    const std::string height =
+        branch_.contains("extrema_of") ? branch_.at("extrema_of").at(0).get<std::string>() : "Y";
     const std::string second = fmt::format("fold{}in{}{}", blank, blank, symbol(pair.at(1), is_friction_));
     const auto extremum = [&](const char* kind) {
-      return fmt::format("{}{}of{}{}", kind, blank, blank, symbol(pair.at(0), is_friction_));
+      return fmt::format("{}{}of{}{}", kind, blank, blank,
+                         is_ridge ? italic(height) : symbol(pair.at(0), is_friction_));
     };
     const std::string names = quote_all({lines.at(type), "fold", second, "peak", extremum("peak"), "trough",
                                          extremum("trough"), "user", is_requested_ ? "requested" : ""});

@@ -45,7 +45,7 @@ void read_damping(const TomlDocument& document, const TomlSection& section, Syst
     if (key.str() == "kind") {
       const std::string kind = node.value<std::string>().value_or("");
       if (kind != "viscous" && kind != "structural")
-        document.mismatch(node, name, "\"viscous\" or \"structural\", for the base");
+        document.mismatch(node, name, R"("viscous" or "structural", for the base)");
       system.base_damping_kind = kind == "viscous" ? DampingKind::viscous : DampingKind::structural;
       continue;
     }

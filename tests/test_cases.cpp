@@ -1,91 +1,14 @@
-// The case files that come with the program, run as the program runs them, against published answers and
-// second methods.
-
-#include <fmt/format.h>
+// The case files of the library's problems against published answers, and all of them against their
+// equations.
 
 #include <filesystem>
-#include <map>
 #include <numbers>
 
-#include "arcslip/runs.hpp"
-#include "catch.hpp"
+#include "case_runs.hpp"
 #include "library_cases.hpp"
 
 using namespace arcslip;
-using arcslip::testing::of_type;
-using arcslip::testing::omega_of;
-using continuation::BranchPoint;
-using continuation::PointType;
-using continuation::Stop;
-
-namespace {
-
-using Settings = std::vector<std::string>;
-
-/// A case with all that was traced for it.
-struct Run {
-  explicit Run(const std::string& name, const Settings& settings = {})
-      : input(read_case(std::string(ARCSLIP_SOURCE_DIR) + "/problems/" + name + ".toml", settings)) {
-    for (const CaseBranch& request : input.branches) {
-      for (TracedBranch& one : trace(request)) traced.push_back(std::move(one));
-    }
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
-  Case input;
-  std::vector<TracedBranch> traced;
-};
-
-std::vector<BranchPoint> points(const TracedBranch& traced, PointType type) {
-  return of_type(traced.branch, type);
-}
-
-std::size_t count(const TracedBranch& traced, PointType type) { return points(traced, type).size(); }
-
-/// A parameter or an observable by the name that its column has.
-double value(const TracedBranch& traced, const BranchPoint& point, const std::string& name) {
-  const continuation::Problem& problem = traced.problem();
-  const std::vector<std::string> parameters = problem.parameter_names();
-  const auto found = std::find(parameters.begin(), parameters.end(), name);
-  if (found != parameters.end()) return point.parameters(found - parameters.begin());
-  Vector values;
-  problem.observe(point.unknowns, point.parameters, point.regime, values);
-  const auto observables = problem.observables();
-  for (std::size_t i = 0; i < observables.size(); ++i) {
-    if (observables[i].name == name) return values(static_cast<Index>(i));
-  }
-  FAIL("no column " << name);
-  return 0;
-}
-
-/// Largest entry of F at a point of a curve, whose own residual has the curve's conditions, in other units.
-double residual_of_base(const TracedBranch& traced, const BranchPoint& point) {
-  const auto at = traced.curve->split(point.unknowns, point.parameters, point.regime);
-  Vector residual(traced.base->size());
-  if (!traced.base->evaluate(at.unknowns, at.parameters, at.regime, {&residual})) return INFINITY;
-  return residual.lpNorm<Eigen::Infinity>();
-}
-
-constexpr double published = 1e-8;  // relative, for problems that are algebraic
-
-/// The special points of a type, in order, by some of their columns.
-void check(const TracedBranch& traced, PointType type,
-           const std::vector<std::map<std::string, double>>& expected, double tolerance = published) {
-  INFO(to_string(type) << " of " << traced.branch.explanation);
-  const auto found = points(traced, type);
-  REQUIRE(found.size() == expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const auto& [name, number] : expected[i]) {
-      CHECK_THAT(value(traced, found[i], name), WithinRel(number, tolerance) || WithinAbs(number, 1e-12));
-    }
-  }
-}
-
-/// The setting that leaves a case with `for_each` this preload alone.
-std::string preload_of(double preload) { return fmt::format("branch.for_each.preload=[{:.17g}]", preload); }
-
-}  // namespace
+using namespace arcslip::testing;
 
 TEST_CASE("Every case is traced to its end, and every point of it solves its equations", "[cases]") {
   int cases = 0;
@@ -283,38 +206,6 @@ TEST_CASE("Duffing's case has the folds of NLvib's example for every number of h
 
 // ---- Friction ----
 
-TEST_CASE("Preload takes the folds of the rods on hardening springs away", "[cases]") {
-  // The same folds as those of a scan over R in tests/test_friction_folds.cpp.
-  const Run run("cubic_response");
-  REQUIRE(run.traced.size() == 5);
-  check(run.traced[0], PointType::fold, {{{"eta", 5.04621820}}, {{"eta", 4.18805203}}});
-  check(run.traced[1], PointType::fold, {{{"eta", 4.65636307}}, {{"eta", 4.18165880}}});
-  check(run.traced[2], PointType::fold, {{{"eta", 4.17135586}}, {{"eta", 4.14370809}}});
-  for (const int i : {3, 4}) check(run.traced[i], PointType::fold, {});
-}
-
-TEST_CASE("The curve of folds of the rods on springs passes the response's folds and ends them in a cusp",
-          "[cases]") {
-  const Run curve("cubic_fold_curve", {"continuation.stop_at=[0.1, 0.6]"});
-  REQUIRE(curve.traced.size() == 1);
-  std::vector<double> etas;
-  for (const BranchPoint& point : points(curve.traced[0], PointType::user))
-    etas.push_back(value(curve.traced[0], point, "eta"));
-  std::sort(etas.begin(), etas.end());
-  const double expected[] = {4.14370809, 4.17135586, 4.18805203, 5.04621820};
-  REQUIRE(etas.size() == std::size(expected));
-  for (std::size_t i = 0; i < etas.size(); ++i) CHECK_THAT(etas[i], WithinRel(expected[i], published));
-
-  const auto cusps = points(curve.traced[0], PointType::cusp);
-  REQUIRE(cusps.size() == 1);
-  const double preload = value(curve.traced[0], cusps[0], "P");
-  // Near the cusp the folds are as far apart as the distance to it to the power of 3/2: 1e-5 here.
-  for (const double side : {0.999, 1.001}) {
-    const Run response("cubic_response", {preload_of(side * preload)});
-    CHECK(count(response.traced[0], PointType::fold) == (side < 1 ? 2 : 0));
-  }
-}
-
 TEST_CASE("Two points of codimension two that lie within one step are both found", "[cases]") {
   // T <-> -T, U <-> -U is a symmetry of the model: the zero-Hopf points lie at T = -+1.265408341e-4.
   const Run run("lorenz84_hopf_curve", {"branch.from=-0.01"});
@@ -326,86 +217,4 @@ TEST_CASE("Two points of codimension two that lie within one step are both found
   REQUIRE(found.size() == 2);
   CHECK_THAT(std::abs(found[0]), WithinRel(1.265408341e-4, published));
   CHECK_THAT(found[0] + found[1], WithinAbs(0, 1e-10));
-}
-
-TEST_CASE("Beams with negative damping fold four times, as many as the case says", "[cases]") {
-  // As measured, to the digits printed; tests/test_friction_folds.cpp has the scan for such systems.
-  const Run run("negative_damping");
-  check(run.traced[0], PointType::fold,
-        {{{"eta", 3.46962738}}, {{"eta", 3.46833138}}, {{"eta", 4.03550548}}, {{"eta", 3.92175578}}});
-}
-
-TEST_CASE("The limit cycle's case folds at R = 2S, with zeta_B = -k a/(2 pi eta_1^2)", "[cases]") {
-  const Run run("limit_cycle");
-  const FrictionSystem system = build_system(run.input.branches[0].problem.system);
-  const Mode mode = system.base.modes().at(0);
-  const double zeta =
-      -system.contact_stiffness * mode.residue / (2 * std::numbers::pi * mode.frequency * mode.frequency);
-  check(run.traced[0], PointType::fold, {{{"zeta_B", zeta}}}, 1e-12);  // stationary, so that all digits hold
-  check(run.traced[0], PointType::fold, {{{"zeta_B", -0.00505776343777}, {"R_over_S", 2}}});
-}
-
-TEST_CASE("A preload that grows with the speed changes stick and slip where R = S, without folds",
-          "[cases]") {
-  const Run run("speed_preload");
-  check(run.traced[0], PointType::fold, {});
-  check(run.traced[0], PointType::regime_switch,
-        {{{"eta", 3.49013911}}, {{"eta", 3.85596802}}, {{"eta", 93.48341472}}, {{"eta", 93.50124173}}});
-  for (const BranchPoint& point : points(run.traced[0], PointType::regime_switch)) {
-    const double eta = value(run.traced[0], point, "eta");
-    // S = (P + P_2 eta^2) K*/K_FD
-    const double threshold = (0.2 + 0.1 * eta * eta) * 80 / shear_interface_stiffness(33.3, 0.3);
-    CHECK_THAT(value(run.traced[0], point, "R"), WithinRel(threshold, 1e-10));
-  }
-}
-
-TEST_CASE("The ridge's trough is the optimum preload: the peak of the response is higher on either side",
-          "[cases]") {
-  const Run ridge("ridge");
-  REQUIRE(ridge.traced.size() == 3);
-  const auto troughs = points(ridge.traced[1], PointType::trough);
-  REQUIRE(troughs.size() == 1);
-  const double preload = value(ridge.traced[1], troughs[0], "P");
-  const double least = value(ridge.traced[1], troughs[0], "Y");
-  const auto highest = [](double at) {
-    const Run response("figure_8", {preload_of(at)});
-    double best = 0;
-    for (const BranchPoint& peak : points(response.traced[0], PointType::peak))
-      best = std::max(best, value(response.traced[0], peak, "Y"));
-    return best;
-  };
-  CHECK_THAT(highest(preload), WithinRel(least, published));
-  CHECK(highest(0.999 * preload) > least);
-  CHECK(highest(1.001 * preload) > least);
-}
-
-TEST_CASE("Where a ridge turns over the preload the response has one peak more or fewer", "[cases]") {
-  const Run ridge("ridge");
-  const auto folds = points(ridge.traced[1], PointType::fold);
-  REQUIRE(folds.size() == 1);
-  const double preload = value(ridge.traced[1], folds[0], "P");
-  const auto peaks = [&](double side) {
-    const Run response("figure_8", {preload_of(side * preload)});
-    return count(response.traced[0], PointType::peak);
-  };
-  CHECK(peaks(0.999) == peaks(1.001) + 1);
-}
-
-TEST_CASE("Where the border of stick turns over the preload the response has two switches more or fewer",
-          "[cases]") {
-  const Run border("border");
-  REQUIRE(border.traced.size() == 3);
-  const auto folds = points(border.traced[1], PointType::fold);
-  REQUIRE(folds.size() == 1);
-  const double preload = value(border.traced[1], folds[0], "P");
-  const auto switches = [&](double side) {
-    const Run response("figure_8", {preload_of(side * preload)});
-    return count(response.traced[0], PointType::regime_switch);
-  };
-  CHECK(switches(0.999) == 1);
-  CHECK(switches(1.001) == 3);
-  for (const TracedBranch& one : border.traced) {
-    for (const BranchPoint& point : one.branch.points)
-      CHECK_THAT(value(one, point, "R_over_S"), WithinRel(1, 1e-9));
-  }
 }

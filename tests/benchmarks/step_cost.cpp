@@ -95,7 +95,8 @@ Cost cost_of_work(const Problem& problem, const Branch& branch, int runs) {
   const Vector scale = Vector::Ones(n);
   Vector x(n + 1);
   const std::size_t stride = 1 + branch.points.size() / (n < 50000 ? 200 : 8);
-  const auto count = static_cast<double>((branch.points.size() + stride - 1) / stride);
+  const std::size_t visited = (branch.points.size() + stride - 1) / stride;
+  const auto count = static_cast<double>(visited);
   const auto over_points = [&](bool factor) {
     for (std::size_t i = 0; i < branch.points.size(); i += stride) {
       const BranchPoint& point = branch.points[i];

@@ -17,6 +17,8 @@ namespace arcslip::continuation {
 class BorderedSolver {
  public:
   virtual ~BorderedSolver() = default;
+  BorderedSolver(const BorderedSolver&) = delete;
+  BorderedSolver& operator=(const BorderedSolver&) = delete;
 
   Index size() const { return rows_.cols(); }
   Index borders() const { return rows_.rows(); }
@@ -41,8 +43,6 @@ class BorderedSolver {
 
  protected:
   BorderedSolver(Index size, Index borders);
-  BorderedSolver(const BorderedSolver&) = delete;
-  BorderedSolver& operator=(const BorderedSolver&) = delete;
 
  private:
   Matrix columns_;

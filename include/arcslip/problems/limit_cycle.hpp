@@ -75,7 +75,7 @@ class LimitCycle : public continuation::Problem {
   bool find(double resonance, double zeta_value, Size size, Cycle& found) const;
 
   FrictionSystem system_;
-  double zeta_scale_;
+  double zeta_scale_ = 0;
 };
 
 }  // namespace arcslip::problems
