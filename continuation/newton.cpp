@@ -36,23 +36,23 @@ class Newton {
     double length = last;
     while (true) {
       if (!at_.evaluate(solution.unknowns, guess.parameters, guess.regime))
-        return failed(solution, Correction::cannot_evaluate);
+        return ended(solution, Correction::cannot_evaluate);
       solution.residual = at_.residual().lpNorm<Eigen::Infinity>();
       problem_.scale(solution.unknowns, guess.parameters, scale_, parameter_scale_);
       const bool stagnant = solution.residual >= 0.5 * last || solution.residual == 0;
       const bool good =
           solution.residual <= options_.tolerance || solution.residual <= level(solution.unknowns);
-      if (good && length <= 1e-6 && stagnant) return failed(solution, Correction::converged);
+      if (good && length <= 1e-6 && stagnant) return ended(solution, Correction::converged);
       if (solution.iterations >= options_.max_iterations)
-        return failed(solution,
-                      good && length <= 1e-6 ? Correction::converged : Correction::too_many_iterations);
+        return ended(solution,
+                     good && length <= 1e-6 ? Correction::converged : Correction::too_many_iterations);
       last = solution.residual;
-      if (!correct(solution, guess, known, length)) return failed(solution, Correction::singular);
+      if (!correct(solution, guess, known, length)) return ended(solution, Correction::singular);
     }
   }
 
  private:
-  static Solution failed(Solution& solution, Correction outcome) {
+  static Solution ended(Solution& solution, Correction outcome) {
     solution.outcome = outcome;
     return std::move(solution);
   }

@@ -46,10 +46,12 @@ struct TraceOptions {
   std::vector<std::string> extrema_of;  ///< observables whose extrema become `peak` and `trough` points
   std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
   std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
-  double tolerance = 1e-10;             ///< on the largest entry of F
-  double max_step = 0.1;                ///< largest step, in scaled arclength
-  double min_step = 1e-10;              ///< smallest step; a branch that asks for less has ended
-  long max_points = 100000;             ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
+  /// On the largest entry of F and on the correction that is left, in the problem's scale. Of a problem whose
+  /// F is in units in which its terms are above 1e3, relative to these.
+  double tolerance = 1e-10;
+  double max_step = 0.1;     ///< largest step, in scaled arclength
+  double min_step = 1e-10;   ///< smallest step; a branch that asks for less has ended
+  long max_points = 100000;  ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock
   double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
 };
