@@ -338,6 +338,12 @@ TEST_CASE("What goes beyond a forced response is read from a case file") {
   CHECK(model.resolved["system"]["lambda"] == 0);
 }
 
+TEST_CASE("All solutions are looked for at a value that is given") {
+  CHECK_THAT(error_of(good + "all_solutions = true\n"),
+             ContainsSubstring("branch.start: missing; expected the value of the parameter"));
+  CHECK(read_text(good + "start = 3\nall_solutions = true\n").branches[0].all_solutions);
+}
+
 TEST_CASE("A case without a section, and a file that cannot be read, are refused") {
   CHECK_THAT(error_of("title = \"nothing\"\n"), ContainsSubstring("expected a section [branch]"));
   CHECK_THAT(error_of(good.substr(good.find("[branch]"))), ContainsSubstring("expected a section [system]"));

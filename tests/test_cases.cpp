@@ -93,6 +93,16 @@ TEST_CASE("The enzyme's case has the folds and branch points of AUTO's demo enz 
   CHECK(seen == 4);
 }
 
+TEST_CASE("From all solutions at a value the enzyme's closed branch is found without its branch points",
+          "[cases]") {
+  const Run run("enz", {"branch.switching=false", "branch.start=24", "branch.all_solutions=true"});
+  REQUIRE(run.traced.size() == 2);  // of the five solutions three lie on the first branch
+  CHECK(count(run.traced[0], PointType::user) + count(run.traced[0], PointType::start) == 3);
+  CHECK(run.traced[1].branch.stop == Stop::closed_loop);
+  CHECK(count(run.traced[1], PointType::fold) == 4);
+  for (const BranchPoint& point : points(run.traced[1], PointType::user)) CHECK(point.parameters(0) == 24);
+}
+
 TEST_CASE("The predator's case has the points of AUTO's demo pp2 on all its branches", "[cases]") {
   const Run run("pp2");
   REQUIRE(run.traced.size() == 5);
