@@ -1,5 +1,6 @@
 #include "arcslip/continuation/bordered_solver.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "arcslip/continuation/dense_bordered_solver.hpp"
@@ -18,6 +19,21 @@ void BorderedSolver::set_jacobian(const Matrix& /*jacobian*/, const Vector& /*co
 
 void BorderedSolver::set_jacobian(const SparseMatrix& /*jacobian*/, const Vector& /*column_scale*/) {
   throw std::logic_error("set_jacobian: a dense solver was given a sparse Jacobian");
+}
+
+double BorderedSolver::permutation_sign(const int* image, std::vector<char>& seen) {
+  std::fill(seen.begin(), seen.end(), char{0});
+  double sign = 1;
+  for (std::size_t start = 0; start < seen.size(); ++start) {
+    if (seen[start] != 0) continue;
+    // A cycle of length l has the sign (-1)^(l - 1).
+    for (auto i = static_cast<std::size_t>(image[start]); i != start;
+         i = static_cast<std::size_t>(image[i])) {
+      seen[i] = 1;
+      sign = -sign;
+    }
+  }
+  return sign;
 }
 
 std::unique_ptr<BorderedSolver> make_bordered_solver(Index size, Index borders, bool sparse) {

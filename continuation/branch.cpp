@@ -21,4 +21,9 @@ std::string_view to_string(Stop stop) {
   return "";
 }
 
+bool is_end(Stop stop) {
+  return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
+         stop == Stop::requested || stop == Stop::left_regime;
+}
+
 }  // namespace arcslip::continuation

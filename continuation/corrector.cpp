@@ -96,13 +96,10 @@ double Corrector::rounding_level(const CurvePoint& point) {
   return 4 * epsilon * (1 + all);
 }
 
-/// The next correction and its length; with `held` without a change along the normal.
-double Corrector::solve_correction(const CurvePoint& point, const CurvePoint& origin, const Vector& normal,
-                                   double distance, bool held) {
-  difference(point, origin, correction_);
-  const double gap = held ? 0 : distance - normal.dot(correction_);
+/// The correction that changes the condition by `change`, and its length.
+double Corrector::solve_correction(double change) {
   correction_.head(size_) = -linearization_.residual();
-  correction_(size_) = gap;
+  correction_(size_) = change;
   solver_->solve(correction_);
   return correction_.norm();
 }
@@ -114,12 +111,17 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
   bool held = false;
   double last_length = 0;
   double last_residual = std::numeric_limits<double>::infinity();
+  const auto gap = [&] {
+    if (held) return 0.0;
+    difference(point, origin, correction_);
+    return distance - normal.dot(correction_);
+  };
   while (true) {
     if (!evaluate(point)) return Correction::cannot_evaluate;
     if (!factor(origin.scale, normal)) return Correction::singular;
     const bool last = point.iterations >= options_.max_iterations;
     const bool stagnant = point.residual >= 0.5 * last_residual;
-    double length = solve_correction(point, origin, normal, distance, held);
+    double length = solve_correction(gap());
     // The correction that is left, too, since the residual is in units of the problem's.
     const bool good = point.residual <= tolerance_ && (stagnant || length <= options_.tolerance);
     const bool rounded = !good && (stagnant || (!to_rounding && length <= options_.tolerance)) &&
@@ -132,7 +134,7 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     held = held || rounded;  // keep the parameter, whose rounding is what is left, and correct the unknowns
     if (held) {
       if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
-      length = solve_correction(point, origin, normal, distance, held);
+      length = solve_correction(gap());
     }
     if (!std::isfinite(length)) return Correction::singular;
     // A ratio of two roundings does not count, unless it is too small to shorten a step.
@@ -152,10 +154,7 @@ Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, 
                                    double change) {
   if (!evaluate(point)) return Correction::cannot_evaluate;
   if (!factor(origin.scale, normal)) return Correction::singular;
-  correction_.head(size_) = -linearization_.residual();
-  correction_(size_) = change;
-  solver_->solve(correction_);
-  if (!correction_.allFinite()) return Correction::singular;
+  if (!std::isfinite(solve_correction(change))) return Correction::singular;
   apply(point, origin);
   return Correction::converged;
 }

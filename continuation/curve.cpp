@@ -31,12 +31,6 @@ int nearest_border(const Problem& base, const BranchPoint& point) {
   return nearest;
 }
 
-Index observable_index(const Problem& base, const std::string& name) {
-  std::vector<std::string> names;
-  for (const Observable& observable : base.observables()) names.push_back(observable.name);
-  return index_of(names, name);
-}
-
 /// omega^2 of the pair that is nearest to the imaginary axis.
 double kappa_of(const ComplexVector& eigenvalues) {
   double kappa = 0;
@@ -48,9 +42,6 @@ double kappa_of(const ComplexVector& eigenvalues) {
   }
   return kappa;
 }
-
-/// Whether a branch ended where a curve may end.
-bool ended(const Branch& branch) { return branch.complete() || branch.stop == Stop::left_regime; }
 
 /// A half of the curve: the borders of its conditions follow it.
 Branch trace_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
@@ -87,7 +78,8 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
       break;
     case PointType::peak:
     case PointType::trough:
-      start.problem = std::make_unique<ExtremumProblem>(base, parameter, observable_index(base, observable));
+      start.problem =
+          std::make_unique<ExtremumProblem>(base, parameter, index_of(observable_names(base), observable));
       break;
     case PointType::regime_switch:
     case PointType::corner_fold:
@@ -128,7 +120,7 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
     return second;
   Branch first = trace_half(problem, guess, false, bounded, observer);
   // The reason that is told is the one that a user has to know.
-  const bool first_matters = ended(second) && !ended(first);
+  const bool first_matters = is_end(second.stop) && !is_end(first.stop);
   const std::string explanation = first.explanation;
   Branch whole = join(std::move(first), std::move(second));
   if (first_matters) {

@@ -16,7 +16,8 @@ DenseBorderedSolver::DenseBorderedSolver(Index size, Index borders)
       factors_(matrix_),
       pivots_(static_cast<std::size_t>(size + borders)),
       lu_(small() ? 1 : size + borders),
-      solution_(size + borders) {}
+      solution_(size + borders),
+      seen_(small() ? 0 : static_cast<std::size_t>(size + borders)) {}
 
 void DenseBorderedSolver::set_jacobian(const Matrix& jacobian, const Vector& column_scale) {
   const Index n = size();
@@ -40,7 +41,7 @@ double DenseBorderedSolver::factor() {
   set_borders();
   if (small()) return factor_small();
   lu_.compute(matrix_);
-  double sign = permutation_sign();
+  double sign = permutation_sign(lu_.permutationP().indices().data(), seen_);
   for (const double pivot : lu_.matrixLU().diagonal()) sign *= std::isfinite(pivot) ? sign_of(pivot) : 0;
   return sign;
 }
@@ -101,20 +102,6 @@ void DenseBorderedSolver::solve_transposed(Vector& right_hand_side) {
     solution_.noalias() = lu_.permutationP().inverse() * x;
     x = solution_;
   }
-}
-
-double DenseBorderedSolver::permutation_sign() {
-  const auto& image = lu_.permutationP().indices();
-  solution_.setZero();  // marks what has been seen
-  double sign = 1;
-  for (Index start = 0; start < image.size(); ++start) {
-    for (Index i = image(start); i != start && solution_(start) == 0;
-         i = image(i)) {  // a cycle of length l: l - 1
-      solution_(i) = 1;
-      sign = -sign;
-    }
-  }
-  return sign;
 }
 
 }  // namespace arcslip::continuation

@@ -51,6 +51,12 @@ std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, dou
   return {};
 }
 
+std::vector<std::string> observable_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const Observable& observable : problem.observables()) names.push_back(observable.name);
+  return names;
+}
+
 Index index_of(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {

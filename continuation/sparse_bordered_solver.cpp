@@ -17,22 +17,6 @@ constexpr double exact_enough = 1e-8;   // of a correction: its square is below 
 constexpr int most_refinements = 4;
 constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
 
-/// The sign of a permutation; `seen` is work space.
-double permutation_sign(const int* image, std::vector<char>& seen) {
-  std::fill(seen.begin(), seen.end(), char{0});
-  double sign = 1;
-  for (std::size_t start = 0; start < seen.size(); ++start) {
-    if (seen[start] != 0) continue;
-    // A cycle of length l has the sign (-1)^(l - 1).
-    for (auto i = static_cast<std::size_t>(image[start]); i != start;
-         i = static_cast<std::size_t>(image[i])) {
-      seen[i] = 1;
-      sign = -sign;
-    }
-  }
-  return sign;
-}
-
 }  // namespace
 
 /// Owns what KLU allocates.

@@ -14,9 +14,7 @@ constexpr double rounding = 1e-13;
 
 std::vector<Index> tracked_observables(const Problem& problem, const TraceOptions& options) {
   const std::vector<Observable> observables = problem.observables();
-  std::vector<std::string> names;
-  names.reserve(observables.size());
-  for (const Observable& observable : observables) names.push_back(observable.name);
+  const std::vector<std::string> names = observable_names(problem);
   std::vector<Index> tracked;
   for (const std::string& name : options.extrema_of) {
     tracked.push_back(index_of(names, name));

@@ -81,23 +81,20 @@ std::vector<continuation::Observable> ContactProblem::observables() const {
   return {{"R"}, {"S"}, {"R_over_S"}, {"Y", true}, {"U"}, {"beta"}, {"alpha"}, {"psi"}, {"dissipated"}};
 }
 
-void ContactProblem::observe_motion(double log_R, Complex r, const Vector& p, int regime,
+void ContactProblem::observe_motion(const State& at, double log_R, Complex r, const Vector& p, int regime,
                                     Vector& values) const {
-  const double log_ratio = log_R - log_threshold(p).value;
-  const Complex force = system_.contact_stiffness * coefficient(log_ratio, regime).phi;  // k phi
-  const Complex compliance = system_.damper.at(p(eta)).compliance;
-  const Complex y = -r * (1.0 + force * compliance);
-  const Complex motion = -r * force * compliance;  // u of the damper
+  const Complex y = -r * (1.0 + at.force * at.damper.compliance);
+  const Complex motion = -r * at.force * at.damper.compliance;  // u of the damper
   values.resize(9);
   values(R) = std::exp(log_R);
   values(S) = system_.slip_threshold(p(eta), p(preload));
-  values(R_over_S) = std::exp(log_ratio);
+  values(R_over_S) = std::exp(at.log_ratio);
   values(Y) = values(R) * std::abs(y / r);
   values(U) = values(R) * std::abs(motion / r);
   values(beta) = lag(y);
   values(alpha) = lag(motion);
   values(psi) = lag(r);
-  values(dissipated) = regime == slip ? dissipated_energy(log_ratio) : 0;
+  values(dissipated) = regime == slip ? dissipated_energy(at.log_ratio) : 0;
 }
 
 std::vector<double> ContactProblem::landmarks(Index parameter, double from, double to) const {

@@ -7,16 +7,16 @@
 
 namespace arcslip::problems {
 
+double CubicResponse::spring(const Vector& u) const {
+  return 0.75 * system_.cubic_stiffness * std::exp(2 * u(1));
+}
+
 bool CubicResponse::evaluate(const Vector& u, const Vector& p, int regime,
                              const continuation::Evaluation& out) const {
   if (!has_value(p)) return false;
-  const ContactResponse base = system_.base.at(p(eta));
-  const ContactResponse damper = system_.damper.at(p(eta));
-  const LogThreshold threshold = log_threshold(p);
-  const HarmonicCoefficient law = coefficient(u(0) - threshold.value, regime);
+  const auto [base, damper, threshold, log_ratio, law, force] = state(u(0), p, regime);
   const BaseAmplitude amplitude = base_amplitude(system_, damper, law, threshold);
-  const Complex force = system_.contact_stiffness * law.phi;  // k phi
-  const double kappa = 0.75 * system_.cubic_stiffness * std::exp(2 * u(1));
+  const double kappa = spring(u);
   const Complex q = 1.0 + force * damper.compliance;
   const Complex sprung = 1.0 + kappa * base.compliance;
   const Complex closed = q * sprung + force * base.compliance;
@@ -36,23 +36,19 @@ bool CubicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   if (out.parameter_jacobian != nullptr) {
     const Complex closed_eta =
         force * damper.compliance_eta * sprung + (q * kappa + force) * base.compliance_eta;
-    const double free_eta = std::real(base.free_eta * std::conj(base.free)) / std::norm(base.free);
     *out.parameter_jacobian << -amplitude.by_eta, -amplitude.by_preload,
-        std::real(gain * closed_eta) - free_eta - by_ratio * threshold.by_eta,
+        std::real(gain * closed_eta) - log_free_by_eta(base) - by_ratio * threshold.by_eta,
         -by_ratio * threshold.by_preload;
   }
   return true;
 }
 
 void CubicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  const ContactResponse base = system_.base.at(p(eta));
-  const ContactResponse damper = system_.damper.at(p(eta));
-  const HarmonicCoefficient law = coefficient(u(0) - log_threshold(p).value, regime);
-  const Complex force = system_.contact_stiffness * law.phi;  // k phi
-  const double kappa = 0.75 * system_.cubic_stiffness * std::exp(2 * u(1));
-  const Complex q = 1.0 + force * damper.compliance;
-  const Complex r = -base.free / (q * (1.0 + kappa * base.compliance) + force * base.compliance);
-  observe_motion(u(0), r, p, regime, values);
+  const State at = state(u(0), p, regime);
+  const Complex c_B = at.base.compliance;
+  const Complex q = 1.0 + at.force * at.damper.compliance;
+  const Complex r = -at.base.free / (q * (1.0 + spring(u) * c_B) + at.force * c_B);
+  observe_motion(at, u(0), r, p, regime, values);
 }
 
 double CubicResponse::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,

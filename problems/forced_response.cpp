@@ -9,37 +9,29 @@ namespace arcslip::problems {
 bool ForcedResponse::evaluate(const Vector& u, const Vector& p, int regime,
                               const continuation::Evaluation& out) const {
   if (!has_value(p)) return false;
-  const ContactResponse base = system_.base.at(p(eta));
-  const ContactResponse damper = system_.damper.at(p(eta));
-  const LogThreshold threshold = log_threshold(p);
-  const HarmonicCoefficient law = coefficient(u(0) - threshold.value, regime);
-  const double k = system_.contact_stiffness;
+  const auto [base, damper, threshold, log_ratio, law, force] = state(u(0), p, regime);
   const Complex c = base.compliance + damper.compliance;
-  const Complex closed = 1.0 + k * law.phi * c;
+  const Complex closed = 1.0 + force * c;
 
   if (out.residual != nullptr)
     (*out.residual)(0) = u(0) + 0.5 * std::log(std::norm(closed) / std::norm(base.free));
   if (out.jacobian == nullptr && out.parameter_jacobian == nullptr) return true;
-  const Complex gain = k * std::conj(closed) / std::norm(closed);
+  const Complex gain = system_.contact_stiffness * std::conj(closed) / std::norm(closed);
   const double by_ratio = std::real(gain * c * law.phi_log);  // dg/d ln(R/S) through phi
   if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1 + by_ratio;
   if (out.parameter_jacobian != nullptr) {
     const Complex c_eta = base.compliance_eta + damper.compliance_eta;
-    const double free_eta = std::real(base.free_eta * std::conj(base.free)) / std::norm(base.free);
     (*out.parameter_jacobian)(0, eta) =
-        std::real(gain * law.phi * c_eta) - free_eta - by_ratio * threshold.by_eta;
+        std::real(gain * law.phi * c_eta) - log_free_by_eta(base) - by_ratio * threshold.by_eta;
     (*out.parameter_jacobian)(0, preload) = -by_ratio * threshold.by_preload;
   }
   return true;
 }
 
 void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  const ContactResponse base = system_.base.at(p(eta));
-  const ContactResponse damper = system_.damper.at(p(eta));
-  const HarmonicCoefficient law = coefficient(u(0) - log_threshold(p).value, regime);
-  const Complex force = system_.contact_stiffness * law.phi;  // k phi
-  const Complex r = -base.free / (1.0 + force * (base.compliance + damper.compliance));
-  observe_motion(u(0), r, p, regime, values);
+  const State at = state(u(0), p, regime);
+  const Complex r = -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
+  observe_motion(at, u(0), r, p, regime, values);
 }
 
 double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,

@@ -259,19 +259,6 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
   }
 }
 
-/// The value of a parameter that the problem is built with.
-double fixed_value(const ProblemRequest& problem, const std::string& parameter) {
-  if (problem.model == nullptr) {
-    return parameter == "P"     ? problem.system.preload
-           : parameter == "eta" ? problem.eta
-                                : problem.system.base_damping;
-  }
-  for (std::size_t i = 0; i < problem.settings.size(); ++i) {
-    if (problem.model->settings[i].name == parameter) return problem.settings[i];
-  }
-  return 0;
-}
-
 }  // namespace
 
 Case read_case(const std::string& path, const std::vector<std::string>& settings) {

@@ -38,13 +38,8 @@ std::string describe(const ProblemRequest& problem) {
 std::string fixed(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "";
-  const bool over_preload = branch.options.parameter == "P";
-  if (problem.limit_cycle) {
-    return over_preload ? fmt::format(" at zeta_B = {:g}", problem.system.base_damping)
-                        : fmt::format(" at P = {:g}", problem.system.preload);
-  }
-  return over_preload ? fmt::format(" at eta = {:g}", problem.eta)
-                      : fmt::format(" at P = {:g}", problem.system.preload);
+  const char* other = branch.options.parameter != "P" ? "P" : problem.limit_cycle ? "zeta_B" : "eta";
+  return fmt::format(" at {} = {:g}", other, fixed_value(problem, other));
 }
 
 std::string describe(const CaseBranch& branch) {
@@ -87,15 +82,7 @@ std::map<int, std::vector<const continuation::BranchPoint*>> points_inside(const
 /// Infinite if there is no point.
 continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
   constexpr std::size_t places = 7;
-  CaseBranch plain = request;
-  if (request.curve) {
-    plain.options.parameter = request.curve->active;
-    plain.options.from = request.curve->from;
-    plain.options.to = request.curve->to;
-    plain.options.stop_at.clear();
-    plain.options.stop_after.clear();
-    plain.curve.reset();
-  }
+  const CaseBranch plain = request.curve ? seed_branch(request) : request;
   const std::vector<TracedBranch> traced = trace(plain);
   continuation::DerivativeReport worst{std::numeric_limits<double>::infinity(), "for want of a point"};
   bool first = true;

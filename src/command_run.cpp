@@ -77,11 +77,6 @@ std::vector<TracedBranch> trace_all(const Case& input, bool quiet) {
 /// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
 /// as good as any, and of a branch traced both ways both parts must have one.
 std::string complaint(const continuation::Branch& branch) {
-  const auto is_end = [](continuation::Stop stop) {
-    continuation::Branch ended;
-    ended.stop = stop;
-    return ended.complete() || stop == continuation::Stop::left_regime;
-  };
   if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
   if (branch.first_stop && !is_end(*branch.first_stop))
     return fmt::format("{}: this ended the part before the start", to_string(*branch.first_stop));

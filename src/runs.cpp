@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <type_traits>
 
 #include "arcslip/continuation/newton.hpp"
 #include "arcslip/continuation/switching.hpp"
@@ -42,19 +43,24 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
   return guessed(problem, [&] { return request.model->guess(*problem, settings); });
 }
 
-template <class Response>
-Subject build_response(const ProblemRequest& request, const std::string& parameter, double value) {
-  const auto problem = std::make_shared<Response>(build_system(request.system));
-  const double eta = parameter == "eta" ? value : request.eta;
-  const double preload = parameter == "P" ? value : request.system.preload;
-  return guessed(problem, [&] { return problem->guess(eta, preload); });
+/// Calls `use` with the type of the problem of a system with friction.
+template <class Use>
+auto with_type(const ProblemRequest& request, const Use& use) {
+  if (request.limit_cycle) return use(std::type_identity<problems::LimitCycle>{});
+  if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
+  return use(std::type_identity<problems::ForcedResponse>{});
 }
 
-Subject build_cycle(const ProblemRequest& request, const std::string& parameter, double value) {
-  const auto problem = std::make_shared<problems::LimitCycle>(build_system(request.system));
-  const double zeta = parameter == "zeta_B" ? value : request.system.base_damping;
-  const double preload = parameter == "P" ? value : request.system.preload;
-  return guessed(problem, [&] { return problem->guess(zeta, preload); });
+Subject build_friction(const ProblemRequest& request, const std::string& parameter, double value) {
+  const auto value_of = [&](const std::string& name) {
+    return name == parameter ? value : fixed_value(request, name);
+  };
+  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
+    const auto problem = std::make_shared<Type>(build_system(request.system));
+    return guessed(problem, [&] {
+      return problem->guess(value_of(request.limit_cycle ? "zeta_B" : "eta"), value_of("P"));
+    });
+  });
 }
 
 TracedBranch unstarted(const CaseBranch& request, const Subject& subject, const std::string& why) {
@@ -125,13 +131,7 @@ bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
 std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject& subject,
                                        const continuation::Observer& observer) {
   const CurveRequest& asked = *request.curve;
-  continuation::TraceOptions along = request.options;
-  along.parameter = asked.active;
-  along.from = asked.from;
-  along.to = asked.to;
-  along.stop_at.clear();
-  along.stop_after.clear();
-  const Branch seeds = continuation::trace(*subject.problem, subject.guess, along);
+  const Branch seeds = continuation::trace(*subject.problem, subject.guess, seed_branch(request).options);
 
   continuation::TraceOptions options = request.options;
   const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
@@ -171,12 +171,10 @@ std::vector<std::string> tracked_observables(const ProblemRequest& request) {
   std::unique_ptr<const continuation::Problem> problem;
   if (request.model != nullptr) {
     problem = request.model->build(request.settings);
-  } else if (request.limit_cycle) {
-    problem = std::make_unique<problems::LimitCycle>(build_system(request.system));
-  } else if (request.system.cubic_stiffness != 0) {
-    problem = std::make_unique<problems::CubicResponse>(build_system(request.system));
   } else {
-    problem = std::make_unique<problems::ForcedResponse>(build_system(request.system));
+    with_type(request, [&]<class Type>(std::type_identity<Type>) {
+      problem = std::make_unique<Type>(build_system(request.system));
+    });
   }
   std::vector<std::string> names;
   for (const continuation::Observable& observable : problem->observables()) {
@@ -185,19 +183,39 @@ std::vector<std::string> tracked_observables(const ProblemRequest& request) {
   return names;
 }
 
+double fixed_value(const ProblemRequest& problem, const std::string& parameter) {
+  if (problem.model == nullptr) {
+    return parameter == "P"     ? problem.system.preload
+           : parameter == "eta" ? problem.eta
+                                : problem.system.base_damping;
+  }
+  for (std::size_t i = 0; i < problem.settings.size(); ++i) {
+    if (problem.model->settings[i].name == parameter) return problem.settings[i];
+  }
+  return 0;
+}
+
 Subject build(const ProblemRequest& request, const std::string& parameter, double value) {
-  if (request.model != nullptr) return build_library(request, parameter, value);
-  if (request.limit_cycle) return build_cycle(request, parameter, value);
-  if (request.system.cubic_stiffness != 0)
-    return build_response<problems::CubicResponse>(request, parameter, value);
-  return build_response<problems::ForcedResponse>(request, parameter, value);
+  return request.model != nullptr ? build_library(request, parameter, value)
+                                  : build_friction(request, parameter, value);
+}
+
+CaseBranch seed_branch(const CaseBranch& request) {
+  CaseBranch seeds = request;
+  seeds.options.parameter = request.curve->active;
+  seeds.options.from = request.curve->from;
+  seeds.options.to = request.curve->to;
+  seeds.options.stop_at.clear();
+  seeds.options.stop_after.clear();
+  seeds.curve.reset();
+  return seeds;
 }
 
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
-  const Subject subject = request.curve ? build(request.problem, request.curve->active, request.curve->from)
-                                        : build(request.problem, request.options.parameter,
-                                                request.start.value_or(request.options.from));
+  const CaseBranch first = request.curve ? seed_branch(request) : request;
+  const Subject subject =
+      build(first.problem, first.options.parameter, first.start.value_or(first.options.from));
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
   if (request.curve) return trace_curves(request, subject, observer);
   std::vector<TracedBranch> traced = trace_branches(request, subject, observer);

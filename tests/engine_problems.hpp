@@ -91,7 +91,7 @@ class Corner : public Problem {
     const double sign = regime == 0 ? 1 : -1;
     if (gradient != nullptr) {
       gradient->unknowns(0) = sign;
-      gradient->parameters(0) = 0;
+      gradient->parameters.setZero();
     }
     return sign * u(0);
   }

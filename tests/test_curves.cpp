@@ -7,6 +7,7 @@
 #include "arcslip/continuation/border_problem.hpp"
 #include "arcslip/continuation/fold_problem.hpp"
 #include "catch.hpp"
+#include "engine_problems.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
@@ -62,25 +63,16 @@ class TwoOscillators : public Problem {
 };
 
 /// u = p - q^2 with a border at u = 0.
-class Parabola : public ScalarProblem {
+class Parabola : public Corner {
  public:
-  Parabola()
-      : ScalarProblem(
-            {"p", "q"}, [](double u, const Vector& p) { return u - p(0) + p(1) * p(1); },
-            [](double, const Vector&) { return 1.0; },
-            {[](double, const Vector&) { return -1.0; }, [](double, const Vector& p) { return 2 * p(1); }}) {}
-  std::vector<std::string> regime_names() const override { return {"below", "above"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/,
-                Gradient* gradient) const override {
-    const double sign = regime == 0 ? 1 : -1;
-    if (gradient != nullptr) {
-      gradient->unknowns(0) = sign;
-      gradient->parameters.setZero();
-    }
-    return sign * u(0);
+  Parabola() : Corner(1, 1) {}
+  std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    if (out.residual != nullptr) (*out.residual)(0) = u(0) - p(0) + p(1) * p(1);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << -1, 2 * p(1);
+    return true;
   }
-  int regime_beyond(int regime, int /*border*/) const override { return 1 - regime; }
 };
 
 /// The points of a curve as points of the base.

@@ -22,11 +22,9 @@ ScalarProblem graph(std::function<double(double)> f, std::function<double(double
 
 /// Regime 0 (x < 0): p = -x^2 + 2 gap x, a fold at x = gap beyond the border x = 0 for gap > 0, before it for
 /// gap < 0. Regime 1 (x > 0): p = slope x.
-class CornerNextToFold : public Problem {
+class CornerNextToFold : public Corner {
  public:
-  CornerNextToFold(double gap, double slope) : gap_(gap), slope_(slope) {}
-  Index size() const override { return 1; }
-  std::vector<std::string> parameter_names() const override { return {"p"}; }
+  CornerNextToFold(double gap, double slope) : Corner(0, slope), gap_(gap), slope_(slope) {}
   bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
     const double x = u(0);
     if (out.residual != nullptr)
@@ -35,18 +33,6 @@ class CornerNextToFold : public Problem {
     if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = 1;
     return true;
   }
-  std::vector<std::string> regime_names() const override { return {"left", "right"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/,
-                Gradient* gradient) const override {
-    const double sign = regime == 0 ? 1 : -1;
-    if (gradient != nullptr) {
-      gradient->unknowns(0) = sign;
-      gradient->parameters(0) = 0;
-    }
-    return sign * u(0);
-  }
-  int regime_beyond(int regime, int /*border*/) const override { return 1 - regime; }
 
  private:
   double gap_, slope_;

@@ -22,6 +22,12 @@ struct Subject {
 /// The observables of which `extrema_of` may ask for the extrema.
 std::vector<std::string> tracked_observables(const ProblemRequest& request);
 
+/// The value of a parameter that is not continued.
+double fixed_value(const ProblemRequest& problem, const std::string& parameter);
+
+/// The branch over a curve's first parameter on which its first points are looked for.
+CaseBranch seed_branch(const CaseBranch& request);
+
 /// Builds the problem, with a guess where `parameter` has this value and all else is as requested.
 Subject build(const ProblemRequest& request, const std::string& parameter, double value);
 

@@ -8,6 +8,7 @@
 // with J n x n, dense or sparse, and a few borders, factored whole, so that J itself may be singular.
 
 #include <memory>
+#include <vector>
 
 #include "arcslip/types.hpp"
 
@@ -43,6 +44,9 @@ class BorderedSolver {
 
  protected:
   BorderedSolver(Index size, Index borders);
+
+  /// Sign of the permutation i -> image[i] of as many numbers as `seen`, which is work space.
+  static double permutation_sign(const int* image, std::vector<char>& seen);
 
  private:
   Matrix columns_;

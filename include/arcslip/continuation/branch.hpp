@@ -46,6 +46,9 @@ enum class Stop {
 /// As written to files: `reached_end`, `left_range`, and so on.
 std::string_view to_string(Stop stop);
 
+/// Whether a branch that stops so has come to an end of its own or to one that was asked for.
+bool is_end(Stop stop);
+
 struct Branch {
   std::vector<BranchPoint> points;  ///< in the order traced
   Stop stop = Stop::no_start;
@@ -58,10 +61,7 @@ struct Branch {
 
   /// Whether the branch was traced to its end: out of the range at either side, back to its start as a closed
   /// loop, or as far as `stop_after` asked.
-  bool complete() const {
-    return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
-           stop == Stop::requested;
-  }
+  bool complete() const { return is_end(stop) && stop != Stop::left_regime; }
 };
 
 }  // namespace arcslip::continuation

@@ -98,8 +98,7 @@ class Corrector {
   bool evaluate(CurvePoint& point);
   bool factor(const Vector& scale, const Vector& normal);
   bool solve_direction();
-  double solve_correction(const CurvePoint& point, const CurvePoint& origin, const Vector& normal,
-                          double distance, bool held);
+  double solve_correction(double change);
   void apply(CurvePoint& point, const CurvePoint& origin);
   double rounding_level(const CurvePoint& point);  // also sets parameter_rounds_
 

@@ -25,13 +25,13 @@ class DenseBorderedSolver final : public BorderedSolver {
   bool small() const { return matrix_.rows() <= 16; }
   void set_borders();
   double factor_small();
-  double permutation_sign();
 
   Matrix matrix_;
   Matrix factors_;             // small: unit lower and upper triangle in one
   std::vector<Index> pivots_;  // small: row exchanged with row i
   Eigen::PartialPivLU<Matrix> lu_;
   Vector solution_;
+  std::vector<char> seen_;  // of a permutation
 };
 
 }  // namespace arcslip::continuation

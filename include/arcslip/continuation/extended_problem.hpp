@@ -65,8 +65,6 @@ class ExtendedProblem : public Problem {
   /// not null their gradients, m x (n + number of base parameters + extras).
   virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
 
-  Index conditions_count() const { return conditions_; }
-
   /// The steepest condition's slope over (u, p_a) in the base's scale, at least 1: divided by it a condition
   /// is as good as a distance from the special point, be the base as sharply bent as it may.
   double steepness(const BasePoint& point);

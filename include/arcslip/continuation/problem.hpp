@@ -93,6 +93,9 @@ class Problem {
   virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
 };
 
+/// The names of a problem's observables, in their order.
+std::vector<std::string> observable_names(const Problem& problem);
+
 /// Position of a name in `names`; throws std::invalid_argument that lists what there is.
 Index index_of(const std::vector<std::string>& names, const std::string& name);
 

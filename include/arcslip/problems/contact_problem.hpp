@@ -30,6 +30,11 @@ struct BaseAmplitude {
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
                              const HarmonicCoefficient& law, const LogThreshold& threshold);
 
+/// d ln|y_0|/deta.
+inline double log_free_by_eta(const ContactResponse& base) {
+  return std::real(base.free_eta * std::conj(base.free)) / std::norm(base.free);
+}
+
 /// Value and slope of a function of one variable.
 struct ValueAndSlope {
   double value;
@@ -77,8 +82,31 @@ class ContactProblem : public continuation::Problem {
     return regime == stick ? HarmonicCoefficient{{1, 0}, {0, 0}} : slip_coefficient(log_ratio);
   }
 
+  /// What the response equations consist of, at one point.
+  struct State {
+    ContactResponse base;
+    ContactResponse damper;
+    LogThreshold threshold;
+    double log_ratio;         ///< ln(R/S)
+    HarmonicCoefficient law;  ///< phi
+    Complex force;            ///< k phi
+  };
+
+  State state(double log_R, const Vector& p, int regime) const {
+    const LogThreshold threshold = log_threshold(p);
+    const double log_ratio = log_R - threshold.value;
+    const HarmonicCoefficient law = coefficient(log_ratio, regime);
+    return {system_.base.at(p(eta)),
+            system_.damper.at(p(eta)),
+            threshold,
+            log_ratio,
+            law,
+            system_.contact_stiffness * law.phi};
+  }
+
   /// All observables, where r is the phasor of the relative displacement, known but for rounding.
-  void observe_motion(double log_R, Complex r, const Vector& p, int regime, Vector& values) const;
+  void observe_motion(const State& at, double log_R, Complex r, const Vector& p, int regime,
+                      Vector& values) const;
 
   FrictionSystem system_;
 };

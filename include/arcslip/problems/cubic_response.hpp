@@ -37,6 +37,7 @@ class CubicResponse : public ContactProblem {
 
  private:
   double log_lower_bound(const Vector& p) const;
+  double spring(const Vector& u) const;  // kappa
 };
 
 }  // namespace arcslip::problems
