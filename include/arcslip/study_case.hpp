@@ -1,0 +1,36 @@
+#pragma once
+
+// Case files of preload studies: [system], [study] and [continuation].
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "arcslip/problems/preload_study.hpp"
+
+namespace arcslip {
+
+/// One system of a study.
+struct StudyDesign {
+  nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
+  SystemParameters system;
+};
+
+/// A study of `count` designs, which are made when asked for, from several threads: there may be millions.
+struct StudyCase {
+  std::string title;
+  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
+  std::vector<std::string> keys;    ///< of for_each, in the order of the columns of optimum.csv
+  problems::PreloadRange range;
+  continuation::TraceOptions options;
+  bool sweep = true;  ///< whether sweep.csv is wanted beside optimum.csv
+  std::size_t count = 1;
+  std::function<StudyDesign(std::size_t)> design;
+};
+
+/// Reads `path` with `--set` arguments on top, and checks all of its designs. Throws InputError.
+StudyCase read_study(const std::string& path, const std::vector<std::string>& settings = {});
+
+}  // namespace arcslip
