@@ -25,6 +25,7 @@ struct LocalPeak {
   Real log_Y;
   Real log_ratio;  ///< ln(R/S)
   Site site;
+  Real depth;  ///< least difference of ln Y to the trough or end next to it
 };
 
 struct Window {
@@ -36,23 +37,30 @@ struct Window {
 inline std::vector<LocalPeak> peaks_at(const Case& c, const Window& window, Real preload) {
   Scan scan(c, false, preload, window.low, window.high);
   std::vector<LocalPeak> peaks;
-  const auto edge = [&](Real eta, Real direction) {
-    const Sample s = scan.at(std::log(eta));
-    if (s.log_Y_slope * direction > 0) peaks.push_back({eta, s.log_Y, s.log_ratio, Site::edge});
+  const Sample first = scan.at(std::log(window.low));
+  const Sample last = scan.at(std::log(window.high));
+  std::vector<Real> heights{first.log_Y};
+  for (const Event& event : scan.events()) {
+    if (event.kind != Event::Kind::crossing) heights.push_back(event.log_Y);
+  }
+  heights.push_back(last.log_Y);
+  const auto edge = [&](Real eta, const Sample& s, Real next) {
+    peaks.push_back({eta, s.log_Y, s.log_ratio, Site::edge, std::abs(s.log_Y - next)});
   };
-  edge(window.low, -1);
+  if (first.log_Y_slope < 0) edge(window.low, first, heights[1]);
   Real corner = 0;
   for (const Event& event : scan.events()) {
     if (event.kind == Event::Kind::crossing) corner = event.at;
     if (event.kind != Event::Kind::peak) continue;
     if (event.at == corner) {
-      peaks.push_back({event.at, event.log_Y, 0, Site::corner});
+      peaks.push_back({event.at, event.log_Y, 0, Site::corner, event.depth});
     } else {
       const Real log_ratio = scan.at(std::log(event.at)).log_ratio;
-      peaks.push_back({event.at, event.log_Y, log_ratio, log_ratio > 0 ? Site::slip : Site::stick});
+      peaks.push_back(
+          {event.at, event.log_Y, log_ratio, log_ratio > 0 ? Site::slip : Site::stick, event.depth});
     }
   }
-  edge(window.high, 1);
+  if (last.log_Y_slope > 0) edge(window.high, last, heights[heights.size() - 2]);
   return peaks;
 }
 
@@ -61,20 +69,30 @@ inline LocalPeak highest(const std::vector<LocalPeak>& peaks) {
                            [](const LocalPeak& a, const LocalPeak& b) { return a.log_Y < b.log_Y; });
 }
 
+/// ln eta over the window, closer and closer towards each landmark.
+inline std::vector<Real> columns_of(const Response& response, const Window& window) {
+  const Real from = std::log(window.low);
+  const Real to = std::log(window.high);
+  std::vector<Real> columns{from, to};
+  for (int i = 1; i < 100; ++i) columns.push_back(from + (to - from) * i / 100);
+  for (const Real eta : response.landmarks()) {
+    columns.push_back(std::log(eta));
+    for (Real distance = 0.3L; distance > 1e-8L; distance /= 2) {
+      columns.push_back(std::log(eta) - distance);
+      columns.push_back(std::log(eta) + distance);
+    }
+  }
+  std::erase_if(columns, [&](Real x) { return !(x >= from && x <= to); });
+  std::sort(columns.begin(), columns.end());
+  const auto close = [](Real a, Real b) { return b - a < 1e-10L; };
+  columns.erase(std::unique(columns.begin(), columns.end(), close), columns.end());
+  return columns;
+}
+
 /// The highest amplitude of the base without damper in the window.
 inline LocalPeak free_peak(const Case& c, const Window& window) {
   const Response response(c);
-  std::vector<Real> grid{std::log(window.low), std::log(window.high)};
-  for (int i = 1; i < 1000; ++i) grid.push_back(grid[0] + (grid[1] - grid[0]) * i / 1000);
-  for (const Real eta : response.landmarks()) {
-    grid.push_back(std::log(eta));
-    for (Real distance = 0.3L; distance > 1e-11L; distance /= 1.5L) {
-      grid.push_back(std::log(eta) - distance);
-      grid.push_back(std::log(eta) + distance);
-    }
-  }
-  std::erase_if(grid, [&](Real x) { return x < std::log(window.low) || x > std::log(window.high); });
-  std::sort(grid.begin(), grid.end());
+  const std::vector<Real> grid = columns_of(response, window);
   std::vector<Real> candidates{grid.front(), grid.back()};
   for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
     Real a = grid[i];
@@ -90,9 +108,26 @@ inline LocalPeak free_peak(const Case& c, const Window& window) {
   best.log_Y = -1e30L;
   for (const Real x : candidates) {
     const Real log_Y = response.free(x).first;
-    if (log_Y > best.log_Y) best = {std::exp(x), log_Y, 0, Site::stick};
+    if (log_Y > best.log_Y) best = {std::exp(x), log_Y, 0, Site::stick, 0};
   }
   return best;
+}
+
+/// d ln Y/d ln x of a local peak, where `change(case, ln P, h)` multiplies x by e^h: central differences of
+/// fourth order, of a scan of its surroundings.
+template <class Change>
+Real sensitivity(const Case& c, Real preload, const LocalPeak& peak, Change change, Real step = 1e-3L) {
+  const auto log_Y = [&](Real h) {
+    Case changed = c;
+    Real log_preload = std::log(preload);
+    change(changed, log_preload, h);
+    const Window around{peak.eta * 0.9L, peak.eta * 1.1L};
+    const std::vector<LocalPeak> peaks = peaks_at(changed, around, std::exp(log_preload));
+    return std::min_element(peaks.begin(), peaks.end(), [&](const LocalPeak& a, const LocalPeak& b) {
+             return std::abs(a.eta - peak.eta) < std::abs(b.eta - peak.eta);
+           })->log_Y;
+  };
+  return (8 * (log_Y(step) - log_Y(-step)) - (log_Y(2 * step) - log_Y(-2 * step))) / (12 * step);
 }
 
 }  // namespace dense

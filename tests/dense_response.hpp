@@ -187,7 +187,7 @@ inline Jet jenkins(Real t) {
     real *= 8 / pi * x * std::sqrt(x);
   } else {
     const Real theta = 2 * std::atan2(std::sqrt(x), std::sqrt(rest));
-    real = (theta - std::sin(2 * theta) / 2) / pi;
+    real = (theta - 2 * std::sqrt(x * rest) * (rest - x)) / pi;  // sin(2 theta) of half angles
   }
   return {{real, 4 / pi * x * rest}, {-8 / pi * x * std::sqrt(x * rest), -4 / pi * x * (rest - x)}};
 }

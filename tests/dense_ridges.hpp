@@ -37,26 +37,6 @@ struct RidgePiece {
   RidgePoint b;
 };
 
-/// ln eta over the window, closer and closer towards each landmark.
-inline std::vector<Real> columns_of(const Response& response, const Window& window) {
-  const Real from = std::log(window.low);
-  const Real to = std::log(window.high);
-  std::vector<Real> columns{from, to};
-  for (int i = 1; i < 100; ++i) columns.push_back(from + (to - from) * i / 100);
-  for (const Real eta : response.landmarks()) {
-    columns.push_back(std::log(eta));
-    for (Real distance = 0.3L; distance > 1e-8L; distance /= 2) {
-      columns.push_back(std::log(eta) - distance);
-      columns.push_back(std::log(eta) + distance);
-    }
-  }
-  std::erase_if(columns, [&](Real x) { return !(x >= from && x <= to); });
-  std::sort(columns.begin(), columns.end());
-  const auto close = [](Real a, Real b) { return b - a < 1e-10L; };
-  columns.erase(std::unique(columns.begin(), columns.end(), close), columns.end());
-  return columns;
-}
-
 class RidgeMap {
  public:
   RidgeMap(const Case& c, const Window& window, const Range& preloads)
