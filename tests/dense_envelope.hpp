@@ -74,10 +74,10 @@ inline std::vector<Real> columns_of(const Response& response, const Window& wind
   const Real from = std::log(window.low);
   const Real to = std::log(window.high);
   std::vector<Real> columns{from, to};
-  for (int i = 1; i < 100; ++i) columns.push_back(from + (to - from) * i / 100);
+  for (int i = 1; i < 150; ++i) columns.push_back(from + (to - from) * i / 150);
   for (const Real eta : response.landmarks()) {
     columns.push_back(std::log(eta));
-    for (Real distance = 0.3L; distance > 1e-8L; distance /= 2) {
+    for (Real distance = 0.3L; distance > 1e-8L; distance /= 2.5L) {
       columns.push_back(std::log(eta) - distance);
       columns.push_back(std::log(eta) + distance);
     }

@@ -79,6 +79,8 @@ class History {
   const std::vector<Change>& changes() const { return changes_; }
   /// Preloads between any two at which something may happen, with their number of local peaks.
   const std::vector<std::pair<Real, int>>& counts() const { return counts_; }
+  /// Changes that the scan does not confirm right beside them: the list is not complete.
+  int misplaced() const { return misplaced_; }
 
  private:
   struct Candidate {
@@ -113,16 +115,22 @@ class History {
   }
 
   void count(const Case& c) {
+    const auto peaks = [&](Real preload) { return static_cast<int>(peaks_at(c, window_, preload).size()); };
     int last = -1;
     for (std::size_t i = 0; i <= candidates_.size(); ++i) {
       const Real low = i == 0 ? preloads_.low : candidates_[i - 1].preload;
       const Real high = i == candidates_.size() ? preloads_.high : candidates_[i].preload;
       if (!(high > low * (1 + 1e-15L))) continue;
       const Real preload = std::sqrt(low * high);
-      const int peaks = static_cast<int>(peaks_at(c, window_, preload).size());
-      counts_.emplace_back(preload, peaks);
-      if (last >= 0 && peaks != last) changes_.push_back({low, std::exp(candidates_[i - 1].log_eta), peaks - last});
-      last = peaks;
+      const int now = peaks(preload);
+      if (last >= 0 && now != last) {
+        changes_.push_back({low, std::exp(candidates_[i - 1].log_eta), now - last});
+        const Real near = std::min(1e-7L, (preload / low - 1) / 2);
+        const Real before = std::min(1e-7L, (low / counts_.back().first - 1) / 2);
+        if (peaks(low * (1 + near)) != now || peaks(low * (1 - before)) != last) ++misplaced_;
+      }
+      counts_.emplace_back(preload, now);
+      last = now;
     }
   }
 
@@ -133,6 +141,7 @@ class History {
   std::vector<Candidate> candidates_;
   std::vector<std::pair<Real, int>> counts_;
   std::vector<Change> changes_;
+  int misplaced_ = 0;
 };
 
 }  // namespace dense

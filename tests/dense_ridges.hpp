@@ -39,11 +39,11 @@ struct RidgePiece {
 
 class RidgeMap {
  public:
-  RidgeMap(const Case& c, const Window& window, const Range& preloads)
+  RidgeMap(const Case& c, const Window& window, const Range& preloads, Real step = 0.2L)
       : response_(c), log_low_(std::log(preloads.low)), log_high_(std::log(preloads.high)) {
     const std::vector<Real> columns = columns_of(response_, window);
     std::vector<Real> rows;
-    for (Real u = lowest; u < deepest(columns); u += 0.75L) rows.push_back(u);
+    for (Real u = lowest; u < deepest(columns); u += step) rows.push_back(u);
     std::vector<Node> below;
     std::vector<Node> above;
     for (const Real x : columns) below.push_back(at(x, rows.front()));
@@ -82,7 +82,9 @@ class RidgeMap {
     const Real t = u > 40 ? u : std::log1p(std::exp(u));
     const Given given = response_.at_ratio(x, t, true);
     const Real by_u = u > 40 ? 1 : 1 / (1 + std::exp(-u));
-    return {x, u, given.log_Y_slope, given.preload > 0 ? std::log(given.preload) : -1e3L, given.log_Y, t,
+    const Real least = log_low_ - 5;  // of P, which may even be negative
+    const Real log_P = given.preload > 0 ? std::max(std::log(given.preload), least) : least;
+    return {x, u, given.log_Y_slope, log_P, given.log_Y, t,
             given.log_ratio_slope / by_u};
   }
 
@@ -90,7 +92,7 @@ class RidgeMap {
   Real deepest(const std::vector<Real>& columns) const {
     Real u = 1;
     for (const Real x : columns) {
-      while (at(x, u).log_P > log_low_) u += 0.75L;
+      while (at(x, u).log_P > log_low_) u += 0.5L;
     }
     return u + 1.5L;
   }
@@ -127,7 +129,7 @@ class RidgeMap {
       least = std::min(least, std::abs(node.G));
     }
     const Real bend = deviation(c, m, &Node::G);
-    if (positive % 9 == 0 && least > 2 * bend) return;
+    if (positive % 9 == 0 && least > 4 * bend) return;
     const auto plain = [&](Real Node::*f) { return deviation(c, m, f) <= flatness * span(c, f) + 1e-12L; };
     const bool straight = plain(&Node::G) && plain(&Node::log_P) && plain(&Node::direction);
     if (straight && (positive % 9 == 0 || add_piece(c))) return;
@@ -170,41 +172,49 @@ class RidgeMap {
 
   RidgePoint point(const Node& n, Real bend) const { return {n.x, n.t, n.log_P, n.log_Y, bend < 0}; }
 
-  /// Of a cell where G is nearly linear: false if its edges do not show exactly one curve.
+  /// A point of the curve near the middle of two others, if there is one close by.
+  std::optional<Node> between(const Node& a, const Node& b, const Cell& c) const {
+    const bool along_x = std::abs(c[0].G - c[1].G) > std::abs(c[0].G - c[2].G);  // towards the curve
+    const Real x = (a.x + b.x) / 2;
+    const Real u = (a.u + b.u) / 2;
+    const Real size = along_x ? c[1].x - c[0].x : c[2].u - c[0].u;
+    for (Real reach = std::abs(along_x ? b.x - a.x : b.u - a.u) / 8 + 1e-15L * size; reach < size / 2; reach *= 2) {
+      const Node left = along_x ? at(x - reach, u) : at(x, u - reach);
+      const Node right = along_x ? at(x + reach, u) : at(x, u + reach);
+      if ((left.G > 0) != (right.G > 0)) return zero(left, right);
+    }
+    return {};
+  }
+
+  /// Of a cell where G is nearly linear: false if its edges do not show exactly one curve, or one whose bending
+  /// at fixed P may have zeros unseen.
   bool add_piece(const Cell& c) {
     std::vector<Node> ends;
     for (const auto& [i, j] : {std::pair(0, 1), std::pair(2, 3), std::pair(0, 2), std::pair(1, 3)}) {
       if ((c[i].G > 0) != (c[j].G > 0)) ends.push_back(zero(c[i], c[j]));
     }
     if (ends.size() != 2) return false;
+    const std::optional<Node> middle = between(ends[0], ends[1], c);
+    if (!middle) return false;
     const Real bend_a = bending(ends[0], c);
     const Real bend_b = bending(ends[1], c);
+    const Real bow = std::abs(bending(*middle, c) - (bend_a + bend_b) / 2);
+    const bool folds = bend_a * bend_b < 0;
+    if (bow > (folds ? 0.1L * std::abs(bend_a - bend_b) : std::min(std::abs(bend_a), std::abs(bend_b)) / 2)) return false;
+    if (folds && !add_fold(c, ends[0], ends[1], bend_a)) return false;
     pieces_.push_back({point(ends[0], bend_a), point(ends[1], bend_b)});
-    if (bend_a * bend_b < 0) add_fold(c, ends[0], ends[1], bend_a);
     return true;
   }
 
-  /// Halves the chord between two points of the curve, and goes from its middle to the curve along x or u.
-  void add_fold(const Cell& c, Node a, Node b, Real bend_a) {
-    const bool along_x = std::abs(c[0].G - c[1].G) > std::abs(c[0].G - c[2].G);  // towards the curve
-    Node middle = a;
-    for (int i = 0; i < 60; ++i) {
-      const Real x = (a.x + b.x) / 2;
-      const Real u = (a.u + b.u) / 2;
-      Real reach = std::abs(along_x ? b.x - a.x : b.u - a.u) / 4 + 1e-15L;
-      Node left = middle;
-      Node right = middle;
-      do {
-        left = along_x ? at(x - reach, u) : at(x, u - reach);
-        right = along_x ? at(x + reach, u) : at(x, u + reach);
-        reach *= 2;
-      } while ((left.G > 0) == (right.G > 0) && reach < 1);
-      if ((left.G > 0) == (right.G > 0)) break;
-      middle = zero(left, right);
-      const Real bend = bending(middle, c);
-      ((bend > 0) == (bend_a > 0) ? a : b) = middle;
+  /// Halves the piece of the curve.
+  bool add_fold(const Cell& c, Node a, Node b, Real bend_a) {
+    for (int i = 0; i < 60 && std::abs(a.x - b.x) + std::abs(a.u - b.u) > 1e-16L; ++i) {
+      const std::optional<Node> middle = between(a, b, c);
+      if (!middle) return false;
+      ((bending(*middle, c) > 0) == (bend_a > 0) ? a : b) = *middle;
     }
-    if (middle.log_P >= log_low_ && middle.log_P <= log_high_) folds_.push_back(point(middle, 0));
+    if (a.log_P >= log_low_ && a.log_P <= log_high_) folds_.push_back(point(a, 0));
+    return true;
   }
 
   Response response_;
