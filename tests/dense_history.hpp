@@ -125,8 +125,8 @@ class History {
       const int now = peaks(preload);
       if (last >= 0 && now != last) {
         changes_.push_back({low, std::exp(candidates_[i - 1].log_eta), now - last});
-        const Real near = std::min(1e-7L, (preload / low - 1) / 2);
-        const Real before = std::min(1e-7L, (low / counts_.back().first - 1) / 2);
+        const Real near = std::min(1e-5L, (preload / low - 1) / 2);
+        const Real before = std::min(1e-5L, (low / counts_.back().first - 1) / 2);
         if (peaks(low * (1 + near)) != now || peaks(low * (1 - before)) != last) ++misplaced_;
       }
       counts_.emplace_back(preload, now);
