@@ -127,7 +127,10 @@ class OptimumJudge {
       alone.base_damping = zeta;
       return dense::free_peak(alone, window_).log_Y;
     };
-    const bool possible = free_log_Y(1e-13L) > lowest_ && free_log_Y(1e6L) < lowest_;
+    // of an interior peak, no higher than that of the base itself
+    const dense::LocalPeak free = dense::free_peak(case_, window_);
+    if (free.eta == window_.low || free.eta == window_.high || free.log_Y < lowest_) return;
+    const bool possible = free_log_Y(1) < lowest_;
     if (std::isnan(optimum_.damping) == possible) complain(fmt::format("equivalent damping {:.15g}", optimum_.damping));
     if (possible && !(std::abs(free_log_Y(optimum_.damping) - lowest_) < 1e-8L))
       complain(fmt::format("equivalent damping {:.15g}", optimum_.damping));

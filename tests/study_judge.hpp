@@ -271,8 +271,8 @@ inline void StudyJudge::judge_sensitivities(double preload) {
   using dense::Case;
   const auto judge = [&](const char* what, const Peak& row, const dense::LocalPeak& peak, double value, auto change) {
     for (const Real step : {1e-3L, 1e-4L, 1e-5L}) {
-      const Real once = dense::sensitivity(case_, preload, peak, change, step);
-      const Real again = dense::sensitivity(case_, preload, peak, change, step / 2);
+      const Real once = dense::sensitivity(case_, window_, preload, peak, change, step);
+      const Real again = dense::sensitivity(case_, window_, preload, peak, change, step / 2);
       if (std::abs(again - once) > 1e-8L * std::max(1.0L, std::abs(again))) continue;
       ++sensitivities_;
       if (std::abs(again - value) > 1e-7L * std::max(1.0L, std::abs(again)))
