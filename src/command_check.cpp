@@ -113,7 +113,7 @@ bool check_branches(const CheckOptions& options) {
   bool good = true;
   for (std::size_t i = 0; i < input.branches.size(); ++i) {
     const CaseBranch& branch = input.branches[i];
-    const std::string values = describe(branch.values);
+    const std::string values = arcslip::describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
     if (!options.derivatives) continue;
@@ -157,7 +157,7 @@ void check_study(const CheckOptions& options) {
     const StudyDesign design = study.design(i);
     problem.system = design.system;
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
-                        describe(design.values), describe(problem));
+                        arcslip::describe(design.values), describe(problem));
     if (study.count == 1) break;
   }
   print(text);
