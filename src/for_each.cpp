@@ -124,8 +124,7 @@ ForEach::Range ForEach::read_range(const TomlSection& section, std::size_t& coun
   count = static_cast<std::size_t>(
       section.integer("count", 2, static_cast<Index>(most_sets), "an integer >= 2 and <= 1e9"));
   range.integers = !range.logarithmic && section.require("from", "").is_integer() &&
-                   section.require("to", "").is_integer() &&
-                   std::fmod(range.to - range.from, static_cast<double>(count - 1)) == 0;
+                   section.require("to", "").is_integer();
   return range;
 }
 
@@ -133,16 +132,17 @@ double ForEach::Axis::number(std::size_t index) const {
   if (!range) return listed[index]->value<double>().value_or(0);
   if (index == 0) return range->from;
   if (index == count - 1) return range->to;
-  const double part = static_cast<double>(index) / static_cast<double>(count - 1);
-  if (range->logarithmic) return range->from * std::pow(range->to / range->from, part);
-  return range->integers ? std::round(range->from + part * (range->to - range->from))
-                         : range->from + part * (range->to - range->from);
+  const auto steps = static_cast<double>(index);
+  const auto whole = static_cast<double>(count - 1);
+  if (range->logarithmic) return range->from * std::pow(range->to / range->from, steps / whole);
+  return range->from + steps * (range->to - range->from) / whole;
 }
 
 std::unique_ptr<const toml::node> ForEach::Axis::make(std::size_t index) const {
-  if (range->integers)
-    return std::make_unique<toml::value<std::int64_t>>(static_cast<std::int64_t>(number(index)));
-  return std::make_unique<toml::value<double>>(number(index));
+  const double value = number(index);
+  if (range->integers && value == std::floor(value))
+    return std::make_unique<toml::value<std::int64_t>>(static_cast<std::int64_t>(value));
+  return std::make_unique<toml::value<double>>(value);
 }
 
 bool ForEach::sets(const std::string& key) const {

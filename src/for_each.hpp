@@ -42,7 +42,7 @@ class ForEach {
   struct Range {
     double from = 0, to = 0;
     bool logarithmic = false;
-    bool integers = false;
+    bool integers = false;  ///< given by integers
   };
 
   /// The values of one key.

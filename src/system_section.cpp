@@ -42,7 +42,7 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
   const toml::table* table = section.require("damping", "a table").as_table();
   if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
   for (const auto& [key, node] : *table) {
-    const std::string name = section.name("damping") + "." + std::string(key.str());
+    const std::string name = section.name_given("damping") + "." + std::string(key.str());
     if (key.str() == "kind") {
       const std::string kind = node.value<std::string>().value_or("");
       if (kind != "viscous" && kind != "structural")

@@ -84,6 +84,8 @@ class TomlSection {
   const toml::node& require(std::string_view key, const std::string& expected) const;
   const toml::table* table() const { return table_; }
   std::string name(std::string_view key) const;
+  /// The name under which the user wrote the value, elsewhere if it is replaced.
+  std::string name_given(std::string_view key) const { return find(key).name; }
 
  private:
   Replacement find(std::string_view key) const;
