@@ -59,11 +59,11 @@ int study_command(const StudyOptions& options) {
   const StudyCase study = read_study(options.case_path, options.settings);
   const std::string folder = results_folder(options.folder, options.case_path);
   create_folder(folder);
+  catch_interrupts();
   StudyStore store(folder, study, options.resume);
   PendingDesigns pending(store.finished());
   const std::size_t before = study.count - pending.left();
 
-  catch_interrupts();
   StudyWork work;
   {
     ProgressLine line(!options.quiet);

@@ -100,6 +100,17 @@ void settle(const std::string& path) {
   if (std::filesystem::exists(path)) Database(path).execute("PRAGMA journal_mode = DELETE");
 }
 
+/// Temporary files of programs that were killed.
+void remove_leftovers(const std::string& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    for (const char* start : {"study.sqlite.", "optimum.csv.", "sweep.csv.", "summary.json."}) {
+      if (name.starts_with(start) && name.ends_with(".tmp")) remove(entry.path().string());
+    }
+  }
+}
+
 void bind(Statement& row, const ordered_json& value) {
   if (value.is_number_integer()) {
     row.bind(value.get<std::int64_t>());
@@ -223,6 +234,7 @@ void StudyStore::check_same(const StudyCase& study) const {
 }
 
 void StudyStore::open() {
+  remove_leftovers(folder_);
   database_.emplace(path_);
   database_->execute(
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs DEFAULT VALUES");
