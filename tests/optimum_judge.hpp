@@ -122,18 +122,27 @@ class OptimumJudge {
                        case_.interface_stiffness;
     const Real energy = 4 * case_.interface_stiffness * S * S * std::max(0.0L, optimum_.peak.R_over_S - 1.0L);
     if (std::abs(optimum_.energy - energy) > 1e-12L * energy) complain(fmt::format("energy {:.15g}", optimum_.energy));
-    const auto free_log_Y = [&](Real zeta) {
+    judge_damping();
+  }
+
+  /// zeta_B between the system's own and 1 at which the base alone has this peak, within the window.
+  void judge_damping() {
+    const auto free = [&](Real log_zeta) {
       dense::Case alone = case_;
-      alone.base_damping = zeta;
-      return dense::free_peak(alone, window_).log_Y;
+      alone.base_damping = std::exp(log_zeta);
+      return dense::free_peak(alone, window_);
     };
-    // of an interior peak, no higher than that of the base itself
-    const dense::LocalPeak free = dense::free_peak(case_, window_);
-    if (free.eta == window_.low || free.eta == window_.high || free.log_Y < lowest_) return;
-    const bool possible = free_log_Y(1) < lowest_;
-    if (std::isnan(optimum_.damping) == possible) complain(fmt::format("equivalent damping {:.15g}", optimum_.damping));
-    if (possible && !(std::abs(free_log_Y(optimum_.damping) - lowest_) < 1e-8L))
-      complain(fmt::format("equivalent damping {:.15g}", optimum_.damping));
+    Real low = std::log(case_.base_damping);
+    Real high = 0;
+    if (free(low).log_Y < lowest_ || free(high).log_Y > lowest_) return;
+    for (int i = 0; i < 50; ++i) {
+      const Real middle = (low + high) / 2;
+      (free(middle).log_Y > lowest_ ? low : high) = middle;
+    }
+    const Real eta = free(low).eta;
+    if (eta == window_.low || eta == window_.high) return;
+    if (!(std::abs(std::log(optimum_.damping) - low) < 1e-8L))
+      complain(fmt::format("equivalent damping {:.12g}, not {:.12g}", static_cast<double>(std::exp(low)), optimum_.damping));
   }
 
   StudyRun run_;

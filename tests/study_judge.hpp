@@ -69,6 +69,7 @@ class StudyJudge {
         study_(problems::study_preload(run_.system, run_.range, options)) {
     judge_order();
     judge_tiles();
+    judge_exchanges();
     judge_free_base();
   }
 
@@ -226,11 +227,27 @@ class StudyJudge {
     if (std::abs(covered / run_.range.to - 1) > 1e-9) complain("the highest is known to {:.15g} only", covered);
   }
 
+  /// Two of equal height change places at one preload.
+  void judge_exchanges() {
+    std::vector<Peak> rows;
+    for (const Peak& p : global_rows()) {
+      if (p.type == problems::PeakType::exchange) rows.push_back(p);
+    }
+    if (rows.size() % 2 != 0) complain("{} rows of exchanges", rows.size());
+    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
+      if (rows[i].preload != rows[i + 1].preload || std::abs(rows[i].Y / rows[i + 1].Y - 1) > 1e-9 ||
+          rows[i].eta == rows[i + 1].eta)
+        complain("no exchange: {} and {}", describe(rows[i]), describe(rows[i + 1]));
+    }
+  }
+
   void judge_free_base() {
     const dense::LocalPeak free = dense::free_peak(case_, window_);
     if (!(std::abs(std::log(study_.free_Y) - free.log_Y) < tight && std::abs(study_.free_eta / free.eta - 1) < 1e-8L))
       complain("free base: eta = {:.15g}, Y = {:.15g}, but {}", study_.free_eta, study_.free_Y, describe(free));
   }
+
+  static Real interpolated(const Peak& a, const Peak& b, Real preload);
 
   StudyRun run_;
   dense::Case case_;
@@ -240,40 +257,44 @@ class StudyJudge {
   int sensitivities_ = 0;
 };
 
-/// ln Y of the highest row over ln P as a cubic through values and slopes of neighbouring rows.
+/// ln Y of the highest peak over ln P as a cubic through values and slopes of neighbouring rows.
 inline std::vector<double> StudyJudge::overtakings(const dense::RidgeMap& map) const {
-  const std::vector<Peak> rows = global_rows();
-  const auto envelope = [&](Real p) {
-    const auto next = std::upper_bound(rows.begin(), rows.end(), std::exp(p),
-                                       [](Real value, const Peak& row) { return value < row.preload; });
-    if (next == rows.begin() || next == rows.end()) return std::numeric_limits<Real>::infinity();
-    const Peak& a = *(next - 1);
-    const Peak& b = *next;
-    const Real h = std::log(static_cast<Real>(b.preload) / a.preload);
-    const Real x = (p - std::log(static_cast<Real>(a.preload))) / h;
-    const Real rise = std::log(static_cast<Real>(b.Y) / a.Y);
-    const Real bow = (a.sensitivity.preload * h - rise) * (1 - x) - (b.sensitivity.preload * h - rise) * x;
-    return std::log(static_cast<Real>(a.Y)) + rise * x + x * (1 - x) * bow;
-  };
+  std::vector<std::pair<Peak, Peak>> spans;
+  for (const problems::PeakBranch& branch : study_.branches) {
+    for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
+      if (branch[i].is_global && branch[i + 1].is_global) spans.emplace_back(branch[i], branch[i + 1]);
+    }
+  }
   std::vector<double> found;
   for (const dense::RidgePiece& piece : map.pieces()) {
     for (const dense::RidgePoint& point : {piece.a, piece.b}) {
-      if (!point.is_peak) continue;
-      if (point.log_Y > envelope(point.log_preload) + 1e-5L)
-        found.push_back(static_cast<double>(std::exp(point.log_preload)));
+      const Real P = std::exp(point.log_preload);
+      const auto span = std::find_if(spans.begin(), spans.end(), [&](const auto& rows) {
+        return P >= rows.first.preload && P <= rows.second.preload;
+      });
+      if (!point.is_peak || span == spans.end()) continue;
+      if (point.log_Y > interpolated(span->first, span->second, P) + 1e-5L) found.push_back(static_cast<double>(P));
     }
   }
   return found;
+}
+
+inline dense::Real StudyJudge::interpolated(const Peak& a, const Peak& b, Real preload) {
+  const Real h = std::log(static_cast<Real>(b.preload) / a.preload);
+  const Real x = std::log(preload / a.preload) / h;
+  const Real rise = std::log(static_cast<Real>(b.Y) / a.Y);
+  const Real bow = (a.sensitivity.preload * h - rise) * (1 - x) - (b.sensitivity.preload * h - rise) * x;
+  return std::log(static_cast<Real>(a.Y)) + rise * x + x * (1 - x) * bow;
 }
 
 /// Each sensitivity of each peak, where the differences agree with those of half the step.
 inline void StudyJudge::judge_sensitivities(double preload) {
   using dense::Case;
   const auto judge = [&](const char* what, const Peak& row, const dense::LocalPeak& peak, double value, auto change) {
-    for (const Real step : {1e-3L, 1e-4L, 1e-5L}) {
+    for (const Real step : {1e-3L, 1e-4L, 1e-5L, 1e-10L}) {
       const Real once = dense::sensitivity(case_, window_, preload, peak, change, step);
       const Real again = dense::sensitivity(case_, window_, preload, peak, change, step / 2);
-      if (std::abs(again - once) > 1e-8L * std::max(1.0L, std::abs(again))) continue;
+      if (std::abs(again - once) > 2e-8L * std::max(1.0L, std::abs(again))) continue;
       ++sensitivities_;
       if (std::abs(again - value) > 1e-7L * std::max(1.0L, std::abs(again)))
         complain("sensitivity to {} is {:.12g}, not {:.12g}: {}", what, static_cast<double>(again), value, describe(row));
