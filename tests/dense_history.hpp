@@ -108,7 +108,7 @@ class History {
   void look_at_end(Real x) {
     add(response_.at_ratio(x, 0, true).preload, x);
     std::vector<Real> rows;  // ln t
-    for (Real row = -45; row < 5; row += 0.1L) rows.push_back(row);
+    for (Real row = -45; row < 5; row += row < -5 ? 0.2L : 0.01L) rows.push_back(row);
     const auto at = [&](Real row) { return response_.at_ratio(x, std::exp(row), true); };
     const Zeros found([&](Real row) { return at(row).log_Y_slope; }, rows);
     for (const Real row : found.found()) add(at(row).preload, x);
