@@ -293,6 +293,15 @@ TEST_CASE("A limit cycle takes no frequency, and the damping that it continues")
              ContainsSubstring(":17:7: branch.eta: a limit cycle has an eta of its own"));
 }
 
+TEST_CASE("Cubic springs are refused where the response has no place for them") {
+  const std::string sprung = replaced(good, "force = 1.0", "force = 1.0\ncubic_stiffness = 10");
+  CHECK(read_text(sprung).branches[0].problem.response == Response::forced);
+  CHECK_THAT(error_of(sprung + "response = \"one_way\"\n"),
+             ContainsSubstring("system.cubic_stiffness: only for the forced response"));
+  CHECK(read_text(good + std::string("response = \"one_way\"\n")).branches[0].problem.response ==
+        Response::one_way);
+}
+
 TEST_CASE("What goes beyond a forced response is read from a case file") {
   const Case curve = read_text(
       replaced(good, "parameter = \"eta\"\nfrom = 0.5\nto = 120.0",

@@ -30,8 +30,8 @@ struct CurveRequest {
   double seed = 0;                   ///< value of the second parameter at which they are looked for
 };
 
-/// What is asked of a system with friction: its response to the force, the damper's to a base that moves as if
-/// alone, or self-excited vibration.
+/// What is asked of a system with friction: its response to the force, the damper's to a base that moves as
+/// if alone, or self-excited vibration.
 enum class Response { forced, one_way, limit_cycle };
 
 /// The problem that a branch belongs to: one of the library's, or a system with friction.

@@ -2,11 +2,12 @@
 
 // The damper driven by a base that moves as if alone: friction acts on the damper and not back on the base.
 //
-//   y = y_0(eta),   R |1 + k phi(R/S) c_D(eta)| = |y_0(eta)|,   u = -k c_D phi r,   S = (P + P_2 eta^2) K*/K_FD
+//   y = y_0(eta),   R |1 + k phi(R/S) c_D(eta)| = |y_0(eta)|,   u = -k c_D phi r,   S = (P + P_2 eta^2)
+//   K*/K_FD
 //
-// It is the coupled response, see forced_response.hpp, without the base's compliance c_B. The error of that is of
-// the order of |k phi c_B/(1 + k phi c_D)|: small where the damper is much lighter than the base and eta is not
-// near the base's own resonance [paper, section 1].
+// It is the coupled response, see forced_response.hpp, without the base's compliance c_B. The error of that
+// is of the order of |k phi c_B/(1 + k phi c_D)|: small where the damper is much lighter than the base and
+// eta is not near the base's own resonance [paper, section 1].
 
 #include "arcslip/problems/forced_response.hpp"
 
