@@ -38,6 +38,7 @@ Motion finite_motion(SystemParameters rods, Index elements, double eta) {
 double distance_to_limit(Index wave_number, Index elements) {
   SystemParameters parameters = rods(1);
   parameters.wave_number = wave_number;
+  parameters.interface_stiffness *= static_cast<double>(wave_number * wave_number);  // as stiff as the waves
   double worst = 0;
   int slipping = 0;
   for (const double eta : {0.7, 2.5, 3.3, 3.7, 4.2, 5.6, 6.1, 9.0}) {
@@ -99,18 +100,19 @@ Statement convergence_of_rods() {
     double before = 0;
     for (const Index per_wave : {10, 100, 1000, 10'000, 100'000}) {
       const double distance = distance_to_limit(n, per_wave * n);
-      const std::string what = fmt::format("n = {}, N/n = {}: y and u, amplitude and phase", n, per_wave);
+      const std::string what = fmt::format("n = {}, N/n = {}: distance of y and u to the limit", n, per_wave);
+      const std::string measured = fmt::format("{:.2e}", distance);
       const double order = std::log10(before / distance);
-      // Near a resonance N/n = 10 and 100 are too coarse for the error to have its order.
-      const bool falls = before == 0 || (per_wave <= 1000 ? distance < before : std::abs(order - 2) < 0.05);
-      statement.require(falls, what, fmt::format("{:.2e}", distance),
-                        before == 0        ? ""
-                        : per_wave <= 1000 ? "< the one before"
-                                           : fmt::format("order {:.3f}: 2", order));
+      if (per_wave < 1000) {  // near a resonance too coarse for the error to have its order
+        statement.require(before == 0 || distance < before, what, measured, before == 0 ? "" : "falls");
+      } else {
+        statement.require(std::abs(order - 2) < 0.01, what, measured,
+                          fmt::format("falls as (n/N)^2 (order {:.3f})", order));
+      }
       before = distance;
     }
-    statement.require(before < 1e-6, fmt::format("n = {}: distance left", n), fmt::format("{:.2e}", before),
-                      "< 1e-6");
+    statement.require(before < 1e-8, fmt::format("n = {}: distance left", n), fmt::format("{:.2e}", before),
+                      "< 1e-8");
   }
   return statement;
 }
@@ -122,20 +124,33 @@ Statement damper_driven_by_the_base() {
       "model is a good approximation.");
   const std::vector<double> preloads = {0.1, 1.0, 5.0, 10.0, 50.0};
   const std::vector<Range> away = {{0.5, 3}, {5, 50}};  // from eta = 4 by a quarter of it
-  const Errors light = one_way_errors(100, away, preloads);
-  const Errors lighter = one_way_errors(1000, away, preloads);
   const auto row = [&](const std::string& what, double value, const std::string& required, bool holds) {
     statement.require(holds, what, fmt::format("{:.2e}", value), required);
   };
-  const std::string where = "M* = 100, eta 0.5 to 3, 5 to 50: error of ";
-  row(where + "Y", light.Y, "< 5 %", light.Y < 0.05);
-  row(where + "U", light.U, "< 5 %", light.U < 0.05);
-  row(where + "R", light.R, "< 5 %", light.R < 0.05);
-  row("M* = 1000: the largest of these", lighter.worst(), "< 0.5 %", lighter.worst() < 0.005);
+  const Errors light = one_way_errors(100, away, preloads);
+  row("M* = 100, eta 0.5 to 3 and 5 to 50: error of Y", light.Y, "< 5 %", light.Y < 0.05);
+  row("the same of U", light.U, "< 5 %", light.U < 0.05);
+  row("the same of R", light.R, "< 5 %", light.R < 0.05);
+  const double gain = light.worst() / one_way_errors(1000, away, preloads).worst();
+  row("these over those of M* = 1000", gain, "10: falls as 1/M*", std::abs(gain - 10) < 0.5);
+  const Errors slipping = one_way_errors(100, {{5, 50}}, {0.01});
+  row("M* = 100, P = 0.01, slipping, eta 5 to 50: error of Y", slipping.Y, "< 10 %", slipping.Y < 0.1);
+  row("the same of U", slipping.U, "< 10 %", slipping.U < 0.1);
   const Errors near = one_way_errors(100, {{3.96, 4.04}}, preloads);
-  row("M* = 100, eta within 1 % of 4: error of Y", near.Y, "> 100 %: not there", near.Y > 1);
+  row("M* = 100, eta within 1 % of 4: error of Y", near.Y, "> 100 %: no approximation", near.Y > 1);
   const Errors heavy = one_way_errors(5, away, preloads);
-  row("M* = 5: the largest error away from 4", heavy.worst(), "> 20 %: not then", heavy.worst() > 0.2);
+  row("M* = 5, eta 0.5 to 3 and 5 to 50: largest error", heavy.worst(), "> 20 %: no approximation",
+      heavy.worst() > 0.2);
+
+  const Errors damper = one_way_errors(100, {{84.5, 86.2}}, preloads);
+  statement.note(fmt::format(
+      "One more frequency is to be avoided: eta = 85.3, where the stuck damper resonates on the interface. "
+      "Errors within 1 % of it: Y {:.0f}-fold, R {:.0f}-fold.",
+      damper.Y, damper.R));
+  statement.note(
+      fmt::format("Where slip sets in R rises a hundredfold within a narrow range, so that R is wrong there: "
+                  "{:.1f}-fold at eta = {:.1f}, P = 0.01.",
+                  slipping.R, slipping.eta));
   return statement;
 }
 
