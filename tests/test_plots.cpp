@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::set<std::string> results = {"branches.csv", "summary.json"};
-const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "dissipated"};
+const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "phase_difference",
+                                           "dissipated"};
 
 struct Outcome {
   int status;
@@ -218,7 +219,8 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(folder.path(name + "/" + file)) && ContainsSubstring(reason));
   };
-  refuses("empty", "", "", "branches.csv", "cannot be read");
+  refuses("empty", "", "", "summary.json", "cannot be read");
+  refuses("no table", "", summary, "branches.csv", "cannot be read");
   refuses("header only", header, summary, "branches.csv", "holds no points");
   refuses("no column", "branch,point\n0,0\n", summary, "branches.csv", "has no column type");
   refuses("no summary", table, "", "summary.json", "cannot be read");
