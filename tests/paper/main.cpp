@@ -31,8 +31,9 @@ std::string Statement::text() const {
 
 int main() {
   using namespace arcslip::testing;
-  constexpr std::array statements = {peaks_and_phases, best_of_five_preloads, stick_and_slip,
-                                     convergence_of_rods, damper_driven_by_the_base};
+  constexpr std::array statements = {peaks_and_phases,         best_of_five_preloads, stick_and_slip,
+                                     mass_ratio_and_preload,   separated_frequencies, convergence_of_rods,
+                                     damper_driven_by_the_base};
   try {
     std::size_t holding = 0;
     for (const auto& measure : statements) {
