@@ -36,12 +36,13 @@ double read_interface_stiffness(const TomlSection& section, StructureModel model
   return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
 }
 
-void read_damping(const TomlDocument& document, const TomlSection& section, SystemParameters& system) {
+void read_damping(const TomlDocument& document, const TomlSection& section, bool passive,
+                  SystemParameters& system) {
   if (!section.has("damping")) return;
   const toml::table* table = section.require("damping", "a table").as_table();
   if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
   for (const auto& [key, node] : *table) {
-    const std::string name = section.name("damping") + "." + std::string(key.str());
+    const std::string name = section.name_given("damping") + "." + std::string(key.str());
     if (key.str() == "kind") {
       const std::string kind = node.value<std::string>().value_or("");
       if (kind != "viscous" && kind != "structural")
@@ -52,14 +53,14 @@ void read_damping(const TomlDocument& document, const TomlSection& section, Syst
     const bool base = key.str() == "base";
     if (!base && key.str() != "damper")
       document.fail(&node, name, "unknown key; expected base, damper or kind");
-    const NumberRule rule = base ? damping_rule() : inside(0, 1);
+    const NumberRule rule = base && !passive ? damping_rule() : inside(0, 1);
     const double value = node.value<double>().value_or(0);
     if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
     (base ? system.base_damping : system.damper_damping) = value;
   }
 }
 
-void read_friction(const TomlDocument& document, const TomlSection& section, const std::string& parameter,
+void read_friction(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
                    SystemParameters& system) {
   system.model =
       section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
@@ -71,11 +72,12 @@ void read_friction(const TomlDocument& document, const TomlSection& section, con
   system.mass_ratio = section.number("mass_ratio", positive());
   system.frequency_ratio = section.number("frequency_ratio", positive());
   system.interface_stiffness = read_interface_stiffness(section, system.model);
-  read_damping(document, section, system);
+  read_damping(document, section, use.linear_passive, system);
   system.force = section.number("force", positive());
-  if (parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
+  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
   system.preload_growth = section.number("preload_growth", any_number(), 0);
-  system.cubic_stiffness = section.number("cubic_stiffness", any_number(), 0);
+  const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
+  system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
   system.fixed_damper = section.boolean("fixed_damper", false);
 }
 
@@ -133,7 +135,7 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   if (use.model != nullptr) {
     read_settings(section, use, problem.settings);
   } else {
-    read_friction(document, section, use.parameter, problem.system);
+    read_friction(document, section, use, problem.system);
   }
 }
 

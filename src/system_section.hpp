@@ -14,6 +14,7 @@ std::vector<std::string> model_names();
 struct SystemUse {
   const problems::LibraryModel* model;  ///< null for a system with friction
   std::string parameter;                ///< the continuation parameter, which needs no value
+  bool linear_passive = false;          ///< only damping > 0 and no cubic stiffness, as in studies
 };
 
 /// Reads the section into the problem's settings or system. Throws InputError.

@@ -101,9 +101,9 @@ void TomlDocument::fail(const toml::node* node, const std::string& name, const s
   throw InputError(fmt::format("{}:{}:{}: {}: {}", path_, at.line, at.column, name, what));
 }
 
-void TomlDocument::mismatch(const toml::node& node, const std::string& name,
-                            const std::string& expected) const {
-  fail(&node, name, fmt::format("expected {}, got {}", expected, shown(node)));
+void TomlDocument::mismatch(const toml::node& node, const std::string& name, const std::string& expected,
+                            const toml::node* place) const {
+  fail(place != nullptr ? place : &node, name, fmt::format("expected {}, got {}", expected, shown(node)));
 }
 
 NumberRule any_number() {
@@ -155,20 +155,19 @@ const toml::node& TomlSection::require(std::string_view key, const std::string& 
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   const Replacement value = find(key);
-  const toml::node* place = value.node != nullptr ? value.node : table_;
-  document_.fail(place, value.name, what);
+  const toml::node* node = value.node != nullptr ? value.node : table_;
+  document_.fail(value.place != nullptr ? value.place : node, value.name, what);
 }
 
 void TomlSection::mismatch(std::string_view key, const std::string& expected) const {
   const Replacement value = find(key);
-  document_.mismatch(*value.node, value.name, expected);
+  document_.mismatch(*value.node, value.name, expected, value.place);
 }
 
 double TomlSection::checked(const Replacement& value, const NumberRule& rule) const {
-  const std::string expected = "a finite number" + rule.text;
-  if (!value.node->is_number()) document_.mismatch(*value.node, value.name, expected);
-  const double number = *value.node->value<double>();
-  if (!std::isfinite(number) || !rule.holds(number)) document_.mismatch(*value.node, value.name, expected);
+  const double number = value.node->is_number() ? *value.node->value<double>() : std::nan("");
+  if (!std::isfinite(number) || !rule.holds(number))
+    document_.mismatch(*value.node, value.name, "a finite number" + rule.text, value.place);
   return number;
 }
 

@@ -3,11 +3,11 @@
 // Case files of preload studies: [system], [study] and [continuation].
 
 #include <functional>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "arcslip/case_file.hpp"
 #include "arcslip/problems/preload_study.hpp"
 
 namespace arcslip {
