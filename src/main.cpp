@@ -143,7 +143,7 @@ int dispatch(int argc, char** argv) {
   std::string folder;
   CLI::App* plot =
       app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
-  plot->add_option("DIR", folder, "Folder that `arcslip run` wrote")->required();
+  plot->add_option("DIR", folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
 
   try {
     app.parse(argc, argv);

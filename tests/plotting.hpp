@@ -2,8 +2,6 @@
 
 // What tests of `arcslip plot` share.
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -12,42 +10,17 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "temporary_folder.hpp"
+#include "program.hpp"
 
 namespace arcslip::testing {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-/// What the program does in a shell; `before` are the variables set for it.
-inline Outcome arcslip_program(const std::string& arguments, const std::string& before = "") {
-  const TemporaryFolder folder;
-  const std::string command = before + " '" ARCSLIP_PROGRAM "' " + arguments + " >'" + folder.path("out") +
-                              "' 2>'" + folder.path("err") + "'";
-  const int code = std::system(command.c_str());
-  return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read(folder.path("out")), read(folder.path("err"))};
-}
 
 /// Whether pictures can be drawn here; a warning if not.
 inline bool has_gnuplot() {
   if (std::system("command -v gnuplot >/dev/null 2>&1") == 0) return true;
   WARN("gnuplot is not installed: nothing is drawn");
   return false;
-}
-
-inline std::set<std::string> names_in(const std::string& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
-
-inline bool is_one_line(const std::string& text) {
-  return !text.empty() && text.find('\n') == text.size() - 1;
 }
 
 /// Requires all pictures in the folder, from their first bytes to their last, and nothing besides the

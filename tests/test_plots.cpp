@@ -15,8 +15,8 @@ const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "p
                                            "dissipated"};
 
 void run(const std::string& problem, const std::string& folder, const std::string& options = "") {
-  const Outcome outcome = arcslip_program("run '" ARCSLIP_SOURCE_DIR "/problems/" + problem +
-                                          ".toml' --quiet -o \"" + folder + "\" " + options);
+  const Outcome outcome =
+      arcslip_program("run '" + case_named(problem) + "' --quiet -o \"" + folder + "\" " + options);
   REQUIRE(outcome.err.empty());
   REQUIRE(outcome.status == 0);
 }
@@ -129,7 +129,7 @@ TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and 
   run("figure_8", folder.path("r"), "--set branch.to=1.5");
   const auto fails = [&](const std::string& path, const std::string& message) {
     CAPTURE(message);
-    const Outcome outcome = arcslip_program("plot " + folder.path("r"), path);
+    const Outcome outcome = shell(path + " '" + program + "' plot " + folder.path("r"));
     CHECK(outcome.status == 4);
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(message));

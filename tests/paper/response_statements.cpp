@@ -140,9 +140,13 @@ Statement peaks_and_phases() {
                     fmt::format("{:.4f}", opposite), "> pi - 0.1");
   double most = 0;
   double turn = 0;
-  for (const BranchPoint& point : locked.points()) {
-    if (Response::eta(point) <= 50) most = std::max(most, locked.phase_difference(point));
-    if (turn == 0 && locked.phase_difference(point) > pi / 2) turn = Response::eta(point);
+  for (std::size_t i = 1; i < locked.points().size(); ++i) {
+    const double eta_before = Response::eta(locked.points()[i - 1]);
+    const double eta_here = Response::eta(locked.points()[i]);
+    const double before = locked.phase_difference(locked.points()[i - 1]) - pi / 2;
+    const double here = locked.phase_difference(locked.points()[i]) - pi / 2;
+    if (eta_here <= 50) most = std::max(most, here + pi / 2);
+    if (before < 0 && here >= 0) turn = eta_before + (eta_here - eta_before) * before / (before - here);
   }
   statement.require(most < 0.1, "P = 50: the same for eta <= 50, at most", fmt::format("{:.4f}", most),
                     "< 0.1");
