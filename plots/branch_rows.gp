@@ -5,6 +5,6 @@ kind(row) = kind_of(strcol("type"))
 is_end(row) = strcol("type") eq "start" || strcol("type") eq "end"
 slips(row) = strcol("regime") eq "slip"
 ends_slip(row) = strcol("type") eq "switch"  # the last point of a stretch of slip, though it enters stick
-is_drawn(row) = 1
+length_of(row) = column("arclength")
 array regimes[2] = ["stick", "slip"]
 has_lengths = 1

@@ -33,7 +33,7 @@ do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # 
 bounds = spread(STATS_min, STATS_max)
 x_low = real(word(bounds, 1))
 x_high = real(word(bounds, 2))
-has_room = strlen(lines_title) > 0  # curves in two parameters end anywhere
+has_room = strlen(lines_title) > 0 || rows_of eq "optimum"  # curves end anywhere, designs are marked
 bounds = with_room(x_low, x_high, x_low < ends_low || has_room ? 0.04 : 0, x_high > ends_high || has_room ? 0.04 : 0)
 x_low = real(word(bounds, 1))
 x_high = real(word(bounds, 2))
@@ -42,6 +42,7 @@ x_high = real(word(bounds, 2))
 array xs[rows]
 array ys[rows]
 array slip_ys[rows]  # undefined where there is no slip
+shown_y(i) = lines eq "envelope" ? slip_ys[i] : ys[i]
 array lengths[rows]  # along the branch
 array counts[rows]   # of unstable eigenvalues, of the stretch that begins here
 specials = int(sum [k = 1:kinds] found[k])

@@ -21,7 +21,11 @@ rows = STATS_records
 array row_x[rows]
 array row_y[rows]
 array row_z[rows]
-note(i) = (row_x[i] = column(parameter), row_y[i] = column(y_column), row_z[i] = column(z_column))
+is_flat(kind) = z_column eq "P_opt" && kind eq "flat"  # its preload is one of a range
+note(i) = (row_x[i] = column(parameter), row_y[i] = column(y_column), row_z[i] = is_flat(strcol("kind")) ? NaN : column(z_column), \
+           flat = flat || is_flat(strcol("kind")), failed = failed || strcol("kind") eq "failed")
+flat = 0
+failed = 0
 i = 0
 stats csv using (i = i + 1, note(i), 0) nooutput
 unset datafile columnheaders
@@ -49,7 +53,7 @@ box_left = right_edge - 1.62
 box_right = box_left + 0.3
 map_right = box_left - 0.25
 left_edge = 1.35
-body = top + 0.35
+body = top + (flat || failed ? 0.75 : 0.35)
 array regimes[2] = ["", ""]
 array found[kinds]
 do for [k = 1:kinds] { found[k] = 0 }
@@ -62,9 +66,11 @@ widened(ratio, first_step, last_step) = last_step > sqrt(ratio) * first_step ? 1
 z_wide = wide
 axis = "x"; low = xs[1]; high = xs[x_count]; length = map_right - left_edge
 wide = low > 0 ? widened(1.0 * high / low, xs[2] - xs[1], xs[x_count] - xs[x_count - 1]) : wide
+x_is_log = is_wide(low, high)
 load style."/axis.gp"
 axis = "y"; low = ys[1]; high = ys[y_count]; length = top - bottom
 wide = low > 0 ? widened(1.0 * high / low, ys[2] - ys[1], ys[y_count] - ys[y_count - 1]) : wide
+y_is_log = is_wide(low, high)
 load style."/axis.gp"
 wide = z_wide
 axis = "cb"; low = z_low; high = z_high; length = top - bottom
@@ -72,6 +78,12 @@ load style."/axis.gp"
 set xtics offset 0, 0.8 out nomirror
 set ytics offset 0.6, 0 out nomirror
 set cbtics offset -0.8, 0 out nomirror
+if (flat || failed) {
+  set object rectangle from screen across(left_edge), up(top + 0.3) to screen across(left_edge + 0.35), up(top + 0.52) \
+    fillcolor rgb shade fillstyle solid noborder
+  set label (flat ? "no single best preload" : "").(flat && failed ? ", " : "").(failed ? "not found" : "") \
+    at screen across(left_edge + 0.5), up(top + 0.41)
+}
 set label x_title at screen across(0.5 * (left_edge + map_right)), up(0.22) center
 set label y_title at screen across(0.25), up(0.5 * (bottom + top)) center rotate
 set label z_title at screen across(width - 0.22), up(0.5 * (bottom + top)) center rotate
@@ -94,24 +106,24 @@ set zrange [*:*]
 z_at(u, v) = zs[(round(u) - 1) * y_count + round(v)]
 splot sample [u=1:x_count] [v=1:y_count] '++' using (xs[round(u)]):(ys[round(v)]):(z_at(u, v)) with pm3d notitle
 
-# Round values, at most eight of them.
+# Lines at round values, named where they cross a line through the middle of the map or, if they do not, the one upright
+# to it, unless there is another name.
 array steps[3] = [1, 2, 5]
-levels = ""
+array levels[60]
 number = 0
 if (is_wide(z_low, z_high)) {
-  decades = log10(z_high / z_low)
+  many = log10(z_high / z_low) > 4
   do for [k = floor(log10(z_low)):ceil(log10(z_high))] {
-    do for [m = 1:(decades > 6 ? 1 : 3)] {
+    do for [m = 1:(many ? 1 : 3)] {
       v = steps[m] * 10.0 ** k
-      if (v > z_low && v < z_high) { levels = levels.(number ? ", " : "").sprintf("%.9g", v); number = number + 1 }
+      if (v > z_low && v < z_high && number < 60) { number = number + 1; levels[number] = v }
     }
   }
 } else {
   step = 10.0 ** floor(log10((z_high - z_low) / 2))
   step = step * ((z_high - z_low) / step > 12 ? 5 : (z_high - z_low) / step > 6 ? 2 : 1)
   do for [k = ceil(z_low / step):floor(z_high / step)] {
-    v = k * step
-    if (v > z_low && v < z_high) { levels = levels.(number ? ", " : "").sprintf("%.9g", v); number = number + 1 }
+    if (k * step > z_low && k * step < z_high) { number = number + 1; levels[number] = k * step }
   }
 }
 unset label
@@ -122,14 +134,50 @@ unset xtics
 unset ytics
 unset border
 if (number) {
-  eval "set cntrparam levels discrete ".levels
+  level_list = ""
+  do for [n = 1:number] { level_list = level_list.(n > 1 ? ", " : "").sprintf("%.9g", levels[n]) }
+  eval "set cntrparam levels discrete ".level_list
+  set cntrlabel onecolor
   set contour base
   unset surface
   unset pm3d
-  set cntrlabel format '%g' font sprintf(",%g", 0.75 * type_size) start 4 interval 1000 onecolor
-  set style textbox opaque fillcolor rgb '#FFFFFF' noborder margins 0.4, 0.3
+
+  across_map(v) = (map_right - left_edge) * place_between(xs[1], xs[x_count], v, x_is_log)
+  up_map(v) = (top - bottom) * place_between(ys[1], ys[y_count], v, y_is_log)
+  place_between(low, high, v, is_log) = is_log ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)
+  part(a, b, v) = a > 0 && b > 0 ? log(v / a) / log(b / a) : (v - a) / (b - a)
+  crosses(a, b, v) = a == a && b == b && (a - v) * (b - v) <= 0 && a != b
+  array name_x[60]
+  array name_y[60]
+  names = 0
+  try_name = "\
+    is_free = x > 0.4 && x < map_right - left_edge - 0.4 && y > 0.2 && y < top - bottom - 0.2; \
+    do for [k = 1:names] { is_free = is_free && (abs(x - name_x[k]) > 0.75 || abs(y - name_y[k]) > 0.4) }; \
+    if (is_free) { \
+      names = names + 1; name_x[names] = x; name_y[names] = y; named = 1; \
+      set label sprintf('%g', levels[n]) at screen across(left_edge + x), up(bottom + y) center front boxed font small \
+    }"
+  small = sprintf(",%g", 0.8 * type_size)
+  set style textbox opaque fillcolor rgb '#FFFFFF' noborder margins 0.5, 0.4
+  middle_x = (x_count + 1) / 2
+  middle_y = (y_count + 1) / 2
+  do for [n = 1:number] {
+    named = 0
+    do for [i = 1:x_count - 1] {
+      a = z_at(i, middle_y); b = z_at(i + 1, middle_y)
+      if (!named && crosses(a, b, levels[n])) {
+        x = across_map(xs[i]) + part(a, b, levels[n]) * (across_map(xs[i + 1]) - across_map(xs[i])); y = up_map(ys[middle_y])
+        eval try_name
+      }
+    }
+    do for [j = 1:y_count - 1] {
+      a = z_at(middle_x, j); b = z_at(middle_x, j + 1)
+      if (!named && crosses(a, b, levels[n])) {
+        y = up_map(ys[j]) + part(a, b, levels[n]) * (up_map(ys[j + 1]) - up_map(ys[j])); x = across_map(xs[middle_x])
+        eval try_name
+      }
+    }
+  }
   splot sample [u=1:x_count] [v=1:y_count] '++' using (xs[round(u)]):(ys[round(v)]):(z_at(u, v)) \
-      with lines linecolor rgb 0xFFFFFF linewidth thin notitle, \
-    [u=1:x_count] [v=1:y_count] '++' using (xs[round(u)]):(ys[round(v)]):(z_at(u, v)) \
-      with labels boxed notitle
+    with lines linecolor rgb 0xFFFFFF linewidth thin notitle
 }

@@ -6,6 +6,5 @@ kind(row) = branches == 1 && rows > 60 ? 0 : kind_of("optimum ".strcol("kind"))
 is_end(row) = 1
 slips(row) = 0
 ends_slip(row) = 0
-is_drawn(row) = 1
 array regimes[2] = ["", ""]
 has_lengths = 0

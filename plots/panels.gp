@@ -10,7 +10,7 @@ refine = has_lengths && rows <= 3000 ? 8 : 1
 number = words(panels) / 2
 panel_column(n) = word(panels, 2 * n - 1)
 panel_title(n) = word(panels, 2 * n)
-quantity(row) = is_drawn(0) ? column(name) : NaN
+quantity(row) = column(name)
 from = x_low; to = x_high
 is_marked(x0) = 1
 

@@ -5,8 +5,8 @@
 #   picture   the file to write
 #   format    png or svg
 #   shared    the continuation parameter, which is the axis that the panels share; and what the lines tell:
-#             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable) or "plain" (nothing); and
-#             whose rows these are, "branch", "sweep" or "optimum"
+#             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable), "envelope" (the highest
+#             peak alone) or "plain" (nothing); and whose rows these are, "branch", "sweep" or "optimum"
 #   labels    one word in double quotes for each colour, "" for one without a name
 #   groups    for each branch the number of its colour
 #   names     words in double quotes: the title of the shared axis; what the lines are, or ""; then pairs of a type of

@@ -1,5 +1,5 @@
 # What a row of sweep.csv tells, of the one that is being read. A peak that is followed in P is a branch, in the colour of
-# its curve; what is "slip" of a response is here the highest of the peaks. With the lines "plain" no other is drawn.
+# its curve; what is "slip" of a response is here the highest of the peaks.
 
 set datafile separator comma
 set datafile columnheaders
@@ -21,6 +21,6 @@ kind(row) = kind_of(strcol("type"))
 is_end(row) = strcol("type") eq "start" || strcol("type") eq "end"
 slips(row) = column("is_global") == 1 || strcol("type") eq "exchange"  # there both peaks are as high
 ends_slip(row) = 0
-is_drawn(row) = lines eq "regimes" || slips(0)
+length_of(row) = log(column("P"))
 array regimes[2] = ["other peaks", "highest peak"]
-has_lengths = 0
+has_lengths = 1

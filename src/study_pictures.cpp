@@ -121,7 +121,7 @@ std::vector<Picture> pictures_over_preload(const Designs& designs) {
         "sweep.csv"};
   };
   return {
-      picture("ratio", "plain", {"birth", "death", "exchange", "corner"}, {"ratio", ratio_title}),
+      picture("ratio", "envelope", {"birth", "death", "exchange", "corner"}, {"ratio", ratio_title}),
       picture("peaks", "regimes", {"corner"}, {"ratio", peak_title, "eta_peak", axis_title("eta", true)})};
 }
 
