@@ -1,0 +1,47 @@
+#pragma once
+
+// Sparse matrices and lists of dofs as text: the coordinate format of Matrix Market [Boisvert, Pozo and
+// Remington, The Matrix Market exchange formats, NISTIR 5935 (1996)], as finite-element programs write it.
+//
+//   %%MatrixMarket matrix coordinate real symmetric
+//   % comments and blank lines anywhere
+//   rows columns entries
+//   row column value          one entry a line, indices from 1
+//
+// A text can be hostile: what is allocated is bounded by its length, at most 16 bytes for each of its own and
+// 16 MiB besides.
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip {
+
+/// A text that is not in its format. what() is one line: file, line, what was expected and what was given.
+class MatrixTextError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Rows that a matrix may have beyond one for each of its entries.
+inline constexpr Index most_empty_rows = Index{1} << 19;
+
+/// The square matrix that `text` holds, compressed, in coordinate format with real or integer values, general
+/// or symmetric (the lower triangle given). Entries given more than once are summed. `file` is its name in
+/// errors. Throws MatrixTextError.
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file);
+
+/// The dofs that `text` lists, separated by blanks or lines, numbered from 1 to `size` in the text and from 0
+/// in the result; what follows % or # on a line is a comment. Throws MatrixTextError.
+std::vector<Index> read_dofs(std::string_view text, const std::string& file, Index size);
+
+enum class MatrixSymmetry { general, symmetric };
+
+/// `matrix` in the format above with 17 digits, so that reading it gives the same numbers. Throws
+/// std::invalid_argument where it is to be symmetric and is not, to the last digit.
+std::string write_matrix_market(const SparseMatrix& matrix, MatrixSymmetry symmetry);
+
+}  // namespace arcslip
