@@ -87,11 +87,15 @@ class OptimumJudge {
         complain("Y_max does not rise to both sides");
       return;
     }
-    const Real fall = slope(before, best_ * (1 - near));
-    const Real rise = slope(after, best_ * (1 + near));
+    const auto jump = [&](Real distance) {
+      return std::pair(slope(top(best_ * (1 - distance)), best_ * (1 - distance)),
+                       slope(top(best_ * (1 + distance)), best_ * (1 + distance)));
+    };
+    const auto [fall, rise] = jump(near);
     if (!(fall < 0 && rise > 0))
       complain(fmt::format("slopes {:.3g} and {:.3g} beside it", static_cast<double>(fall), static_cast<double>(rise)));
-    if (optimum_.kind == OptimumKind::smooth && rise - fall > 1e-3L) complain("there is a kink");
+    const auto [closer_fall, closer_rise] = jump(near / 10);
+    if (optimum_.kind == OptimumKind::smooth && closer_rise - closer_fall > 0.3L * (rise - fall)) complain("there is a kink");
   }
 
   void judge_exchange(const dense::LocalPeak& before, const dense::LocalPeak& after) {
@@ -140,7 +144,7 @@ class OptimumJudge {
       (free(middle).log_Y > lowest_ ? low : high) = middle;
     }
     const Real eta = free(low).eta;
-    if (eta == window_.low || eta == window_.high) return;
+    if (eta < window_.low * (1 + 1e-12L) || eta > window_.high * (1 - 1e-12L)) return;
     if (!(std::abs(std::log(optimum_.damping) - low) < 1e-8L))
       complain(fmt::format("equivalent damping {:.12g}, not {:.12g}", static_cast<double>(std::exp(low)), optimum_.damping));
   }

@@ -62,11 +62,13 @@ class StudyJudge {
   using Peak = problems::Peak;
   using Real = dense::Real;
 
-  explicit StudyJudge(StudyRun run, const continuation::TraceOptions& options = {})
+  explicit StudyJudge(const StudyRun& run) : StudyJudge(run, problems::study_preload(run.system, run.range)) {}
+
+  StudyJudge(StudyRun run, problems::PreloadStudy study)
       : run_(std::move(run)),
         case_(dense_case(run_.system)),
         window_{run_.range.eta_low, run_.range.eta_high},
-        study_(problems::study_preload(run_.system, run_.range, options)) {
+        study_(std::move(study)) {
     judge_order();
     judge_tiles();
     judge_exchanges();
@@ -102,7 +104,8 @@ class StudyJudge {
   /// The highest peak at any preload of a row.
   void judge_global(const Peak& row) {
     const dense::LocalPeak top = dense::highest(dense::peaks_at(case_, window_, row.preload));
-    if (!(std::abs(std::log(row.Y) - top.log_Y) < tight)) {
+    // a row is as near to its ridge as the tolerance in P
+    if (!(std::abs(std::log(row.Y) - top.log_Y) < tight * std::max(1.0, std::abs(row.sensitivity.preload)))) {
       complain("called the highest: {}; but there is {}", describe(row), describe(top));
     }
   }
