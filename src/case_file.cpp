@@ -138,9 +138,10 @@ std::vector<std::string> for_each_keys(const LibraryModel* model) {
   return keys;
 }
 
-/// The input as it is understood, defaults included.
+/// The input as it is understood, defaults included, without what belongs to [study].
 ordered_json resolve(const TomlDocument& document, const Case& built) {
   ordered_json resolved = to_json(document.root());
+  resolved.erase("study");
   const CaseBranch& first = built.branches.front();
   resolve_system(first.problem, resolved["system"]);
   resolve_continuation(first.options, resolved["continuation"]);
