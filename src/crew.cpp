@@ -17,8 +17,8 @@ bool Crew::leads() const { return true; }
 std::size_t Crew::default_jobs() const { return std::max(1U, std::thread::hardware_concurrency()); }
 
 bool Crew::agree(const std::string& error) const {
-  if (!error.empty()) std::cerr << error << '
-'; return error.empty();
+  if (!error.empty()) std::cerr << error << '\n';
+  return error.empty();
 }
 
 std::size_t Crew::compute(const StudyCase& study, std::size_t jobs, PendingDesigns& pending,
