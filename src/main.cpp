@@ -52,7 +52,8 @@ A case file; what follows "optional" need not be given:
   from = 0.5
   to = 120.0
   # optional
-  response = "forced"        # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
+  response = "forced"        # "one_way": of a damper on a base that moves as if alone
+                             # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
   start = 3.0                # trace both ways from here
   all_solutions = false      # true: trace through every solution at start that deflation finds
   switching = false          # true: follow all branches that meet this one; not beside start
@@ -142,7 +143,7 @@ int dispatch(int argc, char** argv) {
   std::string folder;
   CLI::App* plot =
       app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
-  plot->add_option("DIR", folder, "Folder that `arcslip run` wrote")->required();
+  plot->add_option("DIR", folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
 
   try {
     app.parse(argc, argv);
