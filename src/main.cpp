@@ -160,21 +160,25 @@ int dispatch(int argc, char** argv) {
 
 }  // namespace
 
+int arcslip::guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    std::cerr << error.what() << std::endl;
+    return status::wrong_input;
+  } catch (const OutputError& error) {
+    std::cerr << error.what() << std::endl;
+    return status::cannot_write;
+  } catch (const std::exception& error) {
+    std::cerr << "arcslip: " << error.what() << std::endl;
+    return status::wrong_input;
+  }
+}
+
 int main(int argc, char** argv) {
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is reported as one that cannot be written
 #endif
   std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return dispatch(argc, argv);
-  } catch (const arcslip::InputError& error) {
-    std::cerr << error.what() << '\n';
-    return arcslip::status::wrong_input;
-  } catch (const arcslip::OutputError& error) {
-    std::cerr << error.what() << '\n';
-    return arcslip::status::cannot_write;
-  } catch (const std::exception& error) {
-    std::cerr << "arcslip: " << error.what() << '\n';
-    return arcslip::status::wrong_input;
-  }
+  return arcslip::guarded([&] { return dispatch(argc, argv); });
 }
