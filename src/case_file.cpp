@@ -33,22 +33,46 @@ struct ForEach {
   bool sets(const std::string& key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 };
 
+/// The lists of for_each by their keys, those in a table by dotted ones: damper.width.
+std::vector<std::pair<std::string, const toml::node*>> lists_of(const TomlDocument& document,
+                                                                const std::string& path,
+                                                                const std::vector<std::string>& allowed) {
+  const TomlSection section(document, path);
+  std::vector<std::string> here = allowed;
+  for (const std::string& key : allowed) here.push_back(key.substr(0, key.find('.')));
+  section.allow_only(here);
+  std::vector<std::pair<std::string, const toml::node*>> lists;
+  for (const auto& [key, node] : *section.table()) {
+    const std::string name(key.str());
+    std::vector<std::string> inner;
+    for (const std::string& one : allowed) {
+      if (one.starts_with(name + ".")) inner.push_back(one.substr(name.size() + 1));
+    }
+    if (inner.empty()) {
+      lists.emplace_back(name, &node);
+    } else {
+      for (const auto& [rest, list] : lists_of(document, section.name(name), inner))
+        lists.emplace_back(name + "." + rest, list);
+    }
+  }
+  return lists;
+}
+
 ForEach read_for_each(const TomlDocument& document, const TomlSection& branch, const LibraryModel* model) {
   ForEach result;
   if (!branch.has("for_each")) return result;
   const TomlSection section(document, "branch.for_each");
-  std::vector<std::string> allowed = system_keys(model);
+  std::vector<std::string> allowed = listed_keys(document, model);
   if (model == nullptr) allowed.emplace_back("eta");
-  if (model != nullptr) std::erase(allowed, "model");
-  section.allow_only(allowed);
-  for (const auto& [key, node] : *section.table()) {
-    const std::string name(key.str());
-    const toml::array* list = node.as_array();
-    if (list == nullptr || list->empty()) section.mismatch(name, "an array with at least one value");
+  for (const auto& [name, node] : lists_of(document, "branch.for_each", allowed)) {
+    const toml::array* list = node->as_array();
+    if (list == nullptr || list->empty())
+      document.mismatch(*node, section.name(name), "an array with at least one value");
     if (!result.keys.empty() && list->size() != result.count) {
-      section.fail(
-          name, fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
-                            result.count, result.keys.front(), list->size()));
+      document.fail(
+          node, section.name(name),
+          fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
+                      result.count, result.keys.front(), list->size()));
     }
     result.keys.push_back(name);
     result.values.push_back(list);
@@ -62,7 +86,7 @@ Replacements replacements_of(const ForEach& for_each, std::size_t i) {
   Replacements replacements;
   for (std::size_t k = 0; k < for_each.keys.size(); ++k) {
     const std::string& key = for_each.keys[k];
-    const std::string path = key == "eta" ? "branch.eta" : "system." + key;
+    const std::string path = key == "eta" ? "branch.eta" : path_of(key);
     replacements[path] = {for_each.values[k]->get(i), fmt::format("branch.for_each.{}[{}]", key, i)};
   }
   return replacements;
@@ -251,8 +275,9 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
   if (common.problem.limit_cycle && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
   }
-  if (parameter == "P" && for_each.sets("preload")) {
-    branch.fail("for_each", "preload cannot be listed where P is the continuation parameter");
+  for (const char* key : {"preload", "preload_per_length"}) {
+    if (parameter == "P" && for_each.sets(key))
+      branch.fail("for_each", fmt::format("{} cannot be listed where P is the continuation parameter", key));
   }
   if (parameter != "P" && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
@@ -264,7 +289,7 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
 Case read_case(const std::string& path, const std::vector<std::string>& settings) {
   const TomlDocument document(path, settings);
   const TomlSection root(document, "");
-  root.allow_only({"title", "system", "branch", "continuation"});
+  root.allow_only({"title", "system", "geometry", "branch", "continuation"});
   const TomlSection section(document, "branch");
   if (section.table() == nullptr) document.fail(nullptr, "branch", "missing; expected a section [branch]");
   section.allow_only(branch_keys);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arcslip/continuation/derivative_check.hpp"
+#include "arcslip/results.hpp"
 #include "arcslip/runs.hpp"
 #include "commands.hpp"
 #include "output.hpp"
@@ -22,11 +23,9 @@ std::string describe(const ProblemRequest& problem) {
     return text;
   }
   const SystemParameters& system = problem.system;
-  std::string text = fmt::format(
-      "{}, n = {}, N = {}, M* = {:g}, gamma = {:g}, K_FD = {:.6g}, zeta = {:g} (base), {:g} (damper), F = "
-      "{:g}",
-      to_string(system.model), system.wave_number, system.elements, system.mass_ratio, system.frequency_ratio,
-      system.interface_stiffness, system.base_damping, system.damper_damping, system.force);
+  std::string text = fmt::format("{}, n = {}, N = {}, {}, zeta = {:g} (base), {:g} (damper)",
+                                 to_string(system.model), system.wave_number, system.elements,
+                                 describe_groups(problem), system.base_damping, system.damper_damping);
   if (system.base_damping_kind == DampingKind::structural) text += ", structural damping of the base";
   if (system.fixed_damper) text += ", damper held";
   if (system.cubic_stiffness != 0) text += fmt::format(", cubic stiffness {:g}", system.cubic_stiffness);
@@ -112,6 +111,7 @@ int check_command(const CheckOptions& options) {
     const std::string values = describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
+    if (branch.problem.geometry) text += fmt::format("  {}\n", describe_units(branch.problem));
     if (!options.derivatives) continue;
     const continuation::DerivativeReport report = check_derivatives(branch);
     good = good && report.worst <= exact;

@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "contact", "dynamic_stiffness", "elements", "modal_model", "precise", "sector", "system"};
-const std::set<std::string, std::less<>> files{"output", "case_file",      "results",
+    "contact",        "dynamic_stiffness", "elements", "modal_model",
+    "physical_scale", "precise",           "sector",   "system"};
+const std::set<std::string, std::less<>> files{"output", "case_file",      "geometry_section", "results",
                                                "runs",   "system_section", "toml_reader"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.

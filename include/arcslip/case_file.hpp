@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "arcslip/continuation/curve.hpp"
+#include "arcslip/physical_scale.hpp"
 #include "arcslip/problems/library.hpp"
-#include "arcslip/system.hpp"
 
 namespace arcslip {
 
@@ -35,8 +35,9 @@ struct ProblemRequest {
   const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
   problems::LibraryModel::Values settings;        ///< the library model's
   SystemParameters system;
-  bool limit_cycle = false;  ///< self-excited vibration instead of the forced response
-  double eta = 0;            ///< the fixed frequency where eta is not continued
+  std::optional<Geometry> geometry;  ///< where the system is given in SI units
+  bool limit_cycle = false;          ///< self-excited vibration instead of the forced response
+  double eta = 0;                    ///< the fixed frequency where eta is not continued
 };
 
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.
