@@ -19,6 +19,7 @@ Examples
   arcslip plot out/figure_8                       its pictures, PNG and SVG
   arcslip check problems/figure_8.toml            what would run
   arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
+  arcslip run problems/rotor_ring.toml            a system given in SI units
   arcslip run problems/ridge.toml                 the peaks over the preload: a curve in two parameters
 
 Exit status
@@ -46,6 +47,13 @@ A case file; what follows "optional" need not be given:
   preload_growth = 0.0       # P_2 of the preload P + P_2 eta^2
   cubic_stiffness = 0.0      # of springs between base and ground
   fixed_damper = false       # true: friction against a rigid ring
+  [geometry]                 # in place of mass_ratio to preload, and of poisson_ratio: two rings in SI units
+  circumference = 0.8        # or radius, the mean one
+  friction_coefficient = 0.3
+  preload_per_length = 300   # p_0, N/m
+  force_per_length = 100     # f_0, N/m
+  base = { elastic_modulus = 110e9, density = 7200, width = 0.045, height = 0.024 }
+  damper = { elastic_modulus = 210e9, density = 7850, poisson_ratio = 0.29, width = 0.006, height = 0.004 }
   [branch]
   parameter = "eta"          # or "P", with eta = ... for the fixed frequency; or a library model's parameter
   from = 0.5
