@@ -1,0 +1,63 @@
+#pragma once
+
+// All local peaks of Y over a window of eta while P varies, found on complete frequency responses and
+// followed in P.
+//
+// The stuck response does not depend on P: its peaks are those in stick, and P_border(eta), where R = S on
+// it, is the border on which peaks may sit. Peaks in slip are curves dY/deta = 0, traced by the engine from
+// peaks of the response at a few preloads and from the points where they meet the border.
+
+#include "arcslip/continuation/branch.hpp"
+#include "arcslip/continuation/extended_problem.hpp"
+#include "arcslip/problems/peak_piece.hpp"
+
+namespace arcslip::problems {
+
+class PeakSearch {
+ public:
+  /// Finds the peaks in stick, on the border and on the window's ends. Keeps references.
+  PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
+             const continuation::TraceOptions& options);
+
+  /// Traces the response at this preload and follows those of its peaks that are not known yet: whether there
+  /// were any.
+  bool look_at(double preload);
+
+  /// Follows the peaks in slip that meet the border and were not met otherwise.
+  void follow_from_border();
+
+  const std::vector<PeakPiece>& pieces() const { return pieces_; }
+
+  /// What could not be traced, or empty.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  /// Where a peak in slip meets the border.
+  struct Meeting {
+    PeakNode node;
+    bool met = false;
+  };
+
+  continuation::TraceOptions over(const std::string& parameter) const;
+  void search_border();
+  void add_corner_piece(const std::vector<PeakNode>& nodes);
+  void search_edge(double eta);
+  bool is_known(double eta, double preload, PeakSite site) const;
+  bool follow(const continuation::BranchPoint& peak);
+  void follow(const Meeting& meeting);
+  void add_sections(const continuation::ExtendedProblem& problem, const continuation::Branch& curve);
+  void add_section(std::vector<PeakNode> nodes, bool first_on_border, bool last_on_border);
+  bool is_peak(const PeakNode& node) const;
+  void snap(PeakNode& end);
+  void add(PeakSite site, std::vector<PeakNode> nodes);
+  void fail(const std::string& why);
+
+  const ForcedResponse& problem_;
+  const PreloadRange& range_;
+  const continuation::TraceOptions& options_;
+  std::vector<PeakPiece> pieces_;
+  std::vector<Meeting> meetings_;
+  std::string failure_;
+};
+
+}  // namespace arcslip::problems

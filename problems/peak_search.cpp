@@ -1,0 +1,293 @@
+#include "arcslip/problems/peak_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "arcslip/continuation/curve.hpp"
+#include "arcslip/problems/response_slopes.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::PointType;
+
+constexpr double out_of_reach = 1e200;  // a preload at which everything sticks
+
+/// P_border at eta.
+PeakNode border_node(const FrictionSystem& system, double eta) {
+  const ResponseSlopes at = ResponseSlopes::on_border(system, eta, false);
+  return {at.preload(), eta, at.log_R()};
+}
+
+/// Whether Y has a maximum on the border at eta: the slopes on its two sides, in the order in which they are
+/// passed, are positive and negative.
+bool is_corner_peak(const FrictionSystem& system, double eta) {
+  const AmplitudeSlopes stuck = ResponseSlopes::on_border(system, eta, false).by_eta();
+  const AmplitudeSlopes slipping = ResponseSlopes::on_border(system, eta, true).by_eta();
+  const bool enters_slip = stuck.log_ratio > 0;
+  const double before = enters_slip ? stuck.log_Y : slipping.log_Y;
+  const double after = enters_slip ? slipping.log_Y : stuck.log_Y;
+  return before > 0 && after < 0;
+}
+
+/// Cuts a stretch of the border at P = limit: the node there.
+PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNode& outside, double limit) {
+  const auto away = [&](double eta) { return border_node(system, eta).preload - limit; };
+  std::uintmax_t iterations = 200;
+  const auto [a, b] = boost::math::tools::toms748_solve(
+      away, std::min(inside.eta, outside.eta), std::max(inside.eta, outside.eta),
+      boost::math::tools::eps_tolerance<double>(52), iterations);
+  PeakNode node = border_node(system, 0.5 * (a + b));
+  node.preload = limit;
+  return node;
+}
+
+}  // namespace
+
+PeakSearch::PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
+                       const continuation::TraceOptions& options)
+    : problem_(problem), range_(range), options_(options) {
+  search_border();
+  search_edge(range.eta_low);
+  search_edge(range.eta_high);
+}
+
+void PeakSearch::fail(const std::string& why) {
+  if (failure_.empty()) failure_ = why;
+}
+
+continuation::TraceOptions PeakSearch::over(const std::string& parameter) const {
+  continuation::TraceOptions options = options_;
+  options.parameter = parameter;
+  options.from = parameter == "P" ? range_.from : range_.eta_low;
+  options.to = parameter == "P" ? range_.to : range_.eta_high;
+  options.stop_at.clear();
+  options.extrema_of = {"Y"};
+  return options;
+}
+
+void PeakSearch::add(PeakSite site, std::vector<PeakNode> nodes) {
+  if (nodes.front().preload > nodes.back().preload) std::reverse(nodes.begin(), nodes.end());
+  const auto falls = [](const PeakNode& a, const PeakNode& b) { return !(b.preload > a.preload); };
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), falls), nodes.end());
+  if (nodes.size() >= 2) pieces_.emplace_back(problem_, site, std::move(nodes));
+}
+
+void PeakSearch::search_border() {
+  const FrictionSystem& system = problem_.system();
+  continuation::TraceOptions options = over("eta");
+  const auto slope = [&system](double AmplitudeSlopes::*which, bool slip) {
+    return [&system, which, slip](const Vector&, const Vector& p, int) {
+      return ResponseSlopes::on_border(system, p(ContactProblem::eta), slip).by_eta().*which;
+    };
+  };
+  options.events = {{"meeting", slope(&AmplitudeSlopes::log_Y, true)},
+                    {"turn", slope(&AmplitudeSlopes::log_ratio, false)}};
+  const Branch stuck = continuation::trace(problem_, problem_.guess(range_.eta_low, out_of_reach), options);
+  if (!stuck.complete()) return fail("the stuck response could not be traced: " + stuck.explanation);
+
+  std::vector<PeakNode> stretch;
+  for (const BranchPoint& point : stuck.points) {
+    const PeakNode node = border_node(system, point.parameters(ContactProblem::eta));
+    stretch.push_back(node);
+    if (point.type == PointType::regular || point.type == PointType::start) continue;
+    add_corner_piece(stretch);
+    stretch = {node};
+    const bool inside = node.preload > range_.from && node.preload < range_.to;
+    if (point.type == PointType::peak && node.preload < range_.to) {
+      PeakNode first = node;
+      PeakNode last = node;
+      first.preload = std::max(node.preload, range_.from);
+      last.preload = range_.to;
+      add(PeakSite::stick, {first, last});
+    }
+    if (inside && point.label == "meeting") meetings_.push_back({node});
+  }
+}
+
+void PeakSearch::add_corner_piece(const std::vector<PeakNode>& nodes) {
+  const std::size_t middle = nodes.size() / 2;
+  const double eta = nodes.size() > 2 ? nodes[middle].eta : 0.5 * (nodes.front().eta + nodes.back().eta);
+  if (!is_corner_peak(problem_.system(), eta)) return;
+  std::vector<PeakNode> kept;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const double limit : {range_.from, range_.to}) {
+      if (i == 0 || !((nodes[i - 1].preload - limit) * (nodes[i].preload - limit) < 0)) continue;
+      kept.push_back(cut(problem_.system(), nodes[i - 1], nodes[i], limit));
+    }
+    if (nodes[i].preload >= range_.from && nodes[i].preload <= range_.to) kept.push_back(nodes[i]);
+  }
+  if (kept.size() >= 2) add(PeakSite::corner, std::move(kept));
+}
+
+/// The end of the window is a local peak of it while Y falls from there into it.
+void PeakSearch::search_edge(double eta) {
+  const FrictionSystem& system = problem_.system();
+  const double inwards = eta == range_.eta_low ? 1 : -1;
+  const auto slope_in = [&](const Vector& u, const Vector& p, int regime) {
+    return inwards *
+           ResponseSlopes(system, eta, p(ContactProblem::preload), u(0), regime == ContactProblem::slip)
+               .by_eta()
+               .log_Y;
+  };
+  continuation::TraceOptions options = over("P");
+  options.extrema_of.clear();
+  options.events = {{"turn", slope_in}};
+  const Branch branch = continuation::trace(problem_, problem_.guess(eta, range_.from), options);
+  if (!branch.complete())
+    return fail(fmt::format("the response at eta = {} could not be traced: {}", eta, branch.explanation));
+  std::vector<PeakNode> stretch;
+  double sum = 0;  // of the slopes within the stretch
+  for (const BranchPoint& point : branch.points) {
+    stretch.push_back({point.parameters(ContactProblem::preload), eta, point.unknowns(0)});
+    if (point.type == PointType::regular || point.type == PointType::start) {
+      sum += slope_in(point.unknowns, point.parameters, point.regime);
+      continue;
+    }
+    if (stretch.size() == 2 || sum == 0) {
+      const double middle = std::sqrt(stretch.front().preload * stretch.back().preload);
+      const continuation::Guess at = problem_.guess(eta, middle);
+      sum += slope_in(at.unknowns, at.parameters, at.regime);
+    }
+    if (sum < 0 && stretch.size() >= 2) add(PeakSite::edge, stretch);
+    stretch = {stretch.back()};
+    sum = 0;
+  }
+}
+
+bool PeakSearch::is_known(double eta, double preload, PeakSite site) const {
+  constexpr double same = 1e-6;
+  return std::any_of(pieces_.begin(), pieces_.end(), [&](const PeakPiece& piece) {
+    return piece.site() == site && piece.covers(preload) &&
+           std::abs(piece.at(preload).eta - eta) <= same * eta;
+  });
+}
+
+bool PeakSearch::look_at(double preload) {
+  const Branch branch = continuation::trace(problem_, problem_.guess(range_.eta_low, preload), over("eta"));
+  if (!branch.complete()) {
+    fail(fmt::format("the response at P = {} could not be traced: {}", preload, branch.explanation));
+    return false;
+  }
+  bool found = false;
+  for (std::size_t i = 1; i < branch.points.size(); ++i) {
+    const BranchPoint& point = branch.points[i];
+    if (point.type != PointType::peak) continue;
+    const double eta = point.parameters(ContactProblem::eta);
+    const BranchPoint& before = branch.points[i - 1];
+    const bool corner = before.type == PointType::regime_switch && before.parameters == point.parameters;
+    const PeakSite site = corner                                 ? PeakSite::corner
+                          : point.regime == ContactProblem::slip ? PeakSite::slip
+                                                                 : PeakSite::stick;
+    if (is_known(eta, preload, site)) continue;
+    if (site == PeakSite::slip) {
+      found = follow(point) || found;
+    } else {
+      fail(fmt::format("the stuck response lacks the peak at eta = {:.10g}, P = {:.10g}", eta, preload));
+    }
+  }
+  return found;
+}
+
+bool PeakSearch::follow(const BranchPoint& peak) {
+  const continuation::CurveStart start = continuation::curve_through(problem_, "eta", peak, "Y");
+  continuation::TraceOptions options = over("P");
+  options.extrema_of.clear();  // Y turns with the curve, and a fold would not be told
+  const Branch curve =
+      continuation::trace_curve(*start.problem, start.point, options, {range_.eta_low, range_.eta_high});
+  const bool whole = is_end(curve.stop) && (!curve.first_stop || is_end(*curve.first_stop));
+  if (!whole) {
+    fail(fmt::format("the peak at eta = {:.10g}, P = {:.10g} could not be followed: {}",
+                     peak.parameters(ContactProblem::eta), peak.parameters(ContactProblem::preload),
+                     curve.explanation));
+  }
+  if (curve.points.size() < 2) return false;
+  add_sections(*start.problem, curve);
+  return true;
+}
+
+/// Splits a curve where it turns in P: peaks and troughs take turns.
+void PeakSearch::add_sections(const continuation::ExtendedProblem& problem, const Branch& curve) {
+  std::vector<PeakNode> nodes;
+  bool from_border = false;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const BranchPoint& point = curve.points[i];
+    const continuation::BasePoint at = problem.split(point.unknowns, point.parameters, point.regime);
+    PeakNode node{at.parameters(ContactProblem::preload), at.parameters(ContactProblem::eta), at.unknowns(0)};
+    node.arclength = point.arclength;
+    node.d_log_R = point.tangent(0);
+    node.d_eta = point.tangent(1);
+    node.d_preload = point.tangent(2);
+    nodes.push_back(node);
+    const bool last = i + 1 == curve.points.size();
+    if (i == 0)
+      from_border = std::abs(problem_.border(at.unknowns, at.parameters, point.regime, 0, nullptr)) < 1e-9;
+    if (point.type != PointType::fold && !last) continue;
+    const bool to_border =
+        last && std::abs(problem_.border(at.unknowns, at.parameters, point.regime, 0, nullptr)) < 1e-9;
+    add_section(nodes, from_border, to_border);
+    nodes = {node};
+    from_border = false;
+  }
+}
+
+void PeakSearch::add_section(std::vector<PeakNode> nodes, bool first_on_border, bool last_on_border) {
+  if (nodes.size() < 2) return;
+  if (first_on_border) snap(nodes.front());
+  if (last_on_border) snap(nodes.back());
+  if (is_peak(nodes[nodes.size() / 2])) add(PeakSite::slip, std::move(nodes));
+}
+
+/// By the slopes on both sides, as near as they rise above the rounding that is left of the slope at the
+/// node.
+bool PeakSearch::is_peak(const PeakNode& node) const {
+  const auto slope = [&](double eta) {
+    const auto at = ResponseSlopes::solve(problem_.system(), eta, node.preload, node.log_R);
+    return at ? at->by_eta().log_Y : std::numeric_limits<double>::quiet_NaN();
+  };
+  const double rounding = std::abs(slope(node.eta));
+  double fall = 0;
+  for (double beside = 1e-13; beside < 1e-3; beside *= 4) {
+    fall = slope(node.eta * (1 - beside)) - slope(node.eta * (1 + beside));
+    if (std::abs(fall) > 100 * rounding) break;
+  }
+  return fall > 0;
+}
+
+/// The end of a curve at the border is the place where it was found on the border itself.
+void PeakSearch::snap(PeakNode& end) {
+  constexpr double same = 1e-6;
+  for (Meeting& meeting : meetings_) {
+    if (std::abs(meeting.node.eta - end.eta) > same * end.eta) continue;
+    meeting.met = true;
+    end.eta = meeting.node.eta;
+    end.preload = meeting.node.preload;
+    end.log_R = meeting.node.log_R;
+  }
+}
+
+void PeakSearch::follow_from_border() {
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    if (!meetings_[i].met) follow(meetings_[i]);
+  }
+}
+
+void PeakSearch::follow(const Meeting& meeting) {
+  const PeakNode& node = meeting.node;
+  BranchPoint start;
+  start.type = PointType::peak;
+  start.regime = ContactProblem::slip;
+  start.unknowns = Vector::Constant(1, node.log_R);
+  start.parameters = Vector(2);
+  start.parameters << node.eta, node.preload;
+  follow(start);
+}
+
+}  // namespace arcslip::problems

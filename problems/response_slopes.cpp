@@ -1,0 +1,110 @@
+#include "arcslip/problems/response_slopes.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "arcslip/problems/contact_problem.hpp"
+
+namespace arcslip::problems {
+
+ResponseSlopes::ResponseSlopes(const FrictionSystem& system, double eta)
+    : eta_(eta), k_(system.contact_stiffness), base_(system.base.at(eta)), damper_(system.damper.at(eta)) {}
+
+ResponseSlopes::ResponseSlopes(const FrictionSystem& system, double eta, double preload, double log_R,
+                               bool slip)
+    : ResponseSlopes(system, eta) {
+  set(system, preload, log_R, slip);
+}
+
+void ResponseSlopes::set(const FrictionSystem& system, double preload, double log_R, bool slip) {
+  preload_ = preload;
+  threshold_ = system.log_threshold(eta_, preload);
+  log_R_ = log_R;
+  const HarmonicCoefficient law =
+      slip ? slip_coefficient(log_R - threshold_.value) : HarmonicCoefficient{{1, 0}, {0, 0}};
+  phi_ = law.phi;
+  phi_log_ = law.phi_log;
+  log_Y_ = log_R + 0.5 * std::log(std::norm(1.0 + k_ * phi_ * damper_.compliance));
+}
+
+double ResponseSlopes::residual() const {
+  const Complex q = 1.0 + k_ * phi_ * (base_.compliance + damper_.compliance);
+  return log_R_ + 0.5 * std::log(std::norm(q) / std::norm(base_.free));
+}
+
+std::optional<ResponseSlopes> ResponseSlopes::solve(const FrictionSystem& system, double eta, double preload,
+                                                    double log_R) {
+  ResponseSlopes at(system, eta);
+  const Complex c = at.base_.compliance + at.damper_.compliance;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    at.set(system, preload, log_R, true);
+    const double residual = at.residual();
+    const double correction =
+        residual / (1 + std::real(at.k_ * at.phi_log_ * c / (1.0 + at.k_ * at.phi_ * c)));
+    // At rounding corrections no longer shrink.
+    if (std::abs(residual) < 1e-13 && !(std::abs(correction) < 0.5 * before)) return at;
+    if (!std::isfinite(correction)) return std::nullopt;
+    log_R -= correction;
+    before = std::abs(correction);
+  }
+  return std::nullopt;
+}
+
+ResponseSlopes ResponseSlopes::on_border(const FrictionSystem& system, double eta, bool slip) {
+  ResponseSlopes at(system, eta);
+  const Complex q = 1.0 + at.k_ * (at.base_.compliance + at.damper_.compliance);
+  const double log_R = 0.5 * std::log(std::norm(at.base_.free) / std::norm(q));
+  const double preload = std::exp(log_R) / system.slip_per_preload - system.preload_growth * eta * eta;
+  at.set(system, preload, log_R, slip);
+  return at;
+}
+
+AmplitudeSlopes ResponseSlopes::slopes(const Change& change) const {
+  const Complex c = base_.compliance + damper_.compliance;
+  const Complex gain = k_ / (1.0 + k_ * phi_ * c);
+  const Complex damper_gain = k_ / (1.0 + k_ * phi_ * damper_.compliance);
+  const double by_ratio = std::real(gain * phi_log_ * c);
+  AmplitudeSlopes slopes{};
+  slopes.log_R = (change.log_free - std::real(gain * phi_ * (change.base + change.damper)) +
+                  by_ratio * change.log_threshold) /
+                 (1 + by_ratio);
+  slopes.log_ratio = slopes.log_R - change.log_threshold;
+  slopes.log_Y =
+      slopes.log_R +
+      std::real(damper_gain * (phi_ * change.damper + slopes.log_ratio * phi_log_ * damper_.compliance));
+  return slopes;
+}
+
+ResponseSlopes::Change ResponseSlopes::along_eta() const {
+  return {base_.compliance_eta, damper_.compliance_eta, log_free_by_eta(base_), threshold_.by_eta};
+}
+
+AmplitudeSlopes ResponseSlopes::by_eta() const { return slopes(along_eta()); }
+
+template <class SlopeOf>
+PeakSensitivity ResponseSlopes::all(const SlopeOf& slope_of) const {
+  PeakSensitivity result;
+  result.preload = slope_of(Change{{}, {}, 0, preload_ * threshold_.by_preload});
+  result.friction = slope_of(Change{{}, {}, 0, 1});
+  result.force = slope_of(Change{{}, {}, 1, 0});
+  // K* = gamma^2 M*: c_B = h(eta/gamma)/(M* gamma^2), y_0 = F g(eta/gamma), S = P K*/K_FD.
+  result.mass_ratio = slope_of(Change{-base_.compliance, {}, 0, 1});
+  result.frequency_ratio = slope_of(
+      Change{-2.0 * base_.compliance - eta_ * base_.compliance_eta, {}, -eta_ * log_free_by_eta(base_), 2});
+  return result;
+}
+
+PeakSensitivity ResponseSlopes::sensitivity() const {
+  return all([&](const Change& change) { return slopes(change).log_Y; });
+}
+
+PeakSensitivity ResponseSlopes::corner_sensitivity() const {
+  const AmplitudeSlopes along = by_eta();
+  return all([&](const Change& change) {
+    const AmplitudeSlopes at_fixed_eta = slopes(change);
+    return at_fixed_eta.log_Y - along.log_Y * at_fixed_eta.log_ratio / along.log_ratio;
+  });
+}
+
+}  // namespace arcslip::problems
