@@ -99,6 +99,7 @@ double PeakDistribution::lowest_quantile(const EnvelopeCurve& envelope, double f
   }
   std::sort(places.begin(), places.end());
   std::vector<double> values;
+  values.reserve(places.size());
   for (const double place : places) values.push_back(quantile(place));
 
   const double least = *std::min_element(values.begin(), values.end());
