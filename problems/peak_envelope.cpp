@@ -18,7 +18,7 @@ template <class Function>
 double zero_between(const Function& function, double from, double to) {
   const double at_from = function(from);
   const double at_to = function(to);
-  if (at_from == 0) return from;
+  if (at_from == 0 || from == to) return from;
   if (at_to == 0) return to;
   if (at_from * at_to > 0) return std::abs(at_from) < std::abs(at_to) ? from : to;  // but for rounding
   std::uintmax_t iterations = 100;

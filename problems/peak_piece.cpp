@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "arcslip/problems/peak_ridge.hpp"
 #include "arcslip/problems/response_slopes.hpp"
 
 namespace arcslip::problems {
@@ -25,9 +24,11 @@ double hermite_slope(double x, double h, double from, double slope_from, double 
   return 6 * x * y * (to - from) / h + slope_from * y * (1 - 3 * x) + slope_to * x * (1 - 3 * y);
 }
 
+/// The zero between a and b, in either order.
 template <class Function>
 double root(const Function& function, double a, double b, double at_a, double at_b) {
-  if (at_a == 0) return a;
+  if (a > b) return root(function, b, a, at_b, at_a);
+  if (at_a == 0 || a == b) return a;
   if (at_b == 0) return b;
   std::uintmax_t iterations = 100;
   const auto [low, high] = boost::math::tools::toms748_solve(
@@ -35,39 +36,12 @@ double root(const Function& function, double a, double b, double at_a, double at
   return 0.5 * (low + high);
 }
 
-/// Newton's method for the response equation and dY/deta = 0 in (eta, ln R), with a Jacobian of differences:
-/// the limit is that of the residuals. False where it does not converge to a maximum of Y.
-bool solve_peak(const FrictionSystem& system, double preload, double& eta, double& log_R) {
-  const auto residuals = [&](double at_eta, double at_log_R) {
-    const ResponseSlopes at(system, at_eta, preload, at_log_R, true);
-    return Eigen::Vector2d(at.residual(), at.by_eta().log_Y);
-  };
-  Eigen::Vector2d step(1e-6 * eta, 1e-6);
-  double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 40; ++iteration) {
-    const double excess = std::abs(log_R - system.log_threshold(eta, preload).value);
-    const double by_eta = std::clamp(1e-3 * std::abs(step(0)), 1e-9 * eta, 1e-6 * eta);
-    const double by_log_R = std::min(1e-3 * excess, std::clamp(1e-3 * std::abs(step(1)), 1e-8, 1e-5));
-    Eigen::Matrix2d jacobian;
-    jacobian.col(0) = (residuals(eta + by_eta, log_R) - residuals(eta - by_eta, log_R)) / (2 * by_eta);
-    jacobian.col(1) = (residuals(eta, log_R + by_log_R) - residuals(eta, log_R - by_log_R)) / (2 * by_log_R);
-    step = jacobian.partialPivLu().solve(residuals(eta, log_R));
-    const double size = std::abs(step(0)) / eta + std::abs(step(1));
-    if (!std::isfinite(size)) return false;
-    if (size < 1e-9 && !(size < 0.5 * before)) return jacobian.determinant() * jacobian(0, 1) > 0;
-    eta -= step(0);
-    log_R -= step(1);
-    before = size;
-  }
-  return false;
-}
-
 }  // namespace
 
 PeakPiece::PeakPiece(const ForcedResponse& problem, PeakSite site, std::vector<PeakNode> nodes)
     : problem_(problem), site_(site), nodes_(std::move(nodes)) {
   for (PeakNode& node : nodes_) {
-    const Peak found = peak(node.eta, node.preload, node.log_R);
+    const Peak found = peak(node.eta, node.preload, node.log_R, node.w);
     node.log_Y = std::log(found.Y);
     node.slope = found.sensitivity.preload;
   }
@@ -79,11 +53,11 @@ std::size_t PeakPiece::interval(double preload) const {
   return static_cast<std::size_t>(beyond - nodes_.begin()) - 1;
 }
 
-Peak PeakPiece::peak(double eta, double preload, double log_R) const {
-  const FrictionSystem& system = problem_.system();
-  const double log_ratio = log_R - system.log_threshold(eta, preload).value;
+Peak PeakPiece::peak(double eta, double preload, double log_R, double w) const {
+  const double log_ratio =
+      site_ == PeakSite::slip ? w * w : log_R - problem_.system().log_threshold(eta, preload).value;
   const bool slips = site_ == PeakSite::slip || (site_ == PeakSite::edge && log_ratio > 0);
-  const ResponseSlopes response(system, eta, preload, log_R, slips);
+  const ResponseSlopes response(problem_.system(), eta, preload, log_R, slips);
   Peak found;
   found.site = site_;
   found.preload = preload;
@@ -108,17 +82,20 @@ ValueAndSlope PeakPiece::estimate(double preload) const {
 
 Peak PeakPiece::at(double preload) const {
   const PeakNode& node = nodes_[interval(preload)];
+  const FrictionSystem& system = problem_.system();
   double eta = node.eta;
   double log_R = node.log_R;
+  double w = node.w;
   if (site_ == PeakSite::slip) {
-    eta = slip_eta(preload, log_R);
+    eta = slip_eta(preload, w);
+    log_R = system.log_threshold(eta, preload).value + w * w;
   } else if (site_ == PeakSite::corner) {
     eta = corner_eta(preload);
-    log_R = problem_.system().log_threshold(eta, preload).value;
+    log_R = system.log_threshold(eta, preload).value;
   } else if (site_ == PeakSite::edge) {
     log_R = problem_.guess(eta, preload).unknowns(0);
   }
-  return peak(eta, preload, log_R);
+  return peak(eta, preload, log_R, w);
 }
 
 double PeakPiece::corner_eta(double preload) const {
@@ -135,13 +112,13 @@ double PeakPiece::corner_eta(double preload) const {
 }
 
 /// Starts from the cubic through the neighbouring nodes, in the arclength of the curve.
-double PeakPiece::slip_eta(double preload, double& log_R) const {
+double PeakPiece::slip_eta(double preload, double& w) const {
   const std::size_t i = interval(preload);
   const PeakNode& a = nodes_[i];
   const PeakNode& b = nodes_[i + 1];
   if (preload == a.preload || preload == b.preload) {
     const PeakNode& node = preload == a.preload ? a : b;
-    log_R = node.log_R;
+    w = node.w;
     return node.eta;
   }
   const double h = b.arclength - a.arclength;  // negative where the curve was traced towards small P
@@ -149,11 +126,11 @@ double PeakPiece::slip_eta(double preload, double& log_R) const {
     return hermite(x, h, a.preload, a.d_preload, b.preload, b.d_preload) - preload;
   };
   const double x = root(away, 0, 1, a.preload - preload, b.preload - preload);
-  log_R = hermite(x, h, a.log_R, a.d_log_R, b.log_R, b.d_log_R);
+  w = hermite(x, h, a.w, a.d_w, b.w, b.d_w);
   double eta = hermite(x, h, a.eta, a.d_eta, b.eta, b.d_eta);
   const double reach = 2 * std::abs(b.eta - a.eta) + 1e-9 * eta;
   const double estimate = eta;
-  if (!solve_peak(problem_.system(), preload, eta, log_R) || std::abs(eta - estimate) > reach) {
+  if (!solve_ridge(problem_.system(), preload, w, eta) || std::abs(eta - estimate) > reach) {
     throw std::runtime_error(
         fmt::format("the peak near eta = {:.10g} was lost at P = {:.10g}", estimate, preload));
   }

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
-#include "arcslip/continuation/curve.hpp"
+#include "arcslip/problems/peak_ridge.hpp"
 #include "arcslip/problems/response_slopes.hpp"
 
 namespace arcslip::problems {
@@ -188,7 +187,9 @@ bool PeakSearch::look_at(double preload) {
                                                                  : PeakSite::stick;
     if (is_known(eta, preload, site)) continue;
     if (site == PeakSite::slip) {
-      found = follow(point) || found;
+      PeakNode start{preload, eta, point.unknowns(0)};
+      start.w = std::sqrt(std::max(0.0, log_ratio(start)));
+      found = follow(start) || found;
     } else {
       fail(fmt::format("the stuck response lacks the peak at eta = {:.10g}, P = {:.10g}", eta, preload));
     }
@@ -196,98 +197,93 @@ bool PeakSearch::look_at(double preload) {
   return found;
 }
 
-bool PeakSearch::follow(const BranchPoint& peak) {
-  const continuation::CurveStart start = continuation::curve_through(problem_, "eta", peak, "Y");
+bool PeakSearch::follow(const PeakNode& start) {
+  PeakRidge ridge(problem_.system());
   continuation::TraceOptions options = over("P");
-  options.extrema_of.clear();  // Y turns with the curve, and a fold would not be told
-  const Branch curve =
-      continuation::trace_curve(*start.problem, start.point, options, {range_.eta_low, range_.eta_high});
-  const bool whole = is_end(curve.stop) && (!curve.first_stop || is_end(*curve.first_stop));
-  if (!whole) {
-    fail(fmt::format("the peak at eta = {:.10g}, P = {:.10g} could not be followed: {}",
-                     peak.parameters(ContactProblem::eta), peak.parameters(ContactProblem::preload),
-                     curve.explanation));
+  options.extrema_of.clear();
+  for (const double edge : {range_.eta_low, range_.eta_high}) {
+    options.events.push_back(
+        {"edge", [edge](const Vector& u, const Vector&, int) { return u(PeakRidge::eta) - edge; }});
+  }
+  options.stop_after = {{PointType::event, 1, "edge"}};
+  continuation::Guess guess{Vector(2), Vector::Constant(1, start.preload), 0};
+  guess.unknowns << start.w, start.eta;
+  ridge.adapt(guess.unknowns, guess.parameters);
+  const auto follow_with_unit = [&](const BranchPoint& point) {
+    ridge.adapt(point.unknowns, point.parameters);
+    return true;
+  };
+  const Branch curve = continuation::trace_both(ridge, guess, options, follow_with_unit);
+  if (!is_end(curve.stop) || (curve.first_stop && !is_end(*curve.first_stop))) {
+    fail(fmt::format("the peak at eta = {:.10g}, P = {:.10g} could not be followed: {}", start.eta,
+                     start.preload, curve.explanation));
   }
   if (curve.points.size() < 2) return false;
-  add_sections(*start.problem, curve);
+  add_sections(curve);
   return true;
 }
 
 /// Splits a curve where it turns in P: peaks and troughs take turns.
-void PeakSearch::add_sections(const continuation::ExtendedProblem& problem, const Branch& curve) {
+void PeakSearch::add_sections(const Branch& curve) {
   std::vector<PeakNode> nodes;
-  bool from_border = false;
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const BranchPoint& point = curve.points[i];
-    const continuation::BasePoint at = problem.split(point.unknowns, point.parameters, point.regime);
-    PeakNode node{at.parameters(ContactProblem::preload), at.parameters(ContactProblem::eta), at.unknowns(0)};
+  for (const BranchPoint& point : curve.points) {
+    PeakNode node{point.parameters(0), point.unknowns(PeakRidge::eta), 0};
+    node.w = point.unknowns(PeakRidge::root_of_log_ratio);
+    node.log_R = problem_.system().log_threshold(node.eta, node.preload).value + node.w * node.w;
     node.arclength = point.arclength;
-    node.d_log_R = point.tangent(0);
-    node.d_eta = point.tangent(1);
+    node.d_w = point.tangent(PeakRidge::root_of_log_ratio);
+    node.d_eta = point.tangent(PeakRidge::eta);
     node.d_preload = point.tangent(2);
     nodes.push_back(node);
-    const bool last = i + 1 == curve.points.size();
-    if (i == 0)
-      from_border = std::abs(problem_.border(at.unknowns, at.parameters, point.regime, 0, nullptr)) < 1e-9;
-    if (point.type != PointType::fold && !last) continue;
-    const bool to_border =
-        last && std::abs(problem_.border(at.unknowns, at.parameters, point.regime, 0, nullptr)) < 1e-9;
-    add_section(nodes, from_border, to_border);
+    if (point.type != PointType::fold) continue;
+    add_section(std::move(nodes));
     nodes = {node};
-    from_border = false;
   }
+  add_section(std::move(nodes));
 }
 
-void PeakSearch::add_section(std::vector<PeakNode> nodes, bool first_on_border, bool last_on_border) {
+void PeakSearch::add_section(std::vector<PeakNode> nodes) {
   if (nodes.size() < 2) return;
-  if (first_on_border) snap(nodes.front());
-  if (last_on_border) snap(nodes.back());
-  if (is_peak(nodes[nodes.size() / 2])) add(PeakSite::slip, std::move(nodes));
+  const PeakNode& middle = nodes[nodes.size() / 2];
+  const bool peak = ridge_point(problem_.system(), middle.w, middle.eta, middle.preload).is_peak();
+  snap(nodes.front());
+  snap(nodes.back());
+  if (peak) add(PeakSite::slip, std::move(nodes));
 }
 
-/// By the slopes on both sides, as near as they rise above the rounding that is left of the slope at the
-/// node.
-bool PeakSearch::is_peak(const PeakNode& node) const {
-  const auto slope = [&](double eta) {
-    const auto at = ResponseSlopes::solve(problem_.system(), eta, node.preload, node.log_R);
-    return at ? at->by_eta().log_Y : std::numeric_limits<double>::quiet_NaN();
-  };
-  const double rounding = std::abs(slope(node.eta));
-  double fall = 0;
-  for (double beside = 1e-13; beside < 1e-3; beside *= 4) {
-    fall = slope(node.eta * (1 - beside)) - slope(node.eta * (1 + beside));
-    if (std::abs(fall) > 100 * rounding) break;
-  }
-  return fall > 0;
-}
-
-/// The end of a curve at the border is the place where it was found on the border itself.
+/// The end of a curve at the border or at an end of the window is the place where it was found there itself.
 void PeakSearch::snap(PeakNode& end) {
   constexpr double same = 1e-6;
   for (Meeting& meeting : meetings_) {
-    if (std::abs(meeting.node.eta - end.eta) > same * end.eta) continue;
+    if (std::abs(end.w) > same || std::abs(meeting.node.eta - end.eta) > same * end.eta) continue;
     meeting.met = true;
+    end.w = 0;
     end.eta = meeting.node.eta;
     end.preload = meeting.node.preload;
     end.log_R = meeting.node.log_R;
   }
+  for (const PeakPiece& piece : pieces_) {
+    if (piece.site() != PeakSite::edge) continue;
+    for (const PeakNode* node : {&piece.nodes().front(), &piece.nodes().back()}) {
+      if (std::abs(node->eta - end.eta) > 1e-9 * end.eta ||
+          std::abs(node->preload - end.preload) > same * end.preload)
+        continue;
+      end.eta = node->eta;
+      end.preload = node->preload;
+      end.log_R = node->log_R;
+      end.w = std::sqrt(std::max(0.0, log_ratio(end)));
+    }
+  }
+}
+
+double PeakSearch::log_ratio(const PeakNode& node) const {
+  return node.log_R - problem_.system().log_threshold(node.eta, node.preload).value;
 }
 
 void PeakSearch::follow_from_border() {
   for (std::size_t i = 0; i < meetings_.size(); ++i) {
-    if (!meetings_[i].met) follow(meetings_[i]);
+    if (!meetings_[i].met) follow(meetings_[i].node);
   }
-}
-
-void PeakSearch::follow(const Meeting& meeting) {
-  const PeakNode& node = meeting.node;
-  BranchPoint start;
-  start.type = PointType::peak;
-  start.regime = ContactProblem::slip;
-  start.unknowns = Vector::Constant(1, node.log_R);
-  start.parameters = Vector(2);
-  start.parameters << node.eta, node.preload;
-  follow(start);
 }
 
 }  // namespace arcslip::problems

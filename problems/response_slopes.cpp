@@ -1,7 +1,6 @@
 #include "arcslip/problems/response_slopes.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "arcslip/problems/contact_problem.hpp"
 
@@ -25,30 +24,6 @@ void ResponseSlopes::set(const FrictionSystem& system, double preload, double lo
   phi_ = law.phi;
   phi_log_ = law.phi_log;
   log_Y_ = log_R + 0.5 * std::log(std::norm(1.0 + k_ * phi_ * damper_.compliance));
-}
-
-double ResponseSlopes::residual() const {
-  const Complex q = 1.0 + k_ * phi_ * (base_.compliance + damper_.compliance);
-  return log_R_ + 0.5 * std::log(std::norm(q) / std::norm(base_.free));
-}
-
-std::optional<ResponseSlopes> ResponseSlopes::solve(const FrictionSystem& system, double eta, double preload,
-                                                    double log_R) {
-  ResponseSlopes at(system, eta);
-  const Complex c = at.base_.compliance + at.damper_.compliance;
-  double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < 30; ++iteration) {
-    at.set(system, preload, log_R, true);
-    const double residual = at.residual();
-    const double correction =
-        residual / (1 + std::real(at.k_ * at.phi_log_ * c / (1.0 + at.k_ * at.phi_ * c)));
-    // At rounding corrections no longer shrink.
-    if (std::abs(residual) < 1e-13 && !(std::abs(correction) < 0.5 * before)) return at;
-    if (!std::isfinite(correction)) return std::nullopt;
-    log_R -= correction;
-    before = std::abs(correction);
-  }
-  return std::nullopt;
 }
 
 ResponseSlopes ResponseSlopes::on_border(const FrictionSystem& system, double eta, bool slip) {

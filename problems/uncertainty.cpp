@@ -4,15 +4,16 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
 namespace arcslip::problems {
 namespace {
 
-constexpr double scan_step = 0.02;  // of ln P
-constexpr double row_step = 0.05;   // about 46 rows a decade
+constexpr double scan_step = 0.02;           // of ln P
+constexpr double row_step = 0.05;            // about 46 rows a decade
+constexpr double envelope_tolerance = 1e-6;  // of ln Y, which costs no more than a coarser one
 
 /// Numbers > 0 and < 1 that are the same with every standard library, whose distributions are not.
 class Uniform {
@@ -135,31 +136,38 @@ UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRa
   wide.from *= std::exp(peaks.lowest());
   wide.to *= std::exp(peaks.highest());
   wide.stop_at.clear();
-  const PreloadStudy study = study_preload(system, wide, options);
-  result.failure = !nominal.optimum ? nominal.failure : study.failure;
-  if (!result.failure.empty()) return result;
-  const EnvelopeCurve envelope(study);
+  result.failure = nominal.failure;
+  if (!nominal.optimum) return result;
+  std::optional<EnvelopeCurve> studied;
+  try {
+    studied = study_envelope(system, wide, envelope_tolerance, options);
+  } catch (const std::runtime_error& error) {
+    result.failure = error.what();
+    return result;
+  }
+  const EnvelopeCurve& envelope = *studied;
   result.error = envelope.error();
 
+  const auto quantiles = [&](double preload, const std::vector<double>& probabilities) {
+    std::vector<double> values = peaks.log_quantiles(envelope, std::log(preload), probabilities);
+    for (double& value : values) value = std::exp(value);
+    return values;
+  };
   constexpr double p = UncertainPeaks::probability;
-  const double from = std::log(range.from);
-  const double to = std::log(range.to);
-  const double lowest = peaks.lowest_quantile(envelope, from, to, p);
-  const double optimum = std::log(nominal.optimum->peak.preload);
-  result.preload = std::exp(lowest);
-  result.Y = std::exp(peaks.log_quantiles(envelope, lowest, {p}).front());
-  result.Y_nominal = std::exp(peaks.log_quantiles(envelope, optimum, {p}).front());
-
-  std::vector<double> places = steps(from, to, row_step);
-  places.insert(places.end(), {lowest, optimum});
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  for (const double x : places) {
-    QuantileRow row{std::exp(x), {}};
-    for (const double value : peaks.log_quantiles(envelope, x, uncertainty.quantiles))
-      row.Y.push_back(std::exp(value));
-    result.rows.push_back(std::move(row));
+  const double optimum = nominal.optimum->peak.preload;
+  const double lowest = peaks.lowest_quantile(envelope, std::log(range.from), std::log(range.to), p);
+  result.preload = std::clamp(std::exp(lowest), range.from, range.to);
+  result.Y = quantiles(result.preload, {p}).front();
+  result.Y_nominal = quantiles(optimum, {p}).front();
+  std::vector<double> preloads = {range.from, range.to, result.preload, optimum};
+  for (const double x : steps(0, std::log(range.to / range.from), row_step)) {
+    const double preload = range.from * std::exp(x);
+    if (preload > range.from && preload < range.to * (1 - 1e-12)) preloads.push_back(preload);
   }
+  std::sort(preloads.begin(), preloads.end());
+  preloads.erase(std::unique(preloads.begin(), preloads.end()), preloads.end());
+  for (const double preload : preloads)
+    result.rows.push_back({preload, quantiles(preload, uncertainty.quantiles)});
   return result;
 }
 

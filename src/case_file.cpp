@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "arcslip/runs.hpp"
+#include "continuation_section.hpp"
+#include "for_each.hpp"
 #include "system_section.hpp"
 #include "toml_reader.hpp"
 
@@ -20,132 +22,7 @@ using problems::LibraryModel;
 const std::vector<std::string> branch_keys = {"parameter", "parameters",    "from",      "to",    "eta",
                                               "start",     "all_solutions", "switching", "curve", "window",
                                               "response",  "for_each",      "extrema_of"};
-const std::vector<std::string> continuation_keys = {"tolerance", "max_step",   "min_step",   "max_points",
-                                                    "stop_at",   "stop_after", "max_seconds"};
 const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
-
-/// What differs from branch to branch: one value for each key of `for_each`.
-struct ForEach {
-  std::vector<std::string> keys;
-  std::vector<const toml::array*> values;
-  std::size_t count = 1;
-
-  bool sets(const std::string& key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
-};
-
-/// The lists of for_each by their keys, those in a table by dotted ones: damper.width.
-std::vector<std::pair<std::string, const toml::node*>> lists_of(const TomlDocument& document,
-                                                                const std::string& path,
-                                                                const std::vector<std::string>& allowed) {
-  const TomlSection section(document, path);
-  std::vector<std::string> here = allowed;
-  for (const std::string& key : allowed) here.push_back(key.substr(0, key.find('.')));
-  section.allow_only(here);
-  std::vector<std::pair<std::string, const toml::node*>> lists;
-  for (const auto& [key, node] : *section.table()) {
-    const std::string name(key.str());
-    std::vector<std::string> inner;
-    for (const std::string& one : allowed) {
-      if (one.starts_with(name + ".")) inner.push_back(one.substr(name.size() + 1));
-    }
-    if (inner.empty()) {
-      lists.emplace_back(name, &node);
-    } else {
-      for (const auto& [rest, list] : lists_of(document, section.name(name), inner))
-        lists.emplace_back(name + "." + rest, list);
-    }
-  }
-  return lists;
-}
-
-ForEach read_for_each(const TomlDocument& document, const TomlSection& branch, const LibraryModel* model) {
-  ForEach result;
-  if (!branch.has("for_each")) return result;
-  const TomlSection section(document, "branch.for_each");
-  std::vector<std::string> allowed = listed_keys(document, model);
-  if (model == nullptr) allowed.emplace_back("eta");
-  for (const auto& [name, node] : lists_of(document, "branch.for_each", allowed)) {
-    const toml::array* list = node->as_array();
-    if (list == nullptr || list->empty())
-      document.mismatch(*node, section.name(name), "an array with at least one value");
-    if (!result.keys.empty() && list->size() != result.count) {
-      document.fail(
-          node, section.name(name),
-          fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
-                      result.count, result.keys.front(), list->size()));
-    }
-    result.keys.push_back(name);
-    result.values.push_back(list);
-    result.count = list->size();
-  }
-  if (result.keys.empty()) branch.mismatch("for_each", "a table with at least one key");
-  return result;
-}
-
-Replacements replacements_of(const ForEach& for_each, std::size_t i) {
-  Replacements replacements;
-  for (std::size_t k = 0; k < for_each.keys.size(); ++k) {
-    const std::string& key = for_each.keys[k];
-    const std::string path = key == "eta" ? "branch.eta" : path_of(key);
-    replacements[path] = {for_each.values[k]->get(i), fmt::format("branch.for_each.{}[{}]", key, i)};
-  }
-  return replacements;
-}
-
-ordered_json values_of(const ForEach& for_each, std::size_t i) {
-  ordered_json values = ordered_json::object();
-  for (std::size_t k = 0; k < for_each.keys.size(); ++k) {
-    values[for_each.keys[k]] = to_json(*for_each.values[k]->get(i));
-  }
-  return values;
-}
-
-/// One special point by its name, or a table of names and counts.
-std::vector<continuation::StopAfter> read_stop_after(const TomlDocument& document,
-                                                     const TomlSection& section) {
-  constexpr const char* expected =
-      "the type of a special point, or a table of types and counts: \"fold\", { fold = 2, peak = 5 }";
-  std::vector<continuation::StopAfter> rules;
-  if (!section.has("stop_after")) return rules;
-  const toml::node& node = section.require("stop_after", expected);
-  const auto type_of = [&](const std::string& name, const toml::node& place, const std::string& key) {
-    const auto type = continuation::point_type(name);
-    if (!type || *type == PointType::regular || *type == PointType::start || *type == PointType::end)
-      document.fail(&place, key, fmt::format("unknown type '{}'; expected {}", name, expected));
-    return *type;
-  };
-  if (const toml::table* table = node.as_table()) {
-    const TomlSection counts(document, "continuation.stop_after");
-    for (const auto& [key, value] : *table) {
-      const std::string name(key.str());
-      rules.push_back({type_of(name, value, counts.name(name)),
-                       counts.integer(name, 1, std::numeric_limits<int>::max(), "an integer >= 1"),
-                       {}});
-    }
-    return rules;
-  }
-  const auto name = node.value_exact<std::string>();
-  if (!name) section.mismatch("stop_after", expected);
-  rules.push_back({type_of(*name, node, section.name("stop_after")), 1, {}});
-  return rules;
-}
-
-continuation::TraceOptions read_continuation(const TomlDocument& document) {
-  const TomlSection section(document, "continuation");
-  section.allow_only(continuation_keys);
-  continuation::TraceOptions options;
-  options.tolerance = section.number("tolerance", inside(0, 1e-2), options.tolerance);
-  options.max_step = section.number("max_step", {[](double h) { return h > 0 && h <= 1; }, " > 0 and <= 1"},
-                                    options.max_step);
-  options.min_step = section.number(
-      "min_step", {[&](double h) { return h > 0 && h <= options.max_step; }, " > 0 and <= max_step"},
-      options.min_step);
-  options.max_points = section.integer("max_points", 2, std::numeric_limits<int>::max(), "an integer >= 2",
-                                       options.max_points);
-  options.max_seconds = section.number("max_seconds", positive(), options.max_seconds);
-  options.stop_after = read_stop_after(document, section);
-  return options;
-}
 
 const LibraryModel* read_model(const TomlDocument& document) {
   const TomlSection section(document, "system");
@@ -247,17 +124,19 @@ class BranchSection {
   std::vector<std::string> names_;
 };
 
+/// What may differ from branch to branch.
+std::vector<std::string> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
+  std::vector<std::string> keys = listed_keys(document, model);
+  if (model == nullptr) keys.emplace_back("eta");
+  return keys;
+}
+
 /// The input as it is understood, defaults included.
 ordered_json resolve(const TomlDocument& document, const Case& built) {
   ordered_json resolved = to_json(document.root());
   const CaseBranch& first = built.branches.front();
   resolve_system(first.problem, resolved["system"]);
-  ordered_json& continuation = resolved["continuation"];
-  continuation["tolerance"] = first.options.tolerance;
-  continuation["max_step"] = first.options.max_step;
-  continuation["min_step"] = first.options.min_step;
-  continuation["max_points"] = first.options.max_points;
-  continuation["stop_at"] = first.options.stop_at;
+  resolve_continuation(first.options, resolved["continuation"]);
   return resolved;
 }
 
@@ -286,10 +165,18 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
 
 }  // namespace
 
+std::vector<std::string> case_sections() {
+  return {"title", "system", "geometry", "branch", "study", "continuation"};
+}
+
+bool has_section(const std::string& path, const std::string& name, const std::vector<std::string>& settings) {
+  return TomlDocument(path, settings).root().contains(name);
+}
+
 Case read_case(const std::string& path, const std::vector<std::string>& settings) {
   const TomlDocument document(path, settings);
   const TomlSection root(document, "");
-  root.allow_only({"title", "system", "geometry", "branch", "continuation"});
+  root.allow_only(case_sections());
   const TomlSection section(document, "branch");
   if (section.table() == nullptr) document.fail(nullptr, "branch", "missing; expected a section [branch]");
   section.allow_only(branch_keys);
@@ -300,13 +187,13 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   const CaseBranch common = BranchSection(document, section, model).read(read_continuation(document));
   // Of a curve, the branch on which its first points are looked for is what counts.
   const std::string& parameter = common.curve ? common.curve->active : common.options.parameter;
-  const ForEach for_each = read_for_each(document, section, model);
+  const ForEach for_each(document, section, for_each_keys(document, model), ForEach::Lists::together);
   if (model == nullptr) check_fixed(section, for_each, common, parameter);
   if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
-  for (std::size_t i = 0; i < for_each.count; ++i) {
-    const Replacements replacements = replacements_of(for_each, i);
+  for (std::size_t i = 0; i < for_each.count(); ++i) {
+    const auto [values, replacements, made] = for_each.at(i);
     CaseBranch branch = common;
-    branch.values = values_of(for_each, i);
+    branch.values = values;
     read_system(document, replacements, {model, parameter}, branch.problem);
     if (model == nullptr && parameter == "P" && !branch.problem.limit_cycle)
       branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());

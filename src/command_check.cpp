@@ -8,6 +8,7 @@
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/results.hpp"
 #include "arcslip/runs.hpp"
+#include "arcslip/study_case.hpp"
 #include "commands.hpp"
 #include "output.hpp"
 
@@ -99,16 +100,19 @@ continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
   return worst;
 }
 
-}  // namespace
+std::string heading(const CheckOptions& options, const std::string& title) {
+  return fmt::format("{}: {}\n", options.case_path, title.empty() ? "valid" : title);
+}
 
-int check_command(const CheckOptions& options) {
+/// Prints the branches and, if asked for, how exact their derivatives are; false if one is not.
+bool check_branches(const CheckOptions& options) {
   constexpr double exact = 1e-6;  // differences are no better than that where a problem is stiff
   const Case input = read_case(options.case_path, options.settings);
-  std::string text = fmt::format("{}: {}\n", options.case_path, input.title.empty() ? "valid" : input.title);
+  std::string text = heading(options, input.title);
   bool good = true;
   for (std::size_t i = 0; i < input.branches.size(); ++i) {
     const CaseBranch& branch = input.branches[i];
-    const std::string values = describe(branch.values);
+    const std::string values = arcslip::describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
     if (branch.problem.geometry) text += fmt::format("  {}\n", describe_units(branch.problem));
@@ -119,6 +123,71 @@ int check_command(const CheckOptions& options) {
                         report.where, report.worst <= exact ? "" : ": NOT exact");
   }
   print(text);
+  return good;
+}
+
+/// What `for_each` sets on one key, in short.
+std::string describe(const std::string& key, const nlohmann::ordered_json& listed) {
+  if (listed.is_array()) {
+    return fmt::format("{}: {} values, {} to {}", key, listed.size(), listed.front().dump(),
+                       listed.back().dump());
+  }
+  return fmt::format("{}: {} values, {} to {}, {}", key, listed["count"].dump(), listed["from"].dump(),
+                     listed["to"].dump(), listed.value("scale", "linear"));
+}
+
+std::string describe(const problems::Scatter& scatter) {
+  if (scatter.kind == problems::Scatter::Kind::none) return "fixed";
+  if (scatter.kind == problems::Scatter::Kind::lognormal)
+    return fmt::format("lognormal, {:g}", scatter.deviation);
+  return fmt::format("uniform, {:g} to {:g}", scatter.low, scatter.high);
+}
+
+std::string describe(const problems::Uncertainty& uncertainty) {
+  return fmt::format("scatter of mu: {}; of the preload: {}; of the force: {}; {} samples, seed {}",
+                     describe(uncertainty.friction), describe(uncertainty.preload),
+                     describe(uncertainty.force), uncertainty.samples, uncertainty.seed);
+}
+
+void check_study(const CheckOptions& options) {
+  const StudyCase study = read_study(options.case_path, options.settings);
+  const problems::PreloadRange& range = study.range;
+  std::string text = heading(options, study.title);
+  text += fmt::format("study of {} design{}: P from {:g} to {:g}, peaks between eta = {:g} and {:g}{}\n",
+                      study.count, study.count == 1 ? "" : "s", range.from, range.to, range.eta_low,
+                      range.eta_high, study.sweep ? "" : ", no sweep.csv");
+  if (study.uncertain) text += fmt::format("  {}\n", describe(*study.uncertain));
+  if (!study.keys.empty()) {
+    const nlohmann::ordered_json& for_each = study.resolved["study"]["for_each"];
+    for (const std::string& key : study.keys) {
+      text += "  " +
+              (for_each.is_object() ? describe(key, for_each[key])
+                                    : fmt::format("{}: listed design by design", key)) +
+              "\n";
+    }
+  }
+  for (const std::size_t i : {std::size_t{0}, study.count - 1}) {
+    ProblemRequest problem;
+    const StudyDesign design = study.design(i);
+    problem.system = design.system;
+    problem.geometry = design.geometry;
+    text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
+                        arcslip::describe(design.values), describe(problem));
+    if (problem.geometry) text += fmt::format("  {}\n", describe_units(problem));
+    if (study.count == 1) break;
+  }
+  print(text);
+}
+
+}  // namespace
+
+int check_command(const CheckOptions& options) {
+  const bool study = has_section(options.case_path, "study", options.settings);
+  const bool branches = has_section(options.case_path, "branch", options.settings);
+  if (study) check_study(options);
+  if (study && !branches && options.derivatives)
+    throw InputError(options.case_path + ": branch: missing; --derivatives compares those of branches");
+  const bool good = (study && !branches) || check_branches(options);
   return good ? status::done : status::incomplete_branch;
 }
 

@@ -1,74 +1,43 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <iterator>
 
 #include "arcslip/case_file.hpp"
 #include "arcslip/results.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 
 namespace arcslip {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-volatile std::sig_atomic_t interrupted = 0;
-
-extern "C" void note_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);  // a second one ends the program at once
-}
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// One line on stderr that follows the work, where that is a terminal.
-class Progress {
- public:
-  Progress(bool shown, std::size_t branches)
-      : shown_(shown && isatty(STDERR_FILENO) != 0), branches_(branches) {}
-  ~Progress() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  Progress(Progress&&) = delete;
-  Progress& operator=(Progress&&) = delete;
-
-  void show(std::size_t branch, const CaseBranch& request, const continuation::BranchPoint& point,
-            std::size_t points) {
-    if (!shown_ || Clock::now() - last_ < std::chrono::milliseconds(100)) return;
-    last_ = Clock::now();
-    drawn_ = true;
-    fmt::print(stderr, "\r\033[Kbranch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}",
-               branch + 1, branches_, points, point.arclength, request.options.parameter,
-               request.options.from, request.options.to);
-    std::fflush(stderr);
-  }
-
- private:
-  bool shown_;
-  bool drawn_ = false;
-  std::size_t branches_;
-  Clock::time_point last_ = Clock::now();
-};
+std::string progress(std::size_t i, const Case& input, const continuation::BranchPoint& point,
+                     std::size_t points) {
+  const continuation::TraceOptions& options = input.branches[i].options;
+  return fmt::format("branch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}", i + 1,
+                     input.branches.size(), points, point.arclength, options.parameter, options.from,
+                     options.to);
+}
 
 std::vector<TracedBranch> trace_all(const Case& input, bool quiet) {
   std::vector<TracedBranch> all;
-  Progress progress(!quiet, input.branches.size());
-  for (std::size_t i = 0; i < input.branches.size() && interrupted == 0; ++i) {
-    const CaseBranch& request = input.branches[i];
+  ProgressLine line(!quiet);
+  for (std::size_t i = 0; i < input.branches.size() && !interrupted(); ++i) {
     std::size_t points = 0;
     const auto watch = [&](const continuation::BranchPoint& point) {
-      if (++points % 256 == 0) progress.show(i, request, point, points);
-      return interrupted == 0;
+      if (++points % 256 == 0) line.show([&] { return progress(i, input, point, points); });
+      return !interrupted();
     };
-    std::vector<TracedBranch> traced = trace(request, watch);
+    std::vector<TracedBranch> traced = trace(input.branches[i], watch);
     std::move(traced.begin(), traced.end(), std::back_inserter(all));
   }
   return all;
@@ -103,18 +72,19 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
 
 }  // namespace
 
+std::string results_folder(const std::string& given, const std::string& case_path) {
+  return !given.empty() ? given : "out/" + std::filesystem::path(case_path).stem().string();
+}
+
 int run_command(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const Case input = read_case(options.case_path, options.settings);
-  const std::string folder = !options.folder.empty()
-                                 ? options.folder
-                                 : "out/" + std::filesystem::path(options.case_path).stem().string();
+  const std::string folder = results_folder(options.folder, options.case_path);
   create_folder(folder);
   AtomicFile branches(folder + "/branches.csv");
   AtomicFile summary(folder + "/summary.json");
 
-  std::signal(SIGINT, note_interrupt);
-  std::signal(SIGTERM, note_interrupt);
+  catch_interrupts();
   const std::vector<TracedBranch> traced = trace_all(input, options.quiet);
   const double seconds = seconds_since(start);
 

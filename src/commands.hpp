@@ -26,14 +26,30 @@ struct RunOptions {
 /// Traces the branches, writes branches.csv and summary.json, prints the special points.
 int run_command(const RunOptions& options);
 
+struct StudyOptions {
+  std::string case_path;
+  std::string folder;                 ///< empty: out/<name of the case file>
+  std::size_t jobs = 0;               ///< threads; 0: one for each core
+  bool resume = false;                ///< go on with the study in the folder
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool quiet = false;
+};
+
+/// Studies the designs of a case, writes study.sqlite, sweep.csv, optimum.csv and summary.json, prints the
+/// optima.
+int study_command(const StudyOptions& options);
+
 struct CheckOptions {
   std::string case_path;
   std::vector<std::string> settings;  ///< "section.key=value"
   bool derivatives = false;           ///< compare the problems' derivatives with differences
 };
 
-/// Prints what `run` would do.
+/// Prints what `run` and `study` would do.
 int check_command(const CheckOptions& options);
+
+/// Where results go: `given`, or out/<name of the case file>.
+std::string results_folder(const std::string& given, const std::string& case_path);
 
 /// Draws what is in `folder`, as PNG and SVG beside it.
 int plot_command(const std::string& folder);

@@ -21,9 +21,10 @@ Examples
   arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
   arcslip run problems/rotor_ring.toml            a system given in SI units
   arcslip run problems/ridge.toml                 the peaks over the preload: a curve in two parameters
+  arcslip study problems/chart.toml               the best preload of each of 400 designs
 
 Exit status
-  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced to its end; 4 a file could not be written)";
+  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end; 4 a file could not be written)";
 
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
@@ -82,6 +83,33 @@ A curve of special points in two parameters, in place of parameter, from and to:
   from = 0.1                 # of P
   to = 100.0)";
 
+constexpr const char* study_notes = R"(
+Follows every peak of the base's amplitude over a window of eta as the preload varies, and finds the preload at which
+the highest peak is lowest, for each design. Writes DIR/study.sqlite (each design as soon as it is done) and at the end
+DIR/optimum.csv (one row for each design), DIR/sweep.csv (one row for each peak and preload) and DIR/summary.json. A
+study that was interrupted or killed goes on with --resume; without it a study in DIR is begun anew.
+
+A case file has [system], as for arcslip run but for preload, which is not needed, and:
+  [study]
+  parameter = "P"
+  from = 0.1                 # preloads
+  to = 100.0
+  eta = [0.5, 6.0]           # the window in which peaks are sought
+  # optional
+  for_each = { mass_ratio = [5.0, 10.0], frequency_ratio = [2.0, 4.0] }   # every value with every other
+  sweep = true               # false: no sweep.csv, for charts of very many designs
+
+In place of a list a range, { from = 1.0, to = 100.0, count = 50, scale = "log" } ("linear" if not given); in place of
+the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }, ...]. Preloads of
+continuation.stop_at get a row for every peak.)";
+
+void add_settings(CLI::App* command, std::vector<std::string>& settings) {
+  command->add_option("--set", settings, "Replace a value of the case file; may be repeated")
+      ->type_name("section.key=value")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 int dispatch(int argc, char** argv) {
   using namespace arcslip;
   CLI::App app{about, "arcslip"};
@@ -94,12 +122,22 @@ int dispatch(int argc, char** argv) {
   run->add_option("CASE", options.case_path, "Case file (TOML)")->required();
   run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
       ->type_name("DIR");
-  run->add_option("--set", options.settings, "Replace a value of the case file; may be repeated")
-      ->type_name("section.key=value")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_settings(run, options.settings);
   run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
   run->footer(run_notes);
+
+  StudyOptions studied;
+  CLI::App* study = app.add_subcommand("study", "Find the best preload of each design that [study] asks for");
+  study->add_option("CASE", studied.case_path, "Case file (TOML)")->required();
+  study->add_option("-o,--output", studied.folder, "Folder for the results; out/<case> if not given")
+      ->type_name("DIR");
+  study->add_option("--jobs", studied.jobs, "Threads; one for each core if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  study->add_flag("--resume", studied.resume, "Go on with the study in DIR, if there is one");
+  add_settings(study, studied.settings);
+  study->add_flag("--quiet", studied.quiet, "Print neither progress nor the table");
+  study->footer(study_notes);
 
   CheckOptions checked;
   CLI::App* check = app.add_subcommand("check", "Read and validate a case file, print what would run");
@@ -107,10 +145,7 @@ int dispatch(int argc, char** argv) {
   check->add_flag(
       "--derivatives", checked.derivatives,
       "Compare the problem's exact derivatives with differences on the branch; status 3 if one differs");
-  check->add_option("--set", checked.settings, "As for run")
-      ->type_name("section.key=value")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_settings(check, checked.settings);
 
   std::string folder;
   CLI::App* plot =
@@ -125,6 +160,7 @@ int dispatch(int argc, char** argv) {
     return status::wrong_command_line;
   }
   if (run->parsed()) return run_command(options);
+  if (study->parsed()) return study_command(studied);
   if (check->parsed()) return check_command(checked);
   return plot_command(folder);
 }

@@ -53,6 +53,21 @@ ContactResponse ModalModel::at(double eta) const {
   return response;
 }
 
+ContactCurvature ModalModel::curvature(double eta) const {
+  ContactCurvature curvature{};
+  const double loss = loss_.at(eta);
+  for (const Mode& mode : modes_) {
+    const double stiffness = mode.frequency * mode.frequency;
+    const Complex inverse =
+        1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta), loss * stiffness);  // 1/d
+    const Complex d_eta(-2 * eta, loss_.viscous * stiffness);
+    const Complex bend = 2.0 * inverse * inverse * (inverse * d_eta * d_eta + 1.0);  // d2d/deta2 = -2
+    curvature.compliance += mode.residue * bend;
+    curvature.free += mode.load_residue * bend;
+  }
+  return curvature;
+}
+
 DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& loss_per_zeta) const {
   DampedCompliance compliance{};
   const double loss = loss_per_zeta.at(eta);

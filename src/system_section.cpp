@@ -37,12 +37,13 @@ double read_interface_stiffness(const TomlSection& section, StructureModel model
   return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
 }
 
-void read_damping(const TomlDocument& document, const TomlSection& section, SystemParameters& system) {
+void read_damping(const TomlDocument& document, const TomlSection& section, bool passive,
+                  SystemParameters& system) {
   if (!section.has("damping")) return;
   const toml::table* table = section.require("damping", "a table").as_table();
   if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
   for (const auto& [key, node] : *table) {
-    const std::string name = section.name("damping") + "." + std::string(key.str());
+    const std::string name = section.name_given("damping") + "." + std::string(key.str());
     if (key.str() == "kind") {
       const std::string kind = node.value<std::string>().value_or("");
       if (kind != "viscous" && kind != "structural")
@@ -53,7 +54,7 @@ void read_damping(const TomlDocument& document, const TomlSection& section, Syst
     const bool base = key.str() == "base";
     if (!base && key.str() != "damper")
       document.fail(&node, name, "unknown key; expected base, damper or kind");
-    const NumberRule rule = base ? damping_rule() : inside(0, 1);
+    const NumberRule rule = base && !passive ? damping_rule() : inside(0, 1);
     const double value = node.value<double>().value_or(0);
     if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
     (base ? system.base_damping : system.damper_damping) = value;
@@ -61,16 +62,16 @@ void read_damping(const TomlDocument& document, const TomlSection& section, Syst
 }
 
 /// What [geometry] stands for where it is given.
-void read_groups(const TomlSection& section, const std::string& parameter, SystemParameters& system) {
+void read_groups(const TomlSection& section, const SystemUse& use, SystemParameters& system) {
   system.mass_ratio = section.number("mass_ratio", positive());
   system.frequency_ratio = section.number("frequency_ratio", positive());
   system.interface_stiffness = read_interface_stiffness(section, system.model);
   system.force = section.number("force", positive());
-  if (parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
+  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
 }
 
 void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
-                   const std::string& parameter, ProblemRequest& problem) {
+                   const SystemUse& use, ProblemRequest& problem) {
   SystemParameters& system = problem.system;
   system.model =
       section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
@@ -80,13 +81,14 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
       section.integer("elements", 2 * system.wave_number + 1, most,
                       fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
   if (has_geometry(document)) {
-    read_geometry(document, replacements, section, parameter, problem);
+    read_geometry(document, replacements, section, use.parameter, problem);
   } else {
-    read_groups(section, parameter, system);
+    read_groups(section, use, system);
   }
-  read_damping(document, section, system);
+  read_damping(document, section, use.linear_passive, system);
   system.preload_growth = section.number("preload_growth", any_number(), 0);
-  system.cubic_stiffness = section.number("cubic_stiffness", any_number(), 0);
+  const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
+  system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
   system.fixed_damper = section.boolean("fixed_damper", false);
 }
 
@@ -165,7 +167,7 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
       document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
     read_settings(section, use, problem.settings);
   } else {
-    read_friction(document, replacements, section, use.parameter, problem);
+    read_friction(document, replacements, section, use, problem);
   }
 }
 

@@ -19,6 +19,7 @@ std::string path_of(const std::string& key);
 struct SystemUse {
   const problems::LibraryModel* model;  ///< null for a system with friction
   std::string parameter;                ///< the continuation parameter, which needs no value
+  bool linear_passive = false;          ///< only damping > 0 and no cubic stiffness, as in studies
 };
 
 /// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws

@@ -101,9 +101,9 @@ void TomlDocument::fail(const toml::node* node, const std::string& name, const s
   throw InputError(fmt::format("{}:{}:{}: {}: {}", path_, at.line, at.column, name, what));
 }
 
-void TomlDocument::mismatch(const toml::node& node, const std::string& name,
-                            const std::string& expected) const {
-  fail(&node, name, fmt::format("expected {}, got {}", expected, shown(node)));
+void TomlDocument::mismatch(const toml::node& node, const std::string& name, const std::string& expected,
+                            const toml::node* place) const {
+  fail(place != nullptr ? place : &node, name, fmt::format("expected {}, got {}", expected, shown(node)));
 }
 
 NumberRule any_number() {
@@ -155,20 +155,19 @@ const toml::node& TomlSection::require(std::string_view key, const std::string& 
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   const Replacement value = find(key);
-  const toml::node* place = value.node != nullptr ? value.node : table_;
-  document_.fail(place, value.name, what);
+  const toml::node* node = value.node != nullptr ? value.node : table_;
+  document_.fail(value.place != nullptr ? value.place : node, value.name, what);
 }
 
 void TomlSection::mismatch(std::string_view key, const std::string& expected) const {
   const Replacement value = find(key);
-  document_.mismatch(*value.node, value.name, expected);
+  document_.mismatch(*value.node, value.name, expected, value.place);
 }
 
 double TomlSection::checked(const Replacement& value, const NumberRule& rule) const {
-  const std::string expected = "a finite number" + rule.text;
-  if (!value.node->is_number()) document_.mismatch(*value.node, value.name, expected);
-  const double number = *value.node->value<double>();
-  if (!std::isfinite(number) || !rule.holds(number)) document_.mismatch(*value.node, value.name, expected);
+  const double number = value.node->is_number() ? *value.node->value<double>() : std::nan("");
+  if (!std::isfinite(number) || !rule.holds(number))
+    document_.mismatch(*value.node, value.name, "a finite number" + rule.text, value.place);
   return number;
 }
 
@@ -239,11 +238,14 @@ void TomlSection::allow_only(const std::vector<std::string>& keys) const {
   if (table_ == nullptr) return;
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-    const std::string meant = nearest_name(key.str(), keys);
-    const std::string hint = meant.empty() ? fmt::format("expected one of {}", fmt::join(keys, ", "))
-                                           : fmt::format("did you mean '{}'?", meant);
-    document_.fail(&node, name(key.str()), "unknown key; " + hint);
+    document_.fail(&node, name(key.str()), unknown_key(key.str(), keys));
   }
+}
+
+std::string unknown_key(std::string_view key, const std::vector<std::string>& keys) {
+  const std::string meant = nearest_name(key, keys);
+  if (!meant.empty()) return fmt::format("unknown key; did you mean '{}'?", meant);
+  return fmt::format("unknown key; expected one of {}", fmt::join(keys, ", "));
 }
 
 nlohmann::ordered_json to_json(const toml::node& node) {

@@ -24,9 +24,9 @@ class TomlDocument {
 
   /// Error at a node; `name` is the key as the user wrote it.
   [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
-  /// "expected ..., got ...".
-  [[noreturn]] void mismatch(const toml::node& node, const std::string& name,
-                             const std::string& expected) const;
+  /// "expected ..., got ...", at the node or at `place`.
+  [[noreturn]] void mismatch(const toml::node& node, const std::string& name, const std::string& expected,
+                             const toml::node* place = nullptr) const;
 
  private:
   void apply(const std::string& setting);
@@ -39,6 +39,7 @@ class TomlDocument {
 struct Replacement {
   const toml::node* node;
   std::string name;
+  const toml::node* place = nullptr;  ///< what errors point to in the file; null: the node
 };
 
 using Replacements = std::map<std::string, Replacement, std::less<>>;
@@ -58,6 +59,9 @@ NumberRule within(double low, double high);  ///< between the two or equal to on
 class TomlSection {
  public:
   TomlSection(const TomlDocument& document, std::string path, const Replacements* replacements = nullptr);
+  /// A table that no path leads to, in an array.
+  TomlSection(const TomlDocument& document, const toml::table& table, std::string path)
+      : document_(document), path_(std::move(path)), replacements_(nullptr), table_(&table) {}
 
   bool has(std::string_view key) const { return find(key).node != nullptr; }
   double number(std::string_view key, const NumberRule& rule) const;
@@ -80,6 +84,8 @@ class TomlSection {
   const toml::node& require(std::string_view key, const std::string& expected) const;
   const toml::table* table() const { return table_; }
   std::string name(std::string_view key) const;
+  /// The name under which the user wrote the value, elsewhere if it is replaced.
+  std::string name_given(std::string_view key) const { return find(key).name; }
 
  private:
   Replacement find(std::string_view key) const;
@@ -93,6 +99,9 @@ class TomlSection {
 
 /// The same value as JSON.
 nlohmann::ordered_json to_json(const toml::node& node);
+
+/// What is said of a key that is not among `keys`: which one it was most likely meant to be, or all of them.
+std::string unknown_key(std::string_view key, const std::vector<std::string>& keys);
 
 /// The name among `names` that `name` was most likely meant to be, or "".
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names);

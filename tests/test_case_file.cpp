@@ -1,8 +1,11 @@
 #include "arcslip/case_file.hpp"
 #include "catch.hpp"
+#include "mistakes.hpp"
 #include "temporary_folder.hpp"
 
 using namespace arcslip;
+using arcslip::testing::Mistake;
+using arcslip::testing::replaced;
 using arcslip::testing::TemporaryFolder;
 
 namespace {
@@ -24,37 +27,17 @@ from = 0.5
 to = 120.0
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-  return text;
-}
-
 Case read_text(const std::string& text, const std::vector<std::string>& settings = {}) {
   const TemporaryFolder folder;
   return read_case(folder.write("case.toml", text), settings);
 }
 
 std::string error_of(const std::string& text, const std::vector<std::string>& settings = {}) {
-  try {
-    read_text(text, settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::error_of([&] { read_text(text, settings); });
 }
 
-/// A change to a case, and what its message must hold: where, which key, what was expected and given.
-struct Mistake {
-  std::string from, to, place, key, expected, given;
-};
-
 void check_refused(const std::string& text, const Mistake& mistake) {
-  const std::string message = error_of(replaced(text, mistake.from, mistake.to));
-  INFO(message);
-  CHECK_THAT(message, ContainsSubstring("case.toml" + mistake.place));
-  CHECK_THAT(message, ContainsSubstring(mistake.key) && ContainsSubstring(mistake.expected) &&
-                          ContainsSubstring(mistake.given));
-  CHECK(message.find('\n') == std::string::npos);
+  testing::check_message(error_of(replaced(text, mistake.from, mistake.to)), mistake);
 }
 
 }  // namespace
@@ -98,6 +81,23 @@ TEST_CASE("for_each gives one branch for each value, and lists of several keys a
       replaced(replaced(good, "parameter = \"eta\"", "parameter = \"P\""), "preload = 1.0\n", "");
   const Case sweep = read_text(over_preload + "for_each = { eta = [3.5, 4.0] }\n");
   CHECK(sweep.branches[1].problem.eta == 4.0);
+}
+
+TEST_CASE("for_each takes ranges, and sets of values one by one") {
+  const Case ranged = read_text(
+      good +
+      "for_each = { preload = { from = 0.1, to = 10, count = 3, scale = \"log\" }, wave_number = { from = "
+      "1, to = 3, count = 3 } }\n");
+  REQUIRE(ranged.branches.size() == 3);
+  CHECK_THAT(ranged.branches[1].problem.system.preload, WithinRel(1, 1e-15));
+  CHECK(ranged.branches[2].problem.system.preload == 10);
+  CHECK(ranged.branches[1].problem.system.wave_number == 2);
+
+  const Case sets =
+      read_text(good + "for_each = [{ preload = 3, force = 2.0 }, { force = 1.0, preload = 4 }]\n");
+  REQUIRE(sets.branches.size() == 2);
+  CHECK(sets.branches[1].problem.system.preload == 4);
+  CHECK(describe(sets.branches[1].values) == "preload = 4, force = 1.0");
 }
 
 TEST_CASE("Settings on the command line replace and add values; bare words need no quotes") {
@@ -158,7 +158,7 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"to = 120.0", "to = 120.0\nfor_each = { preload = [1, -1] }", ":16:", "branch.for_each.preload[1]",
        "> 0", "got -1"},
       {"to = 120.0", "to = 120.0\nfor_each = { preload = [1], force = [1, 2] }",
-       ":16:", "branch.for_each.preload", "as many as", "got 1"},
+       ":16:", "branch.for_each.force", "as many as preload", "got 2"},
       {"to = 120.0", "to = 120.0\n[continuation]\nmax_step = 0", ":17:12", "continuation.max_step", "> 0",
        "got 0"},
       {"to = 120.0", "to = 120.0\n[continuation]\nstop_at = [3, 200]", ":17:", "continuation.stop_at[1]",

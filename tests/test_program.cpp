@@ -1,67 +1,20 @@
 // The program as a user meets it: commands, files, exit statuses.
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "catch.hpp"
-#include "temporary_folder.hpp"
+#include "program.hpp"
 
-using arcslip::testing::read;
-using arcslip::testing::TemporaryFolder;
+using namespace arcslip::testing;
 
 namespace {
 
-const std::string program = ARCSLIP_PROGRAM;
-
-std::string case_named(const std::string& name) {
-  return std::string(ARCSLIP_SOURCE_DIR) + "/problems/" + name + ".toml";
-}
-
 const std::string figure_8 = case_named("figure_8");
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-Outcome shell(const std::string& command) {
-  const TemporaryFolder folder;
-  const std::string whole =
-      "{ " + command + "; } >'" + folder.path("out") + "' 2>'" + folder.path("err") + "'";
-  const int code = std::system(whole.c_str());
-  return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read(folder.path("out")), read(folder.path("err"))};
-}
-
-Outcome arcslip_program(const std::string& arguments) { return shell("'" + program + "' " + arguments); }
-
-bool is_one_line(const std::string& text) { return !text.empty() && text.find('\n') == text.size() - 1; }
-
-std::vector<std::vector<std::string>> read_csv(const std::string& path) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream in(read(path));
-  for (std::string line; std::getline(in, line);) {
-    rows.emplace_back();
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
-}
-
-std::set<std::string> names_in(const std::string& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 }  // namespace
 

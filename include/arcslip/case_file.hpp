@@ -60,6 +60,11 @@ struct Case {
 /// Reads `path`, with `--set` arguments "section.key=value" applied on top. Throws InputError.
 Case read_case(const std::string& path, const std::vector<std::string>& settings = {});
 
+/// What a case file may hold at its top, and whether one does. Throws InputError where it cannot be read.
+std::vector<std::string> case_sections();
+bool has_section(const std::string& path, const std::string& name,
+                 const std::vector<std::string>& settings = {});
+
 /// "preload = 0.1" for the values of a branch; several are joined by commas, none gives "".
 std::string describe(const nlohmann::ordered_json& values);
 

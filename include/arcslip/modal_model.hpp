@@ -26,6 +26,12 @@ struct ContactResponse {
   Complex free_eta;        ///< dy_0/deta
 };
 
+/// Second derivatives in eta of a ContactResponse.
+struct ContactCurvature {
+  Complex compliance;  ///< d2c/deta2
+  Complex free;        ///< d2y_0/deta2
+};
+
 /// Loss factor beta eta + delta of damping proportional to stiffness; negative where it feeds energy in.
 struct Loss {
   double viscous = 0;     ///< beta
@@ -63,6 +69,8 @@ class ModalModel {
 
   /// Compliance and free response at eta, O(J) operations.
   ContactResponse at(double eta) const;
+
+  ContactCurvature curvature(double eta) const;
 
   /// Compliance of the same modes where the loss is zeta * loss_per_zeta.
   DampedCompliance compliance(double eta, double zeta, const Loss& loss_per_zeta) const;

@@ -28,10 +28,10 @@ struct EnvelopePiece {
 
 class EnvelopeCurve {
  public:
-  /// Of pieces that overlap the higher one counts. Throws std::invalid_argument where they leave a gap.
+  /// Of pieces that overlap the higher one counts. Throws std::runtime_error where they leave a gap.
   explicit EnvelopeCurve(std::vector<EnvelopePiece> pieces);
 
-  /// The highest peaks of a study that is whole. Throws std::invalid_argument for others.
+  /// The highest peaks of a study that is whole. Throws std::runtime_error for others.
   explicit EnvelopeCurve(const PreloadStudy& study);
 
   double from() const { return spans_.front().from; }  ///< in x
@@ -56,7 +56,10 @@ class EnvelopeCurve {
 
   /// Estimate of the largest error in ln Y_max: how well the cubic between a point's neighbours meets the
   /// point, brought down to the distance of the points. Known only of curves made from a study.
-  double error() const { return error_; }
+  double error() const;
+
+  /// Preloads at which further points would bring the error down to a tolerance.
+  std::vector<double> places_wanted(double tolerance) const;
 
  private:
   struct Span {
@@ -65,11 +68,17 @@ class EnvelopeCurve {
     std::size_t piece;
   };
 
+  void add(const PeakBranch& branch);
   void resolve();
 
   std::vector<EnvelopePiece> pieces_;
-  std::vector<Span> spans_;  ///< rising, without gaps or overlaps
-  double error_ = 0;
+  std::vector<double> errors_;  ///< of the pieces; nan where a peak has but two points
+  std::vector<Span> spans_;     ///< rising, without gaps or overlaps
 };
+
+/// The envelope over a range, from a study and, where its points are too far apart for the tolerance, from
+/// further ones with more points. Throws std::runtime_error where a study fails.
+EnvelopeCurve study_envelope(const SystemParameters& system, const PreloadRange& range, double tolerance,
+                             const continuation::TraceOptions& options = {});
 
 }  // namespace arcslip::problems

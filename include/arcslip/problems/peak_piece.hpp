@@ -23,11 +23,12 @@ struct PeakNode {
   double log_Y = 0;
   double slope = 0;  ///< d ln Y/d ln P along the peak
 
-  // Of a peak in slip: where it lies on the curve it was traced as, and d(eta, P, ln R)/d arclength.
+  // Of a peak in slip: w of the ridge, where it lies on the curve it was traced as, and d/d arclength.
+  double w = 0;
   double arclength = 0;
   double d_eta = 0;
   double d_preload = 0;
-  double d_log_R = 0;
+  double d_w = 0;
 };
 
 class PeakPiece {
@@ -49,9 +50,9 @@ class PeakPiece {
 
  private:
   std::size_t interval(double preload) const;
-  double slip_eta(double preload, double& log_R) const;
+  double slip_eta(double preload, double& w) const;
   double corner_eta(double preload) const;
-  Peak peak(double eta, double preload, double log_R) const;
+  Peak peak(double eta, double preload, double log_R, double w) const;
 
   const ForcedResponse& problem_;
   PeakSite site_;

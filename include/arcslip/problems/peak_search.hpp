@@ -8,7 +8,6 @@
 // peaks of the response at a few preloads and from the points where they meet the border.
 
 #include "arcslip/continuation/branch.hpp"
-#include "arcslip/continuation/extended_problem.hpp"
 #include "arcslip/problems/peak_piece.hpp"
 
 namespace arcslip::problems {
@@ -43,12 +42,11 @@ class PeakSearch {
   void add_corner_piece(const std::vector<PeakNode>& nodes);
   void search_edge(double eta);
   bool is_known(double eta, double preload, PeakSite site) const;
-  bool follow(const continuation::BranchPoint& peak);
-  void follow(const Meeting& meeting);
-  void add_sections(const continuation::ExtendedProblem& problem, const continuation::Branch& curve);
-  void add_section(std::vector<PeakNode> nodes, bool first_on_border, bool last_on_border);
-  bool is_peak(const PeakNode& node) const;
+  bool follow(const PeakNode& start);
+  void add_sections(const continuation::Branch& curve);
+  void add_section(std::vector<PeakNode> nodes);
   void snap(PeakNode& end);
+  double log_ratio(const PeakNode& node) const;
   void add(PeakSite site, std::vector<PeakNode> nodes);
   void fail(const std::string& why);
 

@@ -6,8 +6,6 @@
 //   (1 + Re[k phi' c/q]) d ln R = Re[dy_0/y_0] - Re[k phi dc/q] + Re[k phi' c/q] d ln S
 //   d ln Y = d ln R + Re[(k phi dc_D + k phi' c_D dt)/(1 + k phi c_D)],   dt = d ln R - d ln S
 
-#include <optional>
-
 #include "arcslip/contact.hpp"
 #include "arcslip/problems/preload_study.hpp"
 
@@ -25,17 +23,12 @@ class ResponseSlopes {
  public:
   ResponseSlopes(const FrictionSystem& system, double eta, double preload, double log_R, bool slip);
 
-  /// Solves for R in slip by Newton's method from an estimate of ln R; none where that does not converge.
-  static std::optional<ResponseSlopes> solve(const FrictionSystem& system, double eta, double preload,
-                                             double log_R);
-
   /// Stuck at any preload, with that one at which R = S.
   static ResponseSlopes on_border(const FrictionSystem& system, double eta, bool slip);
 
   double preload() const { return preload_; }
   double log_R() const { return log_R_; }
   double log_Y() const { return log_Y_; }
-  double residual() const;  ///< ln R + ln|1 + k phi c| - ln|y_0|, of the response equation
   double log_ratio() const { return log_R_ - threshold_.value; }  ///< ln(R/S)
 
   /// d/d eta at fixed preload.

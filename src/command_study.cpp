@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "study_results.hpp"
+#include "study_run.hpp"
+
+namespace arcslip {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+/// How far the study is: designs done before and now, of how many.
+std::string progress(std::size_t before, const StudyWork& work, std::size_t count) {
+  const std::size_t done = before + work.computed;
+  std::string text = fmt::format("{} of {} designs", done, count);
+  if (work.computed == 0) return text;
+  return text + fmt::format(", {:.3g} a second, {} left", work.rate(),
+                            duration(static_cast<double>(count - done) / work.rate()));
+}
+
+std::string plural(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The tables beside optimum.csv.
+std::string list_of_files(const StudyCase& study) {
+  std::string files;
+  if (study.sweep) files += "sweep.csv, ";
+  if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  return files;
+}
+
+/// Names each design that failed, with the reason. Returns how many there are.
+std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
+  std::size_t failures = 0;
+  store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
+    ++failures;
+    const std::string values = describe(study.design(design.curve).values);
+    fmt::print(stderr, "arcslip: design {}{}: {}\n", design.curve, values.empty() ? "" : " (" + values + ")",
+               design.failure);
+    return true;
+  });
+  return failures;
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const StudyCase study = read_study(options.case_path, options.settings);
+  const std::string folder = results_folder(options.folder, options.case_path);
+  create_folder(folder);
+  catch_interrupts();
+  StudyStore store(folder, study, options.resume);
+  PendingDesigns pending(store.finished());
+  const std::size_t before = study.count - pending.left();
+
+  StudyWork work;
+  {
+    ProgressLine line(!options.quiet);
+    StudyWorkers workers(study, options.jobs > 0 ? options.jobs : std::thread::hardware_concurrency());
+    compute(
+        workers, pending,
+        [&](const FinishedDesign& design) {
+          store.add(design.curve, design.values, design.result, design.scatter());
+          ++work.computed;
+        },
+        [&] {
+          work.seconds = seconds_since(start);
+          line.show([&] { return progress(before, work, study.count); });
+          return !interrupted();
+        });
+  }
+  work.seconds = seconds_since(start);
+  const std::size_t done = before + work.computed;
+  if (done < study.count) {
+    fmt::print(stderr, "arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}\n", done,
+               study.count, folder);
+    return status::incomplete_branch;
+  }
+  write_results(folder, study, store, work);
+  store.tidy();
+  if (!options.quiet) {
+    print((study.title.empty() ? "" : study.title + "\n\n") + study_table(study, store) +
+          fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
+                      plural(study.count, "design"), work.seconds, work.rate(),
+                      before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
+                      list_of_files(study)));
+  }
+  return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,106 @@
+#include "arcslip/study_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "continuation_section.hpp"
+#include "for_each.hpp"
+#include "geometry_section.hpp"
+#include "system_section.hpp"
+#include "uncertain_section.hpp"
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What the designs are made from.
+struct Source {
+  TomlDocument document;
+  std::optional<ForEach> for_each;
+
+  StudyDesign design(std::size_t index) const {
+    auto [values, replacements, made] = for_each->at(index);
+    ProblemRequest problem;
+    read_system(document, replacements, {nullptr, "P", true}, problem);
+    if (problem.system.preload_growth != 0 && scatters(document))
+      TomlSection(document, "system", &replacements)
+          .fail("preload_growth",
+                "not beside [study.uncertain], whose response is proportional to the force");
+    return {std::move(values), problem.system, problem.geometry};
+  }
+};
+
+std::vector<double> read_window(const TomlSection& section) {
+  const char* expected = "two numbers, 0 < low < high, between which peaks are sought";
+  section.require("eta", expected);
+  std::vector<double> window = section.numbers("eta", positive());
+  if (window.size() != 2 || !(window[0] < window[1])) section.mismatch("eta", expected);
+  return window;
+}
+
+problems::PreloadRange read_preloads(const TomlDocument& document, const TomlSection& section) {
+  section.text("parameter", {"P"});
+  problems::PreloadRange range;
+  range.from = section.number("from", positive());
+  range.to = section.number(
+      "to", {[&](double to) { return to > range.from; }, fmt::format(" > study.from = {:g}", range.from)});
+  const std::vector<double> window = read_window(section);
+  range.eta_low = window[0];
+  range.eta_high = window[1];
+  range.stop_at = TomlSection(document, "continuation").numbers("stop_at", within(range.from, range.to));
+  return range;
+}
+
+/// The input as it is understood, without what belongs to [branch].
+ordered_json resolve(const Source& source, const StudyCase& study) {
+  ordered_json resolved = to_json(source.document.root());
+  resolved.erase("branch");
+  ProblemRequest first;
+  first.system = study.design(0).system;
+  resolve_system(first, resolved["system"]);
+  resolved["study"]["sweep"] = study.sweep;
+  if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
+  if (study.uncertain) resolve_uncertainty(*study.uncertain, resolved["study"]["uncertain"]);
+  resolve_continuation(study.options, resolved["continuation"]);
+  return resolved;
+}
+
+}  // namespace
+
+StudyCase read_study(const std::string& path, const std::vector<std::string>& settings) {
+  const auto source = std::make_shared<Source>(Source{{path, settings}, {}});
+  const TomlDocument& document = source->document;
+  const TomlSection root(document, "");
+  root.allow_only(case_sections());
+  const TomlSection section(document, "study");
+  if (section.table() == nullptr) document.fail(nullptr, "study", "missing; expected a section [study]");
+  section.allow_only({"parameter", "from", "to", "eta", "for_each", "sweep", "uncertain"});
+  if (TomlSection(document, "system").table() == nullptr)
+    document.fail(nullptr, "system", "missing; expected a section [system]");
+
+  StudyCase study;
+  study.title = root.has("title") ? root.text("title", {}) : "";
+  study.range = read_preloads(document, section);
+  study.options = read_continuation(document);
+  study.options.stop_at = study.range.stop_at;
+  study.sweep = section.boolean("sweep", true);
+  if (scatters(document)) study.uncertain = read_uncertainty(document);
+  study.is_physical = has_geometry(document);
+  const std::vector<std::string> allowed = listed_keys(document, nullptr);
+  source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);
+  for (const char* key : {"preload", "preload_per_length"}) {
+    if (source->for_each->sets(key))
+      section.fail("for_each", fmt::format("{} cannot be listed: P is swept", key));
+  }
+  study.keys = source->for_each->keys();
+  study.count = source->for_each->count();
+  study.design = [source](std::size_t index) { return source->design(index); };
+  // Each key's rule is an interval that at most the largest value of another key narrows.
+  for (const std::size_t index : source->for_each->samples()) study.design(index);
+  study.resolved = resolve(*source, study);
+  return study;
+}
+
+}  // namespace arcslip
