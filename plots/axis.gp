@@ -9,7 +9,7 @@ eval sprintf("set %srange [%.15g:%.15g]", axis, low, high)
 eval sprintf("set %stics ('' %.15g 1)", axis, low)
 room = axis eq "x" ? 0.65 : 0.6  # cm for a label
 common_power = 0
-longest_label = 0  # in characters, of a linear axis
+longest_label = 0  # in characters, but for powers of ten
 
 if (is_wide(low, high)) {
   eval sprintf("set logscale %s", axis)
@@ -22,6 +22,8 @@ if (is_wide(low, high)) {
       major = m == 1 ? k % every == 0 : fine && (m == 2 || m == 5)
       power = sprintf("10^{%s%d}", k < 0 ? "−" : "", abs(k))
       text = plain ? sprintf("%g", m * 10.0 ** k) : m == 1 ? power : sprintf("%d·%s", m, power)
+      is_inside = m * 10.0 ** k >= low && m * 10.0 ** k <= high
+      longest_label = plain && major && is_inside && strlen(text) > longest_label ? strlen(text) : longest_label
       eval sprintf("set %stics add ('%s' %.15g %d)", axis, major && is_labelled ? text : "", m * 10.0 ** k, !major)
     }
   }

@@ -3,7 +3,7 @@
 # unstable. With `refine` above 1, smooth.gp puts that many pieces between two points.
 
 has_shape(n) = !is_backing(n) || backing[nth_kind(n)]
-special_y(s, k) = special_kinds[s] == k && is_marked(xs[special_points[s]]) ? ys[special_points[s]] : NaN
+special_y(s, k) = special_kinds[s] == k && is_marked(xs[special_points[s]]) ? shown_y(special_points[s]) : NaN
 special_colour(s) = special_branches[s] > branches ? grey : branch_colour(special_branches[s])
 nth_kind(n) = (n + 1) / 2
 is_backing(n) = n % 2
@@ -15,9 +15,10 @@ part_of(j) = 1.0 * (int(j) % refine) / refine
 is_stable(i) = counts[i] == 0
 touches(b, i, stable, part) = (i < last[b] && is_stable(i) == stable) || \
                               (part == 0 && i > first[b] && is_stable(i - 1) == stable)
-upper_y(b, j) = last[b] == first[b] ? NaN : \
+upper_y(b, j) = last[b] == first[b] || lines eq "envelope" ? NaN : \
                 lines ne "stability" || touches(b, row_of(b, j), 1, part_of(j)) ? y_at(row_of(b, j), part_of(j)) : NaN
-lower_y(b, j) = last[b] == first[b] || lines eq "plain" ? NaN : lines eq "regimes" ? slip_y_at(row_of(b, j), part_of(j)) : \
+lower_y(b, j) = last[b] == first[b] || lines eq "plain" ? NaN : \
+                lines ne "stability" ? slip_y_at(row_of(b, j), part_of(j)) : \
                 touches(b, row_of(b, j), 0, part_of(j)) ? y_at(row_of(b, j), part_of(j)) : NaN
 lower_dashes = lines eq "stability" ? "dashtype ".dashes : ""
 

@@ -5,11 +5,7 @@ refine = 1  # pieces of a curve from one row to the next
 set datafile separator comma
 set datafile columnheaders
 
-# Of the row that is being read:
-branch(row) = int(column("branch")) + 1
-kind(row) = kind_of(strcol("type"))
-slips(row) = strcol("regime") eq "slip"
-ends_slip(row) = strcol("type") eq "switch"  # the last point of a stretch of slip, though it enters stick
+load style."/".rows_of."_rows.gp"
 
 # How many rows there are, which of them are a branch, the regimes, the kinds of special points, the range of x.
 array first[branches]
@@ -19,16 +15,17 @@ do for [b = 1:branches] { first[b] = 0; last[b] = 0 }
 do for [k = 1:kinds] { found[k] = 0 }
 stick_found = 0
 slip_found = 0
-note_branch(b) = b > branches ? 0 : (first[b] == 0 ? first[b] = rows : 0, last[b] = rows)
+note_branch(b) = b > branches ? 0 : (first[b] == 0 ? first[b] = i : 0, last[b] = i)
 note_regime(slip) = slip ? slip_found = 1 : (stick_found = 1)
 note_kind(k) = k > 0 ? found[k] = found[k] + 1 : 0
 ends_low = 1e300  # of x where branches start and end
 ends_high = -1e300
 note_end(x) = (ends_low = x < ends_low ? x : ends_low, ends_high = x > ends_high ? x : ends_high)
-is_end(type) = type eq "start" || type eq "end"
-rows = 0
-note(row) = (rows = rows + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), \
-             is_end(strcol("type")) ? note_end(column(parameter)) : 0)
+stats csv using (0) nooutput
+rows = STATS_records
+i = 0
+note(row) = (i = i + 1, note_branch(branch(0)), note_regime(slips(0)), note_kind(kind(0)), \
+             is_end(0) ? note_end(column(parameter)) : 0)
 stats csv using (note(0), column(parameter)) nooutput
 do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # a single point draws no line
 
@@ -36,7 +33,7 @@ do for [b = 1:branches] { if (first[b] == 0) { first[b] = 1; last[b] = 1 } }  # 
 bounds = spread(STATS_min, STATS_max)
 x_low = real(word(bounds, 1))
 x_high = real(word(bounds, 2))
-has_room = strlen(lines_title) > 0  # curves in two parameters end anywhere
+has_room = strlen(lines_title) > 0 || rows_of eq "optimum"  # curves end anywhere, designs are marked
 bounds = with_room(x_low, x_high, x_low < ends_low || has_room ? 0.04 : 0, x_high > ends_high || has_room ? 0.04 : 0)
 x_low = real(word(bounds, 1))
 x_high = real(word(bounds, 2))
@@ -45,6 +42,7 @@ x_high = real(word(bounds, 2))
 array xs[rows]
 array ys[rows]
 array slip_ys[rows]  # undefined where there is no slip
+shown_y(i) = lines eq "envelope" ? slip_ys[i] : ys[i]
 array lengths[rows]  # along the branch
 array counts[rows]   # of unstable eigenvalues, of the stretch that begins here
 specials = int(sum [k = 1:kinds] found[k])

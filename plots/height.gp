@@ -1,6 +1,6 @@
 # The range of the values from `from` to `to` of the parameter, if there are any.
 
-y_inside(i) = xs[i] >= from && xs[i] <= to ? ys[i] : NaN
+y_inside(i) = xs[i] >= from && xs[i] <= to ? shown_y(i) : NaN
 set xrange [*:*]  # since stats keeps to the ranges that are set
 set yrange [*:*]
 unset logscale

@@ -29,7 +29,7 @@ columns = named == 0 ? 1 : ceil(1.0 * named / branch_lines)  # lines of much the
 styles = 5
 ways = styles + kinds
 in_regime(regime) = strlen(lines_title) ? lines_title.blank."in".blank.regime : regime
-array way_title[ways] = [in_regime("stick"), in_regime("slip"), "stable", "unstable", lines_title]
+array way_title[ways] = [in_regime(regimes[1]), in_regime(regimes[2]), "stable", "unstable", lines_title]
 array way_start[ways]
 array way_line[ways]
 array line_width[ways]
@@ -45,7 +45,7 @@ way_sample(i) = i <= styles ? sample : 0.25
 way_lines = 1
 line_width[1] = 0
 do for [i = 1:ways] {
-  entry = is_shown(i) ? way_sample(i) + text_width(way_title[i]) + gap : 0
+  entry = is_shown(i) ? way_sample(i) + 1.08 * text_width(way_title[i]) + gap : 0
   if (line_width[way_lines] + entry - gap > width - 0.2) {
     way_lines = way_lines + 1
     line_width[way_lines] = 0

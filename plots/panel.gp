@@ -8,9 +8,12 @@ is_labelled = is_lowest
 axis = "x"; low = from; high = to; length = r - l
 load style."/axis.gp"
 is_labelled = 1
+x_wide = wide
+wide = exists("y_is_linear") ? 1e300 : wide
 bounds = with_room(y_low, y_high, 0.05, 0.07)
 axis = "y"; low = real(word(bounds, 1)); high = real(word(bounds, 2)); length = t - b
 load style."/axis.gp"
+wide = x_wide
 if (common_power) {
   set label sprintf("×10^{%s%d}", common_power < 0 ? "−" : "", abs(common_power)) at screen across(l), up(t + 0.2)
 }

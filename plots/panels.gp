@@ -4,9 +4,9 @@
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; shared = ARG5; labels = ARG6; groups = ARG7; names = ARG8
 panels = ARG9
 load style."/style.gp"
-wide = 20
+wide = rows_of eq "branch" ? 20 : wide
 load style."/data.gp"
-refine = rows <= 3000 ? 8 : 1
+refine = has_lengths && rows <= 3000 ? 8 : 1
 number = words(panels) / 2
 panel_column(n) = word(panels, 2 * n - 1)
 panel_title(n) = word(panels, 2 * n)

@@ -1,15 +1,11 @@
-# Phases of base, damper and relative motion behind the excitation, followed through whole turns from the start of a
-# branch, so that a curve does not jump at the ends of (-pi, pi]. Beside the whole range, where peaks crowd.
+# Phases of base, damper and relative motion behind the excitation. Beside the whole range, where peaks crowd.
 
 style = ARG1; csv = ARG2; picture = ARG3; format = ARG4; shared = ARG5; labels = ARG6; groups = ARG7; names = ARG8
 load style."/style.gp"
 load style."/data.gp"
 
-last_phase = 0
-nearest_turn(phase) = 2 * pi * floor(phase / (2 * pi) + 0.5)
-followed(phase, starts) = phase == phase ? \
-  (last_phase = starts ? (phase < -pi / 2 ? phase + 2 * pi : phase) : phase - nearest_turn(phase - last_phase)) : NaN
-quantity(row) = followed(column(name), column("point") == 0) / pi
+load style."/turns.gp"
+quantity(row) = followed(column(name), column("point") == 0)
 array names[3] = ["beta", "alpha", "psi"]
 array titles[3] = ["base", "damper", "relative"]
 array symbols[3] = ["β", "α", "ψ"]

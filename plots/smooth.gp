@@ -13,9 +13,9 @@ if (refine > 1) {
   unscaled_y(v) = y_log ? exp(v) : v
   secant_x(i, k) = (scaled_x(xs[k]) - scaled_x(xs[i])) / (lengths[k] - lengths[i])
   secant_y(i, k) = (scaled_y(ys[k]) - scaled_y(ys[i])) / (lengths[k] - lengths[i])
-  # No steeper than keeps to the rows' own order where they go one way (Fritsch and Carlson 1980).
-  smaller(a, b) = abs(a) < abs(b) ? a : b
-  tame(slope, a, b) = a * b > 0 && abs(slope) > 3 * abs(smaller(a, b)) ? 3 * smaller(a, b) : slope
+  # No steeper than keeps to the rows' own order where they go one way, or stay where they are (Fritsch and Carlson 1980).
+  smaller(a, b) = abs(a) < abs(b) ? abs(a) : abs(b)
+  tame(slope, a, b) = abs(slope) > 3 * smaller(a, b) ? sgn(slope) * 3 * smaller(a, b) : slope
   parabola(before, after, d_before, d_after) = \
     tame((d_before * after + d_after * before) / (before + after), before > 0 ? d_before : 0, after > 0 ? d_after : 0)
 
@@ -43,4 +43,4 @@ if (refine > 1) {
 }
 x_at(i, t) = t == 0 ? xs[i] : x_between(i, t)
 y_at(i, t) = t == 0 ? ys[i] : y_between(i, t)
-slip_y_at(i, t) = t == 0 || slip_ys[i] != slip_ys[i] || slip_ys[i + 1] != slip_ys[i + 1] ? slip_ys[i] : y_between(i, t)
+slip_y_at(i, t) = t == 0 ? slip_ys[i] : slip_ys[i] == slip_ys[i] && slip_ys[i + 1] == slip_ys[i + 1] ? y_between(i, t) : NaN

@@ -1,11 +1,12 @@
 # How the pictures look: sizes, colours, symbols. A script names its arguments before it loads other files:
 #
 #   style     this folder
-#   csv       branches.csv of `arcslip run`
+#   csv       branches.csv of `arcslip run`, sweep.csv or optimum.csv of `arcslip study`
 #   picture   the file to write
 #   format    png or svg
 #   shared    the continuation parameter, which is the axis that the panels share; and what the lines tell:
-#             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable) or "plain" (nothing)
+#             "regimes" (thin in stick, thick in slip), "stability" (dashed if unstable), "envelope" (the highest
+#             peak alone) or "plain" (nothing); and whose rows these are, "branch", "sweep" or "optimum"
 #   labels    one word in double quotes for each colour, "" for one without a name
 #   groups    for each branch the number of its colour
 #   names     words in double quotes: the title of the shared axis; what the lines are, or ""; then pairs of a type of
@@ -24,6 +25,7 @@ line_height = 0.38
 type_size = 8.5
 parameter = word(shared, 1)
 lines = word(shared, 2)
+rows_of = word(shared, 3)
 branches = words(groups)
 colours = words(labels)
 are_many = colours > 12  # branches that are many are drawn more finely, and only a few of them are named
@@ -62,14 +64,18 @@ shade = 0xEAEAEA
 
 # ---- Special points, in the order in which they are drawn, each over its own shape in white ----
 
-kinds = 13
+kinds = 23
 array kind_type[kinds] = ["switch", "user", "event", "branch_point", "corner_fold", "hopf", "peak", "trough", "fold", \
-                          "cusp", "bogdanov_takens", "zero_hopf", "hopf_hopf"]
+                          "cusp", "bogdanov_takens", "zero_hopf", "hopf_hopf", \
+                          "corner", "birth", "death", "exchange", "optimum", \
+                          "optimum smooth", "optimum exchange", "optimum corner", "optimum flat", "optimum end"]
 r_equals_s = "{/:Italic R}".blank."=".blank."{/:Italic S}"
 array kind_title[kinds] = [r_equals_s, "requested", "event", "branch".blank."point", "corner".blank."fold", "Hopf", \
-                           "peak", "trough", "fold", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf"]
-array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8]
-array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9]  # 0: none, a fold may be a peak, too
+                           "peak", "trough", "fold", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf", \
+                           r_equals_s, "birth", "death", "exchange", "optimum", \
+                           "smooth", "exchange of peaks", "corner", "flat", "end of the range"]
+array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8, 6, 9, 11, 13, 7, 7, 13, 6, 5, 2]
+array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9, 7, 9, 11, 13, 7, 7, 13, 7, 5, 7]  # 0: a fold may be a peak
 is_triangle(k) = symbol[k] == 8 || symbol[k] == 9 || symbol[k] == 11
 enlarged(k) = symbol[k] == 4 ? 1.5 : is_triangle(k) && !is_svg ? 1.2 : symbol[k] > 11 ? 1.25 : 1
 symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : 1.25) * enlarged(k)

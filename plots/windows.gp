@@ -1,5 +1,5 @@
-# Finds the ranges where peaks crowd, too narrow to be seen in the whole: `windows` of them, two at most, from left to
-# right, from window_low[n] to window_high[n].
+# Finds the ranges where peaks crowd, or a single branch slips, too narrow to be seen in the whole: `windows` of them, two
+# at most, from left to right, from window_low[n] to window_high[n].
 
 bins = 500
 crowd = 35  # bins: 7 % of the axis
@@ -18,6 +18,16 @@ do for [i = 1:specials] {
   }
 }
 
+# Takes what lies between the places `low` and `high` for the next window, with a margin, and the peaks there for seen.
+add_window = "\
+  margin = 0.6 * (high - low) > 0.004 ? 0.6 * (high - low) : 0.004; \
+  low = low - margin < 0 ? 0 : low - margin; \
+  high = high + margin > 1 ? 1 : high + margin; \
+  do for [j = bin(low):bin(high)] { peaks[j] = 0; leftmost[j] = 1; rightmost[j] = 0 }; \
+  windows = windows + 1; \
+  window_low[windows] = value_at(x_low, x_high, low); \
+  window_high[windows] = value_at(x_low, x_high, high)"
+
 windows = 0
 array window_low[2] = [0, 0]
 array window_high[2] = [0, 0]
@@ -34,13 +44,23 @@ do for [n = 1:2] {
       low = leftmost[j] < low ? leftmost[j] : low
       high = rightmost[j] > high ? rightmost[j] : high
     }
-    margin = 0.6 * (high - low) > 0.004 ? 0.6 * (high - low) : 0.004
-    low = low - margin < 0 ? 0 : low - margin
-    high = high + margin > 1 ? 1 : high + margin
-    do for [j = bin(low):bin(high)] { peaks[j] = 0; leftmost[j] = 1; rightmost[j] = 0 }
-    windows = n
-    window_low[n] = value_at(x_low, x_high, low)
-    window_high[n] = value_at(x_low, x_high, high)
+    eval add_window
+  }
+}
+
+# A single branch has no crowds; of it the narrow stretches of slip are shown.
+slips_at(i) = slip_ys[i] == slip_ys[i]
+if (branches == 1 && windows == 0) {
+  begin = 0
+  do for [i = 1:rows] {
+    if (slips_at(i) && begin == 0) { begin = i }
+    if (begin > 0 && (i == rows || !slips_at(i + 1))) {
+      low = place_of(x_low, x_high, xs[begin])
+      high = place_of(x_low, x_high, xs[i])
+      if (high < low) { swapped = low; low = high; high = swapped }
+      if (windows < 2 && i > begin && high - low < 0.05) { eval add_window }
+      begin = 0
+    }
   }
 }
 if (windows == 2 && window_low[1] > window_low[2]) {

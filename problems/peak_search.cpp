@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -46,6 +47,11 @@ PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNod
   PeakNode node = border_node(system, 0.5 * (a + b));
   node.preload = limit;
   return node;
+}
+
+/// Whether a ridge has all but turned in P, so that no digit of P is left between a peak and a trough.
+bool turns(const BranchPoint& point) {
+  return std::abs(point.tangent(2)) <= 1e-4 * point.parameters(0) * point.tangent.norm();
 }
 
 }  // namespace
@@ -214,9 +220,14 @@ bool PeakSearch::follow(const PeakNode& start) {
     return true;
   };
   const Branch curve = continuation::trace_both(ridge, guess, options, follow_with_unit);
-  if (!is_end(curve.stop) || (curve.first_stop && !is_end(*curve.first_stop))) {
+  const auto is_lost = [&](continuation::Stop stop, const BranchPoint& end) {
+    return !is_end(stop) && !turns(end);
+  };
+  if (curve.points.empty() || is_lost(curve.stop, curve.points.back()) ||
+      (curve.first_stop && is_lost(*curve.first_stop, curve.points.front()))) {
     fail(fmt::format("the peak at eta = {:.10g}, P = {:.10g} could not be followed: {}", start.eta,
-                     start.preload, curve.explanation));
+                     start.preload,
+                     is_end(curve.stop) ? std::string(to_string(*curve.first_stop)) : curve.explanation));
   }
   if (curve.points.size() < 2) return false;
   add_sections(curve);
@@ -280,9 +291,26 @@ double PeakSearch::log_ratio(const PeakNode& node) const {
   return node.log_R - problem_.system().log_threshold(node.eta, node.preload).value;
 }
 
+/// A little way along the ridge that meets the border here, into slip.
+PeakNode PeakSearch::inside(PeakNode meeting) const {
+  constexpr double way = 1e-4;
+  const FrictionSystem& system = problem_.system();
+  const RidgePoint at = ridge_point(system, 0, meeting.eta, meeting.preload);
+  // d(eta, P)/dw along the ridge
+  Eigen::Matrix2d across;
+  across << at.by_place.col(1), at.by_preload;
+  const Eigen::Vector2d along = across.partialPivLu().solve(-at.by_place.col(0));
+  const double length = std::hypot(1, std::hypot(along(0) / meeting.eta, along(1) / meeting.preload));
+  meeting.w = way / length;
+  meeting.eta += along(0) * meeting.w;
+  meeting.preload += along(1) * meeting.w;
+  solve_ridge(system, meeting.preload, meeting.w, meeting.eta);
+  return meeting;
+}
+
 void PeakSearch::follow_from_border() {
   for (std::size_t i = 0; i < meetings_.size(); ++i) {
-    if (!meetings_[i].met) follow(meetings_[i].node);
+    if (!meetings_[i].met) follow(inside(meetings_[i].node));
   }
 }
 

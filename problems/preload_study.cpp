@@ -60,7 +60,7 @@ Peak free_peak(const FrictionSystem& system, const PreloadRange& range,
   Peak highest;
   for (const BranchPoint& point : branch.points) {
     const double Y = std::exp(point.unknowns(0));  // R = Y where no force acts
-    if (!(Y > highest.Y)) continue;
+    if (point.type == PointType::regular || !(Y > highest.Y)) continue;
     highest.Y = Y;
     highest.eta = point.parameters(ContactProblem::eta);
     highest.site = point.type == PointType::peak ? PeakSite::stick : PeakSite::edge;
@@ -68,13 +68,15 @@ Peak free_peak(const FrictionSystem& system, const PreloadRange& range,
   return highest;
 }
 
-/// zeta_B of the base alone whose highest peak is Y. The peak is about inverse to the damping.
+/// zeta_B of the base alone whose highest peak is Y, by the secant method: the peak is about inverse to the
+/// damping.
 double equivalent_damping(const SystemParameters& parameters, const PreloadRange& range, const Peak& free,
                           double Y, const continuation::TraceOptions& options) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (free.site == PeakSite::edge || !(Y <= free.Y)) return none;
+  if (free.site == PeakSite::edge) return none;
   SystemParameters damped = parameters;
   const auto excess = [&](double log_zeta) {
+    if (!(log_zeta < 0)) return none;
     damped.base_damping = std::exp(log_zeta);
     const Peak peak = free_peak(build_system(damped), range, options);
     return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
@@ -82,16 +84,17 @@ double equivalent_damping(const SystemParameters& parameters, const PreloadRange
   double last = std::log(parameters.base_damping);
   double last_excess = std::log(free.Y / Y);
   double log_zeta = last + last_excess;
-  for (int i = 0; i < 30; ++i) {
-    const double value = log_zeta < 0 ? excess(log_zeta) : none;
+  constexpr double rounding = 1e-11;
+  for (int i = 0; i < 30 && std::abs(last_excess) > rounding; ++i) {
+    const double value = excess(log_zeta);
     if (!std::isfinite(value)) return none;
-    if (std::abs(value) < 1e-12 || value == last_excess) return std::exp(log_zeta);
-    const double next = log_zeta - value * (log_zeta - last) / (value - last_excess);
+    const double next =
+        std::abs(value) > rounding ? log_zeta - value * (log_zeta - last) / (value - last_excess) : log_zeta;
     last = log_zeta;
     last_excess = value;
     log_zeta = next;
   }
-  return none;
+  return std::abs(last_excess) <= rounding ? std::exp(last) : none;
 }
 
 /// Preloads at which the frequency response is looked at, then those halfway between them (on the scale of
@@ -184,18 +187,20 @@ Optimum Assembly::optimum() const {
   const std::vector<PeakEnvelope::Knot>& knots = envelope_.knots();
   const auto least = std::min_element(knots.begin(), knots.end(),
                                       [](const auto& a, const auto& b) { return a.log_Y < b.log_Y; });
-  auto position = static_cast<std::size_t>(least - knots.begin());
+  const auto position = static_cast<std::size_t>(least - knots.begin());
   const std::vector<PeakEnvelope::Span>& spans = envelope_.spans();
-  const std::size_t span = least->span;
-  Optimum best;
-  best.peak = pieces_[spans[span].piece].at(least->preload);
-  const bool at_span_end = least->preload == spans[span].to && span + 1 < spans.size();
+  // Of two spans that meet there the lower one.
+  const bool starts_span = least->span > 0 && least->preload == spans[least->span].from;
+  const std::size_t span = starts_span ? least->span - 1 : least->span;
   std::size_t last_flat = position;
   while (last_flat + 1 < knots.size() && knots[last_flat + 1].log_Y == least->log_Y) ++last_flat;
+
+  Optimum best;
+  best.peak = pieces_[spans[span].piece].at(least->preload);
   if (knots[last_flat].preload > least->preload) {
     best.kind = OptimumKind::flat;
     best.peak = envelope_.at(std::sqrt(least->preload * knots[last_flat].preload));
-  } else if (at_span_end) {
+  } else if (least->preload == spans[span].to && span + 1 < spans.size()) {
     const std::size_t next = spans[span + 1].piece;
     best.kind = linked(spans[span].piece, next) ? OptimumKind::corner : OptimumKind::exchange;
     if (best.kind == OptimumKind::exchange) best.other = pieces_[next].at(least->preload);
@@ -265,10 +270,7 @@ std::vector<PeakBranch> Assembly::branches(double optimum) const {
         }
       }
     }
-    const bool only_edge = std::all_of(branch.begin(), branch.end(), [](const Peak& peak) {
-      return peak.site == PeakSite::edge && !peak.is_global;
-    });
-    if (!only_edge) result.push_back(std::move(branch));
+    result.push_back(std::move(branch));
   }
   return result;
 }
@@ -310,7 +312,7 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
     optimum.damping = equivalent_damping(parameters, range, free, optimum.peak.Y, options);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     study.failure = error.what();
   }
   return study;

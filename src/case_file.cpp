@@ -36,6 +36,12 @@ std::vector<std::string> parameters_of(const LibraryModel* model, bool limit_cyc
   return limit_cycle ? std::vector<std::string>{"zeta_B", "P"} : std::vector<std::string>{"eta", "P"};
 }
 
+Response read_response(const TomlSection& section) {
+  const std::string name = section.text("response", {"forced", "one_way", "limit_cycle"});
+  if (name == "one_way") return Response::one_way;
+  return name == "forced" ? Response::forced : Response::limit_cycle;
+}
+
 /// Reads [branch] but for what `for_each` may change.
 class BranchSection {
  public:
@@ -47,9 +53,9 @@ class BranchSection {
     branch.options = options;
     if (section_.has("response")) {
       if (model_ != nullptr) section_.fail("response", "only for systems with friction");
-      branch.problem.limit_cycle = section_.text("response", {"forced", "limit_cycle"}) == "limit_cycle";
+      branch.problem.response = read_response(section_);
     }
-    names_ = parameters_of(model_, branch.problem.limit_cycle);
+    names_ = parameters_of(model_, branch.problem.is_limit_cycle());
     if (section_.has("curve")) {
       read_curve(branch);
     } else {
@@ -106,7 +112,7 @@ class BranchSection {
   void read_extrema(CaseBranch& branch) {
     if (section_.has("extrema_of")) {
       branch.options.extrema_of = section_.texts("extrema_of", {}, "an array of observables");
-    } else if (model_ == nullptr && !branch.problem.limit_cycle) {
+    } else if (model_ == nullptr && !branch.problem.is_limit_cycle()) {
       branch.options.extrema_of = {"Y"};
     }
     if (!branch.curve) return;
@@ -131,9 +137,10 @@ std::vector<std::string> for_each_keys(const TomlDocument& document, const Libra
   return keys;
 }
 
-/// The input as it is understood, defaults included.
+/// The input as it is understood, defaults included, without what belongs to [study].
 ordered_json resolve(const TomlDocument& document, const Case& built) {
   ordered_json resolved = to_json(document.root());
+  resolved.erase("study");
   const CaseBranch& first = built.branches.front();
   resolve_system(first.problem, resolved["system"]);
   resolve_continuation(first.options, resolved["continuation"]);
@@ -151,7 +158,7 @@ void check_extrema(const TomlSection& branch, const CaseBranch& first) {
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
 void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseBranch& common,
                  const std::string& parameter) {
-  if (common.problem.limit_cycle && (branch.has("eta") || for_each.sets("eta"))) {
+  if (common.problem.is_limit_cycle() && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
   }
   for (const char* key : {"preload", "preload_per_length"}) {
@@ -195,7 +202,10 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
     CaseBranch branch = common;
     branch.values = values;
     read_system(document, replacements, {model, parameter}, branch.problem);
-    if (model == nullptr && parameter == "P" && !branch.problem.limit_cycle)
+    if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
+      TomlSection(document, "system", &replacements)
+          .fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
+    if (model == nullptr && parameter == "P" && !branch.problem.is_limit_cycle())
       branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());
     if (branch.curve) {
       branch.curve->seed = fixed_value(branch.problem, branch.options.parameter);

@@ -38,7 +38,7 @@ std::string describe(const ProblemRequest& problem) {
 std::string fixed(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "";
-  const char* other = branch.options.parameter != "P" ? "P" : problem.limit_cycle ? "zeta_B" : "eta";
+  const char* other = branch.options.parameter != "P" ? "P" : problem.is_limit_cycle() ? "zeta_B" : "eta";
   return fmt::format(" at {} = {:g}", other, fixed_value(problem, other));
 }
 
@@ -52,7 +52,8 @@ std::string describe(const CaseBranch& branch) {
   }
   std::string text =
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
-  if (branch.problem.limit_cycle) text += ", limit cycle";
+  if (branch.problem.is_limit_cycle()) text += ", limit cycle";
+  if (branch.problem.response == Response::one_way) text += ", base as if alone";
   if (branch.start) text += fmt::format(", both ways from {:g}", *branch.start);
   if (branch.all_solutions) text += ", through every solution found there";
   if (branch.switching) text += ", with the branches that it meets";

@@ -170,7 +170,7 @@ void draw(const std::string& folder, const std::vector<Picture>& pictures) {
   for (const Picture& picture : pictures) {
     for (const char* format : formats) {
       drawings.push_back(std::make_unique<Drawing>(target / fmt::format("{}.{}", picture.name, format)));
-      drawings.back()->start(scripts / fmt::format("{}.gp", picture.script), target / "branches.csv",
+      drawings.back()->start(scripts / fmt::format("{}.gp", picture.script), target / picture.table,
                              picture.settings);
     }
   }

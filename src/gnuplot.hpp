@@ -7,17 +7,18 @@
 
 namespace arcslip {
 
-/// A picture: its file's name without ending, the script in plots/ that draws it without ".gp", and what that
-/// script is told after the paths and the format, see plots/style.gp.
+/// A picture: its file's name without ending, the script in plots/ that draws it without ".gp", what that
+/// script is told after the paths and the format, see plots/style.gp, and the table that it reads.
 struct Picture {
   std::string name;
   std::string script;
   std::vector<std::string> settings;
+  std::string table;
 };
 
 struct GnuplotNotFound {};
 
-/// Draws the points of `folder`/branches.csv as PNG and SVG, all at the same time, and prints the files'
+/// Draws what the tables in `folder` hold as PNG and SVG, all at the same time, and prints the files'
 /// names. Throws OutputError, GnuplotNotFound.
 void draw(const std::string& folder, const std::vector<Picture>& pictures);
 

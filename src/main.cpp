@@ -60,7 +60,8 @@ A case file; what follows "optional" need not be given:
   from = 0.5
   to = 120.0
   # optional
-  response = "forced"        # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
+  response = "forced"        # "one_way": of a damper on a base that moves as if alone
+                             # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
   start = 3.0                # trace both ways from here
   all_solutions = false      # true: trace through every solution at start that deflation finds
   switching = false          # true: follow all branches that meet this one; not beside start
@@ -89,7 +90,7 @@ the highest peak is lowest, for each design. Writes DIR/study.sqlite (each desig
 DIR/optimum.csv (one row for each design), DIR/sweep.csv (one row for each peak and preload) and DIR/summary.json. A
 study that was interrupted or killed goes on with --resume; without it a study in DIR is begun anew.
 
-A case file has [system], as for arcslip run but for preload, which is not needed, and:
+A case file has [system] and [geometry], as for arcslip run but for the preload, which is not needed, and:
   [study]
   parameter = "P"
   from = 0.1                 # preloads
@@ -98,10 +99,17 @@ A case file has [system], as for arcslip run but for preload, which is not neede
   # optional
   for_each = { mass_ratio = [5.0, 10.0], frequency_ratio = [2.0, 4.0] }   # every value with every other
   sweep = true               # false: no sweep.csv, for charts of very many designs
+  [study.uncertain]          # optional: factors that scatter about the nominal values
+  mu = { lognormal = 0.2 }              # standard deviation of the logarithm
+  preload = { uniform = [0.8, 1.25] }   # or force; one of the three at least
+  samples = 4000             # optional, as what follows
+  seed = 1
+  quantiles = [0.05, 0.5, 0.95]         # of the highest peak, at every preload
 
 In place of a list a range, { from = 1.0, to = 100.0, count = 50, scale = "log" } ("linear" if not given); in place of
 the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }, ...]. Preloads of
-continuation.stop_at get a row for every peak.)";
+continuation.stop_at get a row for every peak. Where something scatters, DIR/quantiles.csv has the quantiles and
+DIR/robust.csv the preload at which the 95 % quantile is lowest.)";
 
 void add_settings(CLI::App* command, std::vector<std::string>& settings) {
   command->add_option("--set", settings, "Replace a value of the case file; may be repeated")
@@ -150,7 +158,7 @@ int dispatch(int argc, char** argv) {
   std::string folder;
   CLI::App* plot =
       app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
-  plot->add_option("DIR", folder, "Folder that `arcslip run` wrote")->required();
+  plot->add_option("DIR", folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
 
   try {
     app.parse(argc, argv);

@@ -36,6 +36,12 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, con
   }
 }
 
+ModalModel ModalModel::unyielding() const {
+  ModalModel model = *this;
+  for (Mode& mode : model.modes_) mode.residue = 0;
+  return model;
+}
+
 ContactResponse ModalModel::at(double eta) const {
   ContactResponse response{};
   const double loss = loss_.at(eta);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Which pictures there are of a folder of results. The section `case` of summary.json and the names of the
-// columns of branches.csv decide it.
+// Which pictures there are of a folder of results. The section `case` of summary.json and the columns of the
+// tables decide it.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace arcslip {
 
-/// Throws InputError where the folder does not hold what `arcslip run` writes, or holds no points.
+/// Throws InputError where the folder does not hold what `arcslip run` or `arcslip study` writes, or holds no
+/// points.
 std::vector<Picture> pictures_of(const std::string& folder);
 
 }  // namespace arcslip

@@ -12,6 +12,7 @@
 #include "arcslip/problems/cubic_response.hpp"
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/problems/limit_cycle.hpp"
+#include "arcslip/problems/one_way_response.hpp"
 
 namespace arcslip {
 namespace {
@@ -46,7 +47,8 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
 /// Calls `use` with the type of the problem of a system with friction.
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
-  if (request.limit_cycle) return use(std::type_identity<problems::LimitCycle>{});
+  if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
+  if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
   if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
   return use(std::type_identity<problems::ForcedResponse>{});
 }
@@ -58,7 +60,7 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
   return with_type(request, [&]<class Type>(std::type_identity<Type>) {
     const auto problem = std::make_shared<Type>(build_system(request.system));
     return guessed(problem, [&] {
-      return problem->guess(value_of(request.limit_cycle ? "zeta_B" : "eta"), value_of("P"));
+      return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
     });
   });
 }

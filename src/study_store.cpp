@@ -264,7 +264,8 @@ void StudyStore::open() {
   remove_leftovers(folder_);
   database_.emplace(path_);
   database_->execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs DEFAULT VALUES");
+      "PRAGMA busy_timeout = 1000; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs "
+      "DEFAULT VALUES");
   Statement last = database_->prepare("SELECT max(run) FROM runs");
   last.step();
   run_ = last.integer(0);

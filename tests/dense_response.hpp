@@ -11,6 +11,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace dense {
@@ -33,6 +34,9 @@ struct Case {
   Real base_damping;
   Real damper_damping;
   Real force;
+  bool structural_base = false;  ///< K_B (1 + 2 j zeta_B) in place of viscous damping
+  bool fixed_damper = false;
+  Real preload_growth = 0;  ///< P_2 of P + P_2 eta^2
 
   Real stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }
 };
@@ -105,14 +109,15 @@ inline std::vector<Real> positive_roots(const Polynomial& p) {
   return roots;
 }
 
-/// One ring under the travelling wave. With lambda = w*^2/(1 + j beta eta), the dynamic stiffness is
-/// (1 + j beta eta) (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda. All
-/// their coefficients are free of cancellation, for the longest waves too.
+/// One ring under the travelling wave. With d = 1 + j beta eta, or 1 + j loss, and lambda = w*^2/d, the
+/// dynamic stiffness is d (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda.
+/// All their coefficients are free of cancellation, for the longest waves too.
 struct Ring {
   Polynomial determinant;  ///< of K - lambda M
-  Polynomial by_contact;   ///< c = by_contact/determinant/(1 + j beta eta)
+  Polynomial by_contact;   ///< c = by_contact/determinant/d
   Polynomial by_load;      ///< y_0 likewise
   Real beta;               ///< C = beta K/(2 pi)
+  Real loss = 0;           ///< structural
 };
 
 inline Ring rod_ring(const Case& c, Real mass, Real stiffness, Real beta) {
@@ -182,7 +187,7 @@ inline Jet jenkins(Real t) {
     real *= 8 / pi * x * std::sqrt(x);
   } else {
     const Real theta = 2 * std::atan2(std::sqrt(x), std::sqrt(rest));
-    real = (theta - std::sin(2 * theta) / 2) / pi;
+    real = (theta - 2 * std::sqrt(x * rest) * (rest - x)) / pi;  // sin(2 theta) of half angles
   }
   return {{real, 4 / pi * x * rest}, {-8 / pi * x * std::sqrt(x * rest), -4 / pi * x * (rest - x)}};
 }
@@ -199,13 +204,45 @@ struct Sample {
   Real gain;  ///< d ln(R |1 + k phi c|)/d ln R
 };
 
+/// What follows without solving where eta and R/S are given.
+struct Given {
+  Real preload;  ///< P, which may be negative if it grows with eta^2
+  Real log_Y;
+  Real log_Y_slope;  ///< in ln eta, at fixed P
+  Real log_ratio_slope;
+};
+
 class Response {
  public:
   explicit Response(const Case& c)
-      : k_(c.interface_stiffness / c.N), slip_per_preload_(c.stiffness_ratio() / c.interface_stiffness) {
+      : k_(c.interface_stiffness / c.N),
+        slip_per_preload_(c.stiffness_ratio() / c.interface_stiffness),
+        growth_(c.preload_growth),
+        fixed_damper_(c.fixed_damper) {
     const auto ring = c.beams ? beam_ring : rod_ring;
-    base_ = ring(c, c.mass_ratio, c.stiffness_ratio(), 2 * c.base_damping / c.frequency_ratio);
+    base_ = ring(c, c.mass_ratio, c.stiffness_ratio(),
+                 c.structural_base ? 0 : 2 * c.base_damping / c.frequency_ratio);
+    if (c.structural_base) base_.loss = 2 * c.base_damping;
     damper_ = ring(c, 1, 1, 2 * c.damper_damping);
+  }
+
+  /// At a given R/S >= 1, as seen from slip or, at R = S, from stick.
+  Given at_ratio(Real log_eta, Real log_ratio, bool slip) const {
+    const Real eta = std::exp(log_eta);
+    Local local = locate(log_eta, 0, false);
+    const Complex closed = 1.0L + jenkins(log_ratio).value * local.c.value;
+    const Real threshold = std::exp(local.log_free - log_ratio) / std::abs(closed);
+    const Real preload = threshold / slip_per_preload_ - growth_ * eta * eta;
+    local.log_threshold = std::log(threshold);
+    local.log_threshold_slope = 2 * growth_ * eta * eta * slip_per_preload_ / threshold;
+    const Sample s = sample(local, slip, log_ratio);
+    return {preload, s.log_Y, s.log_Y_slope, s.log_ratio_slope};
+  }
+
+  /// ln|y_0| of the base alone and its slope in ln eta.
+  std::pair<Real, Real> free(Real log_eta) const {
+    const Local local = locate(log_eta, 0, false);
+    return {local.log_free, local.log_free_slope};
   }
 
   /// Solves at (eta, P); slopes in ln eta or, if `along_preload`, in ln P.
@@ -242,16 +279,16 @@ class Response {
   /// The equation at one point: ln R + ln|1 + phi c| = log_free, with k within c and c_D.
   struct Local {
     Real at;
-    bool along_preload;
     Real log_threshold;  ///< ln S
-    Real log_free;       ///< ln|y_0|
+    Real log_threshold_slope;
+    Real log_free;  ///< ln|y_0|
     Real log_free_slope;
     Jet c;
     Jet c_damper;
   };
 
   static Jet ratio(const Ring& ring, const Polynomial& numerator, Real eta) {
-    const Jet factor{{1, ring.beta * eta}, {0, ring.beta * eta}};
+    const Jet factor{{1, ring.beta * eta + ring.loss}, {0, ring.beta * eta}};
     const Real square = 4 * pi * pi * eta * eta;
     const Jet lambda = Jet{square, 2 * square} / factor;
     return value_of(numerator, lambda) / (factor * value_of(ring.determinant, lambda));
@@ -260,10 +297,13 @@ class Response {
   Local locate(Real log_eta, Real log_preload, bool along_preload) const {
     const Real eta = std::exp(log_eta);
     const Jet free = ratio(base_, base_.by_load, eta);
-    const Jet c_damper = k_ * ratio(damper_, damper_.by_contact, eta);
+    Jet c_damper = k_ * ratio(damper_, damper_.by_contact, eta);
+    if (fixed_damper_) c_damper = {0, 0};
+    const Real preload = std::exp(log_preload);
+    const Real grown = growth_ * eta * eta;
     Local local{along_preload ? log_preload : log_eta,
-                along_preload,
-                log_preload + std::log(slip_per_preload_),
+                std::log((preload + grown) * slip_per_preload_),
+                (along_preload ? preload : 2 * grown) / (preload + grown),
                 std::log(std::abs(free.value)),
                 std::real(free.slope / free.value),
                 k_ * ratio(base_, base_.by_contact, eta) + c_damper,
@@ -303,7 +343,7 @@ class Response {
     const Jet phi = slip ? jenkins(t) : Jet{1, 0};
     const Complex closed = 1.0L + phi.value * local.c.value;
     const Complex closed_damper = 1.0L + phi.value * local.c_damper.value;
-    const Real threshold_slope = local.along_preload ? 1 : 0;
+    const Real threshold_slope = local.log_threshold_slope;
     const Real gain = 1 + std::real(phi.slope * local.c.value / closed);
     const Real t_slope =
         (local.log_free_slope - threshold_slope - std::real(phi.value * local.c.slope / closed)) / gain;
@@ -323,6 +363,8 @@ class Response {
 
   Real k_;
   Real slip_per_preload_;
+  Real growth_;
+  bool fixed_damper_;
   Ring base_;
   Ring damper_;
 };

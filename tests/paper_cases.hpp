@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arcslip/problems/forced_response.hpp"
+#include "branches.hpp"
 
 namespace arcslip::testing {
 
@@ -29,10 +30,7 @@ inline SystemParameters rods(double preload) {
 }
 
 inline continuation::TraceOptions over_eta(double from, double to) {
-  continuation::TraceOptions options;
-  options.parameter = "eta";
-  options.from = from;
-  options.to = to;
+  continuation::TraceOptions options = over("eta", from, to);
   options.extrema_of = {"Y"};
   return options;
 }
@@ -40,15 +38,6 @@ inline continuation::TraceOptions over_eta(double from, double to) {
 inline continuation::Branch trace_over_eta(const problems::ForcedResponse& problem, double preload,
                                            double from, double to) {
   return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
-}
-
-/// All points of a type.
-inline std::vector<continuation::BranchPoint> of_type(const continuation::Branch& branch,
-                                                      continuation::PointType type) {
-  std::vector<continuation::BranchPoint> points;
-  std::copy_if(branch.points.begin(), branch.points.end(), std::back_inserter(points),
-               [type](const auto& point) { return point.type == type; });
-  return points;
 }
 
 /// An observable of ForcedResponse at a point.

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "arcslip/study_case.hpp"
 #include "case_runs.hpp"
 #include "library_cases.hpp"
+#include "temporary_folder.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -15,6 +17,7 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
+    if (read(entry.path()).find("[study]") != std::string::npos) continue;  // see below
     ++cases;
     INFO(entry.path().stem());
     const Run run(entry.path().stem());
@@ -33,6 +36,22 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
     }
   }
   CHECK(cases >= 22);
+}
+
+TEST_CASE("Every study's case is read, and its last design has an optimum", "[cases]") {
+  int cases = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + "/problems")) {
+    if (entry.path().extension() != ".toml") continue;
+    if (read(entry.path()).find("[study]") == std::string::npos) continue;
+    ++cases;
+    INFO(entry.path().stem());
+    const StudyCase study = read_study(entry.path());
+    const auto result = problems::study_preload(study.design(study.count - 1).system, study.range);
+    CHECK(result.failure.empty());
+    CHECK(result.optimum.has_value());
+  }
+  CHECK(cases >= 3);
 }
 
 // ---- Problems with published answers ----

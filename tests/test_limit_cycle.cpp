@@ -30,11 +30,8 @@ SystemParameters held_rods(DampingKind kind) {
   return parameters;
 }
 
-continuation::TraceOptions over(const std::string& parameter, double from, double to) {
-  continuation::TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
+continuation::TraceOptions amplitude_over(const std::string& parameter, double from, double to) {
+  continuation::TraceOptions options = over(parameter, from, to);
   options.extrema_of = {"Y"};
   return options;
 }
@@ -42,7 +39,7 @@ continuation::TraceOptions over(const std::string& parameter, double from, doubl
 /// The whole curve in zeta_B through a small cycle, from the border of stick to a large cycle.
 Branch cycles(const LimitCycle& problem, double zeta, double preload) {
   return continuation::trace_both(problem, problem.guess(zeta, preload),
-                                  over("zeta_B", 0.1 * zeta, 1000 * zeta));
+                                  amplitude_over("zeta_B", 0.1 * zeta, 1000 * zeta));
 }
 
 Vector values_at(const LimitCycle& problem, const BranchPoint& point) {
@@ -136,7 +133,8 @@ TEST_CASE("A cycle begins on the border of stick, where the stuck pair has no da
   SystemParameters parameters = rods(1);
   parameters.damper_damping = 1e-3;
   const LimitCycle problem(build_system(parameters));
-  const Branch branch = continuation::trace(problem, problem.guess(-1e-3, 1), over("zeta_B", -1e-3, 0));
+  const Branch branch =
+      continuation::trace(problem, problem.guess(-1e-3, 1), amplitude_over("zeta_B", -1e-3, 0));
   REQUIRE(branch.stop == Stop::left_regime);
   const BranchPoint& last = branch.points.back();
   CHECK_THAT(values_at(problem, last)(LimitCycle::R_over_S), WithinAbs(1, 1e-10));
@@ -172,7 +170,8 @@ TEST_CASE("The preload scales a cycle and folds nothing, also where it grows wit
   parameters.preload_growth = GENERATE(0.0, 0.1);
   parameters.damper_damping = 1e-3;
   const LimitCycle problem(build_system(parameters));
-  const Branch branch = continuation::trace(problem, problem.guess(-1e-2, 0.01), over("P", 0.01, 100));
+  const Branch branch =
+      continuation::trace(problem, problem.guess(-1e-2, 0.01), amplitude_over("P", 0.01, 100));
   REQUIRE(branch.complete());
   const BranchPoint& first = branch.points.front();
   const Vector at_first = values_at(problem, first);

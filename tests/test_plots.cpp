@@ -1,81 +1,24 @@
 // The pictures of `arcslip plot`: that they are drawn whole, and what is said where they cannot be.
 
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "catch.hpp"
-#include "temporary_folder.hpp"
+#include "plotting.hpp"
 
-using arcslip::testing::read;
-using arcslip::testing::TemporaryFolder;
+using namespace arcslip::testing;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::set<std::string> results = {"branches.csv", "summary.json"};
-const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "dissipated"};
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-/// What the program does in a shell; `before` are the variables set for it.
-Outcome arcslip_program(const std::string& arguments, const std::string& before = "") {
-  const TemporaryFolder folder;
-  const std::string command = before + " '" ARCSLIP_PROGRAM "' " + arguments + " >'" + folder.path("out") +
-                              "' 2>'" + folder.path("err") + "'";
-  const int code = std::system(command.c_str());
-  return {WIFEXITED(code) ? WEXITSTATUS(code) : -1, read(folder.path("out")), read(folder.path("err"))};
-}
+const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "phase_difference",
+                                           "dissipated"};
 
 void run(const std::string& problem, const std::string& folder, const std::string& options = "") {
-  const Outcome outcome = arcslip_program("run '" ARCSLIP_SOURCE_DIR "/problems/" + problem +
-                                          ".toml' --quiet -o \"" + folder + "\" " + options);
+  const Outcome outcome =
+      arcslip_program("run '" + case_named(problem) + "' --quiet -o \"" + folder + "\" " + options);
   REQUIRE(outcome.err.empty());
   REQUIRE(outcome.status == 0);
-}
-
-/// Whether pictures can be drawn here; a warning if not.
-bool has_gnuplot() {
-  if (std::system("command -v gnuplot >/dev/null 2>&1") == 0) return true;
-  WARN("gnuplot is not installed: nothing is drawn");
-  return false;
-}
-
-std::set<std::string> names_in(const std::string& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
-
-bool is_one_line(const std::string& text) { return !text.empty() && text.find('\n') == text.size() - 1; }
-
-/// Requires all pictures in the folder, from their first bytes to their last, and nothing besides.
-void require_pictures(const std::string& folder, std::size_t least_size,
-                      const std::vector<std::string>& drawn = pictures) {
-  std::set<std::string> expected = results;
-  for (const std::string& picture : drawn) {
-    CAPTURE(picture);
-    const fs::path path = fs::path(folder) / picture;
-    const std::string png = read(path.string() + ".png");
-    const std::string svg = read(path.string() + ".svg");
-    CHECK(png.size() > least_size);
-    CHECK(svg.size() > least_size);
-    CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
-    CHECK(png.substr(png.size() - std::min<std::size_t>(png.size(), 8), 4) == "IEND");
-    CHECK_THAT(svg.substr(0, 200), ContainsSubstring("<?xml") && ContainsSubstring("<svg"));
-    CHECK(svg.find("</svg>") != std::string::npos);
-    expected.insert({picture + ".png", picture + ".svg"});
-  }
-  CHECK(names_in(folder) == expected);
 }
 
 constexpr const char* rods =
@@ -93,7 +36,7 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 8'000, drawn);
+  require_pictures(folder.path("r"), 8'000, drawn, results);
 }
 
 /// A folder with a stand-in for gnuplot: a shell script of this text.
@@ -115,7 +58,7 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
   const Outcome outcome = arcslip_program("plot \"" + quoted + "\"");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(results_folder, 40'000);
+  require_pictures(results_folder, 40'000, pictures, results);
   std::string listed;
   for (const std::string& picture : pictures) {
     for (const char* ending : {".png", ".svg"}) {
@@ -130,7 +73,7 @@ TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots]")
   const TemporaryFolder folder;
   run("preload_response", folder.path("r"));
   REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
-  require_pictures(folder.path("r"), 20'000);
+  require_pictures(folder.path("r"), 20'000, pictures, results);
   const std::string svg = read(folder.path("r/amplitude.svg"));
   CHECK_THAT(svg, ContainsSubstring(">P<") && ContainsSubstring(">η<") && ContainsSubstring("3.68"));
 }
@@ -167,7 +110,7 @@ TEST_CASE("plot draws what there is of a run that was cut short", "[plots]") {
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 2'000);
+  require_pictures(folder.path("r"), 2'000, pictures, results);
 }
 
 TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]") {
@@ -186,7 +129,7 @@ TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and 
   run("figure_8", folder.path("r"), "--set branch.to=1.5");
   const auto fails = [&](const std::string& path, const std::string& message) {
     CAPTURE(message);
-    const Outcome outcome = arcslip_program("plot " + folder.path("r"), path);
+    const Outcome outcome = shell(path + " '" + program + "' plot " + folder.path("r"));
     CHECK(outcome.status == 4);
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(message));
@@ -218,7 +161,8 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(folder.path(name + "/" + file)) && ContainsSubstring(reason));
   };
-  refuses("empty", "", "", "branches.csv", "cannot be read");
+  refuses("empty", "", "", "summary.json", "cannot be read");
+  refuses("no table", "", summary, "branches.csv", "cannot be read");
   refuses("header only", header, summary, "branches.csv", "holds no points");
   refuses("no column", "branch,point\n0,0\n", summary, "branches.csv", "has no column type");
   refuses("no summary", table, "", "summary.json", "cannot be read");
@@ -242,7 +186,7 @@ TEST_CASE("plot draws the branches of every problem of the library", "[plots]") 
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   CHECK(outcome.out == folder.path("r/branch.png") + "\n" + folder.path("r/branch.svg") + "\n");
-  require_pictures(folder.path("r"), 8'000, {"branch"});
+  require_pictures(folder.path("r"), 8'000, {"branch"}, results);
   const std::string svg = read(folder.path("r/branch.svg"));
   const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2";
   CHECK((svg.find(">stable<") != std::string::npos) == loses_stability);

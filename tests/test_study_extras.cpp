@@ -244,6 +244,28 @@ TEST_CASE("A study of rings has columns in SI units", "[study]") {
     CHECK_THAT(row.at("preload_N_per_m"), WithinRel(row.at("P") * newtons_per_metre, rounding));
 }
 
+TEST_CASE("The study of rotor and ring finds what the case says", "[study]") {
+  const StudyCase study = read_study(std::string(ARCSLIP_SOURCE_DIR) + "/problems/rotor_ring.toml");
+  REQUIRE(study.count == 2);
+  const auto micrometres = [](const PhysicalScale& scale, double Y) { return 1e6 * scale.displacement(Y); };
+  const double newtons_per_metre[] = {312.6, 335.1};
+  const double heights[] = {4.56, 2.49};
+  for (const std::size_t i : {0U, 1U}) {
+    const StudyDesign design = study.design(i);
+    const PhysicalScale scale(*design.geometry, design.system);
+    const FinishedDesign done = study_design(study, i);
+    REQUIRE(done.result.optimum);
+    CHECK_THAT(scale.preload_per_length(done.result.optimum->peak.preload),
+               WithinAbs(newtons_per_metre[i], 0.05));  // as printed there
+    CHECK_THAT(micrometres(scale, done.result.optimum->peak.Y), WithinAbs(heights[i], 0.005));
+    if (i == 1) continue;
+    REQUIRE(done.uncertain);
+    CHECK_THAT(scale.preload_per_length(done.uncertain->preload), WithinAbs(352, 0.5));
+    CHECK_THAT(micrometres(scale, done.uncertain->Y), WithinAbs(6.25, 0.005));
+    CHECK_THAT(micrometres(scale, done.uncertain->Y_nominal), WithinAbs(6.70, 0.005));
+  }
+}
+
 TEST_CASE("A design whose scatter could not be studied keeps its optimum, has nan for the rest and is told",
           "[study]") {
   const TemporaryFolder folder;

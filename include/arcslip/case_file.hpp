@@ -30,14 +30,20 @@ struct CurveRequest {
   double seed = 0;                   ///< value of the second parameter at which they are looked for
 };
 
+/// What is asked of a system with friction: its response to the force, the damper's to a base that moves as
+/// if alone, or self-excited vibration.
+enum class Response { forced, one_way, limit_cycle };
+
 /// The problem that a branch belongs to: one of the library's, or a system with friction.
 struct ProblemRequest {
   const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
   problems::LibraryModel::Values settings;        ///< the library model's
   SystemParameters system;
   std::optional<Geometry> geometry;  ///< where the system is given in SI units
-  bool limit_cycle = false;          ///< self-excited vibration instead of the forced response
-  double eta = 0;                    ///< the fixed frequency where eta is not continued
+  Response response = Response::forced;
+  double eta = 0;  ///< the fixed frequency where eta is not continued
+
+  bool is_limit_cycle() const { return response == Response::limit_cycle; }
 };
 
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.

@@ -67,6 +67,9 @@ class ModalModel {
   ModalModel(const ReducedStructure& structure, Index contact_dof, double damping)
       : ModalModel(structure, contact_dof, Loss{damping, 0}) {}
 
+  /// The same structure where nothing but its own load moves it: c = 0.
+  ModalModel unyielding() const;
+
   /// Compliance and free response at eta, O(J) operations.
   ContactResponse at(double eta) const;
 

@@ -45,6 +45,7 @@ class PeakSearch {
   bool follow(const PeakNode& start);
   void add_sections(const continuation::Branch& curve);
   void add_section(std::vector<PeakNode> nodes);
+  PeakNode inside(PeakNode meeting) const;
   void snap(PeakNode& end);
   double log_ratio(const PeakNode& node) const;
   void add(PeakSite site, std::vector<PeakNode> nodes);

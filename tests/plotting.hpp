@@ -1,0 +1,47 @@
+#pragma once
+
+// What tests of `arcslip plot` share.
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "program.hpp"
+
+namespace arcslip::testing {
+
+namespace fs = std::filesystem;
+
+/// Whether pictures can be drawn here; a warning if not.
+inline bool has_gnuplot() {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") == 0) return true;
+  WARN("gnuplot is not installed: nothing is drawn");
+  return false;
+}
+
+/// Requires all pictures in the folder, from their first bytes to their last, and nothing besides the
+/// results.
+inline void require_pictures(const std::string& folder, std::size_t least_size,
+                             const std::vector<std::string>& drawn, const std::set<std::string>& results) {
+  std::set<std::string> expected = results;
+  for (const std::string& picture : drawn) {
+    CAPTURE(picture);
+    const fs::path path = fs::path(folder) / picture;
+    const std::string png = read(path.string() + ".png");
+    const std::string svg = read(path.string() + ".svg");
+    CHECK(png.size() > least_size);
+    CHECK(svg.size() > least_size);
+    CHECK(png.substr(0, 8) == "\x89PNG\r\n\x1a\n");
+    CHECK(png.substr(png.size() - std::min<std::size_t>(png.size(), 8), 4) == "IEND");
+    CHECK_THAT(svg.substr(0, 200), ContainsSubstring("<?xml") && ContainsSubstring("<svg"));
+    CHECK(svg.find("</svg>") != std::string::npos);
+    expected.insert({picture + ".png", picture + ".svg"});
+  }
+  CHECK(names_in(folder) == expected);
+}
+
+}  // namespace arcslip::testing

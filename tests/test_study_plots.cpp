@@ -1,0 +1,160 @@
+// The pictures of a preload study, from tables written here: that each table gives its pictures, whole.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plotting.hpp"
+
+using namespace arcslip::testing;
+
+namespace {
+
+const std::set<std::string> results = {"optimum.csv", "summary.json", "sweep.csv"};
+const std::set<std::string> without_sweep = {"optimum.csv", "summary.json"};
+
+constexpr const char* sweep_header =
+    "curve,peak_branch,P,eta_peak,Y_max,Y_nd_max,ratio,R_over_S,dissipated,is_global,type,site,by_P,by_mu,"
+    "by_F,by_mass_ratio,by_frequency_ratio\n";
+
+/// One peak that falls and one that rises over P = 0.1 to 10; they are as high at P = 1.
+std::string sweep_of(int curves) {
+  std::string text = sweep_header;
+  for (int curve = 0; curve < curves; ++curve) {
+    for (const int branch : {0, 1}) {
+      for (int i = -10; i <= 10; ++i) {
+        const double preload = std::pow(10, 0.1 * i);
+        const double ratio = 0.05 * (curve + 1) * (branch == 0 ? 1 / preload : preload);
+        const bool is_global = branch == 0 ? i <= 0 : i >= 0;
+        const char* type = i == -10      ? "start"
+                           : i == 10     ? "end"
+                           : i != 0      ? "regular"
+                           : branch == 0 ? "optimum"
+                                         : "exchange";
+        text += fmt::format("{},{},{:.17g},{},{:.17g},2,{:.17g},5,16,{:d},{},slip,0,0,0,0,0\n", curve, branch,
+                            preload, 4 - 0.3 * branch, 2 * ratio, ratio, is_global, type);
+      }
+    }
+  }
+  return text;
+}
+
+/// A row for each set of values of the keys; the one numbered `failed` has no optimum.
+std::string optimum_of(const std::string& keys, const std::vector<std::string>& values,
+                       std::size_t failed = 1000) {
+  std::string text =
+      "curve," + keys + (keys.empty() ? "" : ",") + "P_opt,eta_opt,Y_opt,ratio_opt,kind,P_low,P_high\n";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string start = fmt::format("{},{}{}", i, values[i], keys.empty() ? "" : ",");
+    const double ratio = 0.01 * static_cast<double>(i + 1);
+    text += start + (i == failed ? "nan,nan,nan,nan,failed,nan,nan\n"
+                                 : fmt::format("{},4,{},{},{},0.5,2\n", 1 + 0.1 * static_cast<double>(i),
+                                               2 * ratio, ratio, i % 2 == 0 ? "smooth" : "exchange"));
+  }
+  return text;
+}
+
+struct Study {
+  TemporaryFolder folder;
+
+  Study(const std::string& optimum, const std::string& sweep) {
+    folder.write("optimum.csv", optimum);
+    if (!sweep.empty()) folder.write("sweep.csv", sweep);
+    folder.write("summary.json", fmt::format(R"({{"case": {{"study": {{"sweep": {}}}}}}})", !sweep.empty()));
+  }
+
+  Outcome plot() const { return arcslip_program("plot '" + folder.path(".") + "'"); }
+  std::string picture(const std::string& name) const { return read(folder.path(name + ".svg")); }
+};
+
+void require_drawn(const Study& study, const std::vector<std::string>& pictures,
+                   const std::set<std::string>& tables) {
+  const Outcome outcome = study.plot();
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  require_pictures(study.folder.path("."), 5'000, pictures, tables);
+}
+
+void require_refused(const Study& study, const std::string& what) {
+  const Outcome outcome = study.plot();
+  CHECK(outcome.status == 1);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring(what));
+}
+
+}  // namespace
+
+TEST_CASE("plot draws a study over the preload and the optimum over its key", "[plots]") {
+  if (!has_gnuplot()) return;
+  const Study study(optimum_of("mass_ratio", {"5", "20", "100"}), sweep_of(3));
+  require_drawn(study, {"ratio", "peaks", "optimum"}, results);
+  const std::string ratio = study.picture("ratio");
+  CHECK_THAT(ratio,
+             ContainsSubstring("highest peak") && ContainsSubstring(">P<") && ContainsSubstring(">optimum<"));
+  CHECK_THAT(ratio, !ContainsSubstring("other peaks"));
+  CHECK_THAT(study.picture("peaks"), ContainsSubstring(">other peaks<") && ContainsSubstring(">exchange<"));
+  CHECK_THAT(study.picture("optimum"), ContainsSubstring("mass ratio") && ContainsSubstring(">smooth<") &&
+                                           ContainsSubstring("best preload"));
+}
+
+TEST_CASE("plot draws designs listed one by one over the first of their keys", "[plots]") {
+  if (!has_gnuplot()) return;
+  const Study study(optimum_of("frequency_ratio,slenderness", {"1,8.3", "1.5,12.5", "2,16.7"}), sweep_of(3));
+  require_drawn(study, {"ratio", "peaks", "optimum"}, results);
+  CHECK_THAT(study.picture("ratio"), ContainsSubstring("16.7"));
+}
+
+TEST_CASE("plot draws a single design without a key of curves", "[plots]") {
+  if (!has_gnuplot()) return;
+  const Study study(optimum_of("", {""}), sweep_of(1));
+  require_drawn(study, {"ratio", "peaks"}, results);
+  CHECK_THAT(study.picture("ratio"), !ContainsSubstring("mass"));
+}
+
+TEST_CASE("plot draws each value with each as maps, whatever their order, with gaps for what failed",
+          "[plots]") {
+  if (!has_gnuplot()) return;
+  std::vector<std::string> values;
+  for (const char* mass_ratio : {"20", "5", "10", "40"}) {
+    for (const char* frequency_ratio : {"1", "2", "3"})
+      values.push_back(fmt::format("{},{}", mass_ratio, frequency_ratio));
+  }
+  const Study study(optimum_of("mass_ratio,frequency_ratio", values, 7), "");
+  require_drawn(study, {"optimum_preload", "attenuation"}, without_sweep);
+  CHECK_THAT(study.picture("attenuation"),
+             ContainsSubstring("mass ratio") && ContainsSubstring("frequency ratio"));
+}
+
+TEST_CASE("plot draws the study or the branches, whichever was written last", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  const std::string path = folder.write(
+      "case.toml",
+      "[system]\nmodel = 'beams'\nwave_number = 1\nelements = 30\nmass_ratio = 5\nfrequency_ratio = 4\n"
+      "slenderness = 33.3\nforce = 1\npreload = 1\n"
+      "[branch]\nparameter = 'eta'\nfrom = 3\nto = 5\n"
+      "[study]\nparameter = 'P'\nfrom = 0.5\nto = 5\neta = [3, 5]\nfor_each = { mass_ratio = [5, 20] }\n");
+  const std::string into = " --quiet -o '" + folder.path("r") + "'";
+  const auto drawn = [&](const std::string& command) {
+    const Outcome outcome = arcslip_program(command + " '" + path + "'" + into);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.status == 0);
+    return arcslip_program("plot '" + folder.path("r") + "'").out;
+  };
+  CHECK_THAT(drawn("study"), ContainsSubstring("ratio.png") && ContainsSubstring("optimum.svg"));
+  CHECK_THAT(drawn("run"), ContainsSubstring("phase_difference.png") && !ContainsSubstring("ratio"));
+}
+
+TEST_CASE("plot refuses a study's folder that lacks something, in one line that says what", "[plots]") {
+  const std::string good = optimum_of("mass_ratio", {"5", "20", "100"});
+  const std::string header = good.substr(0, good.find('\n') + 1);
+  require_refused({header, ""}, "optimum.csv: holds no designs");
+  require_refused({"curve,mass_ratio\n0,5\n", ""}, "has no column P_opt");
+  require_refused({good + "3,7\n", ""}, "line 5 has 2 fields; expected 9");
+  require_refused({good, sweep_header}, "sweep.csv: holds no peaks");
+  require_refused({optimum_of("", {""}), ""}, "nothing to draw");
+  require_refused({optimum_of("model", {"rods", "beams"}), ""}, "nothing to draw");
+}
