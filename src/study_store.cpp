@@ -118,8 +118,11 @@ void remove_leftovers(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    for (const char* start : {"study.sqlite.", "optimum.csv.", "sweep.csv.", "summary.json."}) {
-      if (name.starts_with(start) && name.ends_with(".tmp")) remove(entry.path().string());
+    for (const char* start :
+         {"study.sqlite.", "optimum.csv.", "sweep.csv.", "robust.csv.", "quantiles.csv.", "summary.json."}) {
+      // A database leaves its journal beside it.
+      if (name.starts_with(start) && (name.ends_with(".tmp") || name.ends_with(".tmp-journal")))
+        remove(entry.path().string());
     }
   }
 }

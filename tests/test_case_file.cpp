@@ -102,7 +102,7 @@ TEST_CASE("for_each takes ranges, and sets of values one by one") {
   CHECK(describe(sets.branches[1].values) == "preload = 4, force = 1.0");
 }
 
-TEST_CASE("Settings on the command line replace and add values; bare words need no quotes") {
+TEST_CASE("Settings on the command line replace and add values, and bare words need no quotes") {
   const Case input = read_text(good, {"system.preload=7", "continuation.stop_at=[3.9, 4.1]", "title=other",
                                       "system.damping.base=0.01"});
   CHECK(input.branches[0].problem.system.preload == 7);

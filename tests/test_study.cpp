@@ -192,7 +192,7 @@ TEST_CASE("A study killed ten times ends as if it had not been, and computes no 
   CHECK(names_in(folder.path("killed")) == all_files);
 }
 
-TEST_CASE("An interrupt ends a study cleanly; it goes on with --resume", "[study]") {
+TEST_CASE("An interrupt ends a study cleanly, and it goes on with --resume", "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
   const std::string command = "study " + path + " --quiet -o ";
