@@ -38,6 +38,14 @@ std::string plural(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// The tables beside optimum.csv.
+std::string list_of_files(const StudyCase& study) {
+  std::string files;
+  if (study.sweep) files += "sweep.csv, ";
+  if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  return files;
+}
+
 /// Names each design that failed, with the reason. Returns how many there are.
 std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   std::size_t failures = 0;
@@ -62,7 +70,7 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
                       plural(study.count, "design"), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
-                      study.sweep ? "sweep.csv, " : ""));
+                      list_of_files(study)));
   }
   return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
 }
@@ -80,7 +88,7 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
     crew.compute(
         study, jobs, pending,
         [&](const FinishedDesign& design) {
-          store.add(design.curve, design.values, design.result);
+          store.add(design.curve, design.values, design.result, design.scatter());
           ++work.computed;
         },
         [&] {

@@ -24,6 +24,16 @@ void serialize(Archive& archive, Peak& peak, unsigned /*version*/) {
   archive& peak.sensitivity& peak.is_global;
 }
 
+template <class Archive>
+void serialize(Archive& archive, QuantileRow& row, unsigned /*version*/) {
+  archive& row.preload& row.Y;
+}
+
+template <class Archive>
+void serialize(Archive& archive, UncertainPeaks& peaks, unsigned /*version*/) {
+  archive& peaks.rows& peaks.preload& peaks.Y& peaks.Y_nominal& peaks.error& peaks.failure;
+}
+
 template <class Archive, class Value>
 void serialize_optional(Archive& archive, std::optional<Value>& value) {
   bool there = value.has_value();
@@ -52,6 +62,7 @@ namespace arcslip {
 template <class Archive>
 void serialize(Archive& archive, FinishedDesign& design, unsigned /*version*/) {
   archive& design.curve& design.result;
+  problems::serialize_optional(archive, design.uncertain);
 }
 
 namespace {

@@ -96,6 +96,7 @@ class OptimumJudge {
                        slope(top(best_ * (1 + distance)), best_ * (1 + distance)));
     };
     const auto [fall, rise] = jump(near);
+    if (std::max(std::abs(fall), std::abs(rise)) < 1e-13L) return;  // as flat as double precision can tell
     if (!(fall < 0 && rise > 0))
       complain(fmt::format("slopes {:.3g} and {:.3g} beside it", static_cast<double>(fall),
                            static_cast<double>(rise)));
@@ -113,12 +114,14 @@ class OptimumJudge {
 
   /// Of the preloads to either side up to which Y_max stays.
   void judge_middle() {
+    const Real level = top(best_).log_Y;
+    if (top(best_).log_ratio > 0) return;  // it slips, and is flat in double precision only
     const auto border = [&](Real out) {
-      if (top(out).log_Y - lowest_ < 1e-12L) return out;
+      if (std::abs(top(out).log_Y - level) < 1e-16L) return out;
       Real in = best_;
       for (int i = 0; i < 60; ++i) {
         const Real middle = std::sqrt(in * out);
-        (top(middle).log_Y - lowest_ < 1e-15L ? in : out) = middle;
+        (std::abs(top(middle).log_Y - level) < 1e-16L ? in : out) = middle;
       }
       return in;
     };
