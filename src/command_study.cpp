@@ -38,6 +38,14 @@ std::string plural(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// The tables beside optimum.csv.
+std::string list_of_files(const StudyCase& study) {
+  std::string files;
+  if (study.sweep) files += "sweep.csv, ";
+  if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  return files;
+}
+
 /// Names each design that failed, with the reason. Returns how many there are.
 std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   std::size_t failures = 0;
@@ -51,20 +59,6 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   return failures;
 }
 
-/// The study, the same in all processes; none where it cannot be read and another one says so.
-std::optional<StudyCase> read_together(const Crew& crew, const StudyOptions& options) {
-  std::optional<StudyCase> study;
-  std::string error;
-  try {
-    study = read_study(options.case_path, options.settings);
-  } catch (const InputError& wrong) {
-    error = wrong.what();
-  }
-  const auto [good, speaks] = crew.agree(study.has_value());
-  if (speaks) throw InputError(error);
-  return good ? study : std::nullopt;
-}
-
 /// What a study that is done gives: files, the table, the designs that failed.
 int conclude(const StudyOptions& options, const StudyCase& study, const std::string& folder,
              StudyStore& store, const StudyWork& work) {
@@ -76,7 +70,7 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
                       plural(study.count, "design"), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
-                      study.sweep ? "sweep.csv, " : ""));
+                      list_of_files(study)));
   }
   return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
 }
@@ -94,7 +88,7 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
     crew.compute(
         study, jobs, pending,
         [&](const FinishedDesign& design) {
-          store.add(design.curve, design.values, design.result);
+          store.add(design.curve, design.values, design.result, design.scatter());
           ++work.computed;
         },
         [&] {
@@ -115,20 +109,18 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
 int study_command(const StudyOptions& options) {
   Crew crew;
   catch_interrupts();
-  const std::optional<StudyCase> study = read_together(crew, options);
-  if (!study) return status::wrong_input;
+  std::optional<StudyCase> study;
+  std::string error;
+  try {
+    study = read_study(options.case_path, options.settings);
+  } catch (const InputError& wrong) {
+    error = wrong.what();
+  }
+  if (!crew.agree(error)) return status::wrong_input;
   const std::size_t jobs = options.jobs > 0 ? options.jobs : crew.default_jobs();
   if (!crew.leads()) return crew.assist(*study, jobs);
-  int status = status::cannot_write;
-  try {
-    status = lead(options, *study, jobs, crew);
-  } catch (const InputError&) {
-    crew.dismiss(status::wrong_input);
-    throw;
-  } catch (...) {
-    crew.dismiss(status);
-    throw;
-  }
+  // What went wrong is said before the others leave: their end may end this process as well.
+  const int status = guarded([&] { return lead(options, *study, jobs, crew); });
   crew.dismiss(status);
   return status;
 }

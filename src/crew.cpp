@@ -1,5 +1,7 @@
 #include "crew.hpp"
 
+#include <algorithm>
+#include <iostream>
 #include <stdexcept>
 #include <thread>
 
@@ -14,7 +16,10 @@ bool Crew::leads() const { return true; }
 
 std::size_t Crew::default_jobs() const { return std::max(1U, std::thread::hardware_concurrency()); }
 
-Crew::Agreement Crew::agree(bool good) const { return {good, !good}; }
+bool Crew::agree(const std::string& error) const {
+  if (!error.empty()) std::cerr << error << '\n';
+  return error.empty();
+}
 
 std::size_t Crew::compute(const StudyCase& study, std::size_t jobs, PendingDesigns& pending,
                           const std::function<void(const FinishedDesign&)>& keep,

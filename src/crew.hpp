@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "study_run.hpp"
 
@@ -24,12 +25,8 @@ class Crew {
   bool leads() const;
   /// Threads of a process that is not told how many: all cores for one alone, one among several.
   std::size_t default_jobs() const;
-  /// Whether all are well. Of those that are not, `speaks` is true in one.
-  struct Agreement {
-    bool good = true;
-    bool speaks = false;
-  };
-  Agreement agree(bool good) const;
+  /// Whether none has an error, "" being none; the first one's is printed on stderr before anyone goes on.
+  bool agree(const std::string& error) const;
 
   /// As compute() of study_run.hpp, with the others' help. For the one that leads.
   std::size_t compute(const StudyCase& study, std::size_t jobs, PendingDesigns& pending,

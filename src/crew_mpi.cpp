@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <boost/mpi.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -19,6 +22,16 @@ template <class Archive>
 void serialize(Archive& archive, Peak& peak, unsigned /*version*/) {
   archive& peak.type& peak.site& peak.preload& peak.eta& peak.Y& peak.R_over_S& peak.dissipated;
   archive& peak.sensitivity& peak.is_global;
+}
+
+template <class Archive>
+void serialize(Archive& archive, QuantileRow& row, unsigned /*version*/) {
+  archive& row.preload& row.Y;
+}
+
+template <class Archive>
+void serialize(Archive& archive, UncertainPeaks& peaks, unsigned /*version*/) {
+  archive& peaks.rows& peaks.preload& peaks.Y& peaks.Y_nominal& peaks.error& peaks.failure;
 }
 
 template <class Archive, class Value>
@@ -49,6 +62,7 @@ namespace arcslip {
 template <class Archive>
 void serialize(Archive& archive, FinishedDesign& design, unsigned /*version*/) {
   archive& design.curve& design.result;
+  problems::serialize_optional(archive, design.uncertain);
 }
 
 namespace {
@@ -108,26 +122,36 @@ struct Crew::Processes {
   }
 };
 
-Crew::Crew() : processes_(std::make_unique<Processes>()) {}
+Crew::Crew() {
+  // A process that nothing started as one of several does without MPI, which would start a daemon for it.
+  constexpr std::array launchers = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"};
+  if (std::any_of(launchers.begin(), launchers.end(), [](auto name) { return std::getenv(name) != nullptr; }))
+    processes_ = std::make_unique<Processes>();
+}
 
 Crew::~Crew() = default;
 
-bool Crew::leads() const { return processes_->world.rank() == 0; }
+bool Crew::leads() const { return !processes_ || processes_->world.rank() == 0; }
 
 std::size_t Crew::default_jobs() const {
-  return processes_->world.size() > 1 ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  if (processes_ && processes_->world.size() > 1) return 1;
+  return std::max(1U, std::thread::hardware_concurrency());
 }
 
-Crew::Agreement Crew::agree(bool good) const {
-  const mpi::communicator& world = processes_->world;
-  const int first = mpi::all_reduce(world, good ? world.size() : world.rank(), mpi::minimum<int>());
-  return {first == world.size(), first == world.rank()};
+bool Crew::agree(const std::string& error) const {
+  const int self = processes_ ? processes_->world.rank() : 0;
+  const int none = processes_ ? processes_->world.size() : 1;
+  int first = error.empty() ? none : self;
+  if (processes_) first = mpi::all_reduce(processes_->world, first, mpi::minimum<int>());
+  if (first == self) std::cerr << error << std::endl;
+  if (processes_) processes_->world.barrier();
+  return first == none;
 }
 
 std::size_t Crew::compute(const StudyCase& study, std::size_t jobs, PendingDesigns& pending,
                           const std::function<void(const FinishedDesign&)>& keep,
                           const std::function<bool()>& go_on) {
-  if (processes_->world.size() == 1) {
+  if (!processes_ || processes_->world.size() == 1) {
     StudyWorkers workers(study, jobs);
     return arcslip::compute(workers, pending, keep, go_on);
   }
@@ -158,6 +182,7 @@ std::size_t Crew::compute(const StudyCase& study, std::size_t jobs, PendingDesig
 }
 
 void Crew::dismiss(int status) {
+  if (!processes_) return;
   while (processes_->working > 0) {
     const auto message = processes_->next();
     if (!message) {

@@ -14,14 +14,19 @@ using namespace arcslip::testing;
 
 namespace {
 
-/// The program in so many processes, more than there are cores if need be, also for root. What mpirun itself
-/// says about a status that is not 0 is left out.
+/// The program in so many processes, more than there are cores if need be, also for root.
 Outcome in_processes(int count, const std::string& arguments) {
-  const Outcome outcome = shell(
+  return shell(
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
       "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe '" ARCSLIP_MPIEXEC "' -n " +
       std::to_string(count) + " '" + program + "' " + arguments);
-  return {outcome.status, outcome.out, outcome.err.substr(0, outcome.err.find("-----"))};
+}
+
+/// How often it is said; mpirun has something to say about a status that is not 0, too.
+int times(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
 }
 
 }  // namespace
@@ -63,14 +68,14 @@ TEST_CASE("Several processes end with one status, and one of them speaks", "[mpi
   folder.write("file", "");
   const Outcome wrong = in_processes(3, "study " + path + " -o " + folder.path("r") + " --set study.to=0.1");
   CHECK(wrong.status == 1);
-  CHECK(is_one_line(wrong.err));
+  CHECK(times(wrong.err, "study.to: expected") == 1);
   const Outcome blocked = in_processes(3, "study " + path + " -o " + folder.path("file/below"));
   CHECK(blocked.status == 4);
-  CHECK(is_one_line(blocked.err));
+  CHECK(times(blocked.err, "the folder cannot be made") == 1);
   const Outcome failed = in_processes(
       3, "study " + path + " --quiet -o " + folder.path("r") + " --set continuation.max_points=5");
   CHECK(failed.status == 3);
-  CHECK_THAT(failed.err, ContainsSubstring("design 23"));
+  CHECK(times(failed.err, "design 23 ") == 1);
 }
 
 TEST_CASE("Where the process that writes can do so no longer, all end with status 4", "[mpi]") {
@@ -86,6 +91,5 @@ TEST_CASE("Where the process that writes can do so no longer, all end with statu
   other.execute("PRAGMA busy_timeout = 1000; BEGIN IMMEDIATE");
   const Outcome locked = outcome.get();
   CHECK(locked.status == 4);
-  CHECK(is_one_line(locked.err));
-  CHECK_THAT(locked.err, ContainsSubstring("study.sqlite: cannot be written: another program uses it"));
+  CHECK(times(locked.err, "study.sqlite: cannot be written: another program uses it") == 1);
 }
