@@ -371,11 +371,11 @@ TEST_CASE("Every case file that comes with the program is valid") {
     if (entry.path().extension() != ".toml") continue;
     const std::string text = arcslip::testing::read(entry.path());
     CHECK(text.front() == '#');  // opens with what it shows
-    if (text.find("[study]") == std::string::npos) {
-      CHECK_NOTHROW(read_case(entry.path()));
-    } else {
-      CHECK_NOTHROW(read_study(entry.path()));
-    }
+    const bool has_branch = text.find("\n[branch]") != std::string::npos;
+    const bool has_study = text.find("\n[study]") != std::string::npos;
+    CHECK((has_branch || has_study));
+    if (has_branch) CHECK_NOTHROW(read_case(entry.path()));
+    if (has_study) CHECK_NOTHROW(read_study(entry.path()));
     ++count;
   }
   CHECK(count >= 3);
