@@ -83,7 +83,7 @@ class OptimumJudge {
     const Real near = 1e-8L;
     const dense::LocalPeak before = top(best_ * (1 - near));
     const dense::LocalPeak after = top(best_ * (1 + near));
-    const bool jumps = std::abs(before.eta / after.eta - 1) > 1e-6L;
+    const bool jumps = std::abs(before.eta / after.eta - 1) > 1e-7L;
     if (jumps != (optimum_.kind == OptimumKind::exchange)) complain("another kind");
     if (jumps) judge_exchange(before, after);
     if (optimum_.kind == OptimumKind::corner) {
@@ -135,7 +135,7 @@ class OptimumJudge {
                    case_.preload_growth * optimum_.peak.eta * optimum_.peak.eta * case_.stiffness_ratio() /
                        case_.interface_stiffness;
     const Real energy = 4 * case_.interface_stiffness * S * S * std::max(0.0L, optimum_.peak.R_over_S - 1.0L);
-    if (std::abs(optimum_.energy - energy) > 1e-12L * energy)
+    if (std::abs(optimum_.energy - energy) > 1e-12L * energy + 1e-15L * energy / (optimum_.peak.R_over_S - 1))
       complain(fmt::format("energy {:.15g}", optimum_.energy));
     judge_damping();
   }

@@ -85,7 +85,7 @@ class StudyJudge {
     std::vector<Peak> rows;
     for (const problems::PeakBranch& branch : study_.branches) {
       const auto row = std::find_if(branch.begin(), branch.end(),
-                                    [&](const Peak& p) { return std::abs(p.preload / preload - 1) < 1e-14; });
+                                    [&](const Peak& p) { return p.preload == preload; });
       if (row != branch.end()) rows.push_back(*row);
     }
     for (const dense::LocalPeak& peak : peaks) {
