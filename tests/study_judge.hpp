@@ -84,8 +84,8 @@ class StudyJudge {
     const std::vector<dense::LocalPeak> peaks = dense::peaks_at(case_, window_, preload);
     std::vector<Peak> rows;
     for (const problems::PeakBranch& branch : study_.branches) {
-      const auto row = std::find_if(branch.begin(), branch.end(),
-                                    [&](const Peak& p) { return p.preload == preload; });
+      const auto row =
+          std::find_if(branch.begin(), branch.end(), [&](const Peak& p) { return p.preload == preload; });
       if (row != branch.end()) rows.push_back(*row);
     }
     for (const dense::LocalPeak& peak : peaks) {
