@@ -14,6 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t most_sets = 1'000'000'000;
+constexpr std::size_t most_samples = 10'000;  // of all sets, a fraction of a second
 
 /// A key, dotted if it stands in a table of its own, with its value.
 struct Entry {
@@ -206,7 +207,7 @@ ForEachSet ForEach::at(std::size_t index) const {
 
 std::vector<std::size_t> ForEach::samples() const {
   std::vector<std::size_t> indices;
-  if (!combined_) {
+  if (!combined_ || count_ <= most_samples) {
     for (std::size_t i = 0; i < count_; ++i) indices.push_back(i);
     return indices;
   }

@@ -97,7 +97,8 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
   study.keys = source->for_each->keys();
   study.count = source->for_each->count();
   study.design = [source](std::size_t index) { return source->design(index); };
-  // Each key's rule is an interval that at most the largest value of another key narrows.
+  // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
+  // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
   study.resolved = resolve(*source, study);
   return study;
