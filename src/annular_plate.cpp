@@ -1,33 +1,17 @@
 #include "arcslip/annular_plate.hpp"
 
-#include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+
+#include "shape_functions.hpp"
 
 namespace arcslip {
 namespace {
 
 constexpr int node_dofs = 4;  // w, w_r, w_theta, w_r,theta
-constexpr int points = 6;     // exact for the polynomials; 1/r^3 adds less than the elements' own error
 using ElementMatrix = Eigen::Matrix<double, 16, 16>;
 using Shapes = Eigen::Matrix<double, 16, 1>;
-
-/// Cubic Hermite polynomials on [0, length] at s length, with derivatives: value and slope at both ends.
-struct Hermite {
-  Eigen::Vector4d value;
-  Eigen::Vector4d first;
-  Eigen::Vector4d second;
-
-  Hermite(double s, double length) {
-    value << 1 - 3 * s * s + 2 * s * s * s, length * (s - 2 * s * s + s * s * s), 3 * s * s - 2 * s * s * s,
-        length * (s * s * s - s * s);
-    first << (6 * s * s - 6 * s) / length, 1 - 4 * s + 3 * s * s, (6 * s - 6 * s * s) / length,
-        3 * s * s - 2 * s;
-    second << (12 * s - 6) / (length * length), (6 * s - 4) / length, (6 - 12 * s) / (length * length),
-        (6 * s - 2) / length;
-  }
-};
 
 /// Products of a polynomial of r and one of theta, in the order of `element_nodes`.
 Shapes product(const Eigen::Vector4d& radial, const Eigen::Vector4d& angular) {
@@ -44,17 +28,6 @@ Shapes product(const Eigen::Vector4d& radial, const Eigen::Vector4d& angular) {
   return shapes;
 }
 
-/// Abscissas on [0, 1] with their weights.
-std::array<std::pair<double, double>, points> gauss_points() {
-  using Rule = boost::math::quadrature::gauss<double, points>;
-  std::array<std::pair<double, double>, points> all;
-  for (std::size_t i = 0; i < points / 2; ++i) {
-    all[2 * i] = {0.5 * (1 - Rule::abscissa()[i]), 0.5 * Rule::weights()[i]};
-    all[2 * i + 1] = {0.5 * (1 + Rule::abscissa()[i]), 0.5 * Rule::weights()[i]};
-  }
-  return all;
-}
-
 struct ElementMatrices {
   ElementMatrix mass = ElementMatrix::Zero();
   ElementMatrix stiffness = ElementMatrix::Zero();
@@ -65,6 +38,7 @@ ElementMatrices element(const AnnularPlate& plate, double inner, double length, 
   const double nu = plate.poisson_ratio;
   const double bending = plate.youngs_modulus * std::pow(plate.thickness, 3) / (12 * (1 - nu * nu));
   ElementMatrices matrices;
+  // The rule is exact but for 1/r^3, which adds less than the elements' own error.
   for (const auto& [s, radial_weight] : gauss_points()) {
     for (const auto& [t, angular_weight] : gauss_points()) {
       const Hermite along(s, length);
@@ -167,11 +141,10 @@ FiniteSector annular_plate_sector(const AnnularPlate& plate) {
     sector.right.push_back(numbering.count - line_dofs + k);
   }
   const int rim = numbering.number[static_cast<std::size_t>(plate.radial_elements * node_dofs)];
-  if (rim >= 0) {
-    sector.contacts = {rim};
-    sector.outputs = {rim};
-    sector.load(rim) = 1;
+  for (Index line = 0; rim >= 0 && line < plate.angular_elements; ++line) {
+    sector.contacts.push_back(line * line_dofs + rim);
   }
+  sector.outputs = sector.contacts;
   return checked(sector);
 }
 

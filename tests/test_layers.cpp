@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "annular_plate", "contact",        "dynamic_stiffness", "elements", "finite_sector",    "matrix_market",
-    "modal_model",   "physical_scale", "precise",           "sector",   "sector_reduction", "system"};
+    "annular_plate", "chain_sector",  "contact",          "dynamic_stiffness", "elements",
+    "finite_sector", "matrix_market", "modal_model",      "physical_scale",    "precise",
+    "ring_sector",   "sector",        "sector_reduction", "shape_functions",   "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",

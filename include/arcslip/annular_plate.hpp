@@ -33,8 +33,8 @@ struct AnnularPlate {
 };
 
 /// The sector, checked. Nodes count along the radius from inside, then from left to right; dofs that the
-/// edges hold are left out. Where the outer edge can move, w of its left node is contact and output, and has
-/// a unit load. Throws std::invalid_argument unless 0 < inner_radius < outer_radius, -1 < poisson_ratio <
+/// edges hold are left out. Contacts and outputs are w of the outer edge's nodes but the last, if they can
+/// move; no load. Throws std::invalid_argument unless 0 < inner_radius < outer_radius, -1 < poisson_ratio <
 /// 1/2, the other quantities are positive and the counts at least 1.
 FiniteSector annular_plate_sector(const AnnularPlate& plate);
 
