@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "arcslip/case_file.hpp"
+#include "command_sector.hpp"
 #include "commands.hpp"
 #include "output.hpp"
 
@@ -22,6 +23,7 @@ Examples
   arcslip run problems/rotor_ring.toml            a system given in SI units
   arcslip run problems/ridge.toml                 the peaks over the preload: a curve in two parameters
   arcslip study problems/chart.toml               the best preload of each of 400 designs
+  arcslip sector plate -o rotor                   finite-element matrices of a brake rotor and its ring
 
 Exit status
   0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end; 4 a file could not be written)";
@@ -160,6 +162,9 @@ int dispatch(int argc, char** argv) {
       app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
   plot->add_option("DIR", folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
 
+  SectorOptions sectors;
+  const CLI::App* sector = add_sector_command(app, sectors);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -170,6 +175,7 @@ int dispatch(int argc, char** argv) {
   if (run->parsed()) return run_command(options);
   if (study->parsed()) return study_command(studied);
   if (check->parsed()) return check_command(checked);
+  if (sector->parsed()) return sector_command(sectors);
   return plot_command(folder);
 }
 

@@ -1,0 +1,99 @@
+#include "sector_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <deque>
+
+#include "arcslip/matrix_market.hpp"
+#include "output.hpp"
+
+namespace arcslip {
+namespace {
+
+/// Files that appear together.
+class Files {
+ public:
+  explicit Files(std::string folder) : folder_(std::move(folder)) { create_folder(folder_); }
+
+  void add(const std::string& name, const std::string& text) {
+    files_.emplace_back(fmt::format("{}/{}", folder_, name)).write(text);
+  }
+
+  void commit() {
+    for (AtomicFile& file : files_) file.sync();
+    for (AtomicFile& file : files_) file.commit();
+  }
+
+ private:
+  std::string folder_;
+  std::deque<AtomicFile> files_;
+};
+
+std::string lines(const std::vector<Index>& dofs) {
+  std::string text;
+  for (const Index dof : dofs) text += fmt::format("{}\n", dof + 1);
+  return text;
+}
+
+std::string load_lines(const ComplexVector& load) {
+  std::string text = "# dof, force, imaginary part\n";
+  for (Index dof = 0; dof < load.size(); ++dof) {
+    if (load(dof) == 0.0) continue;
+    text += fmt::format("{} {:.17g} {:.17g}\n", dof + 1, load(dof).real(), load(dof).imag());
+  }
+  return text;
+}
+
+void add_files(Files& files, const std::string& name, const FiniteSector& sector) {
+  files.add(name + "_mass.mtx", write_matrix_market(sector.mass, MatrixSymmetry::symmetric));
+  files.add(name + "_stiffness.mtx", write_matrix_market(sector.stiffness, MatrixSymmetry::symmetric));
+  files.add(name + "_left.txt", lines(sector.left));
+  files.add(name + "_right.txt", lines(sector.right));
+}
+
+std::string section(const std::string& name, const FiniteSector& sector, const SectorDamping& damping) {
+  std::vector<Index> contacts = sector.contacts;
+  for (Index& dof : contacts) ++dof;
+  std::string text = fmt::format(
+      "\n[system.{0}]                  # {1} dofs\nmass = \"{0}_mass.mtx\"\nstiffness = "
+      "\"{0}_stiffness.mtx\"\n"
+      "left = \"{0}_left.txt\"\nright = \"{0}_right.txt\"\ncontact = [{2}]\n",
+      name, sector.mass.rows(), fmt::join(contacts, ", "));
+  if (damping.reference > 0) {
+    text += fmt::format("damping_kind = \"viscous\"\nreference_frequency = {}\n", damping.reference);
+  } else {
+    text += "damping_kind = \"structural\"\n";
+  }
+  return text;
+}
+
+std::string case_text(const SectorCase& input) {
+  std::string text = fmt::format(
+      "{}title = \"{}\"\n\n[system]\nmodel = \"sector\"\nwave_number = {}\nsectors = {}\n"
+      "contact_stiffness = {}\nlimit_per_preload = {}\nforce = {}\npreload = {}\n"
+      "damping = {{ base = {}, damper = {} }}\n",
+      input.notes, input.title, input.wave_number, input.sectors, input.contact_stiffness,
+      input.limit_per_preload, input.force, input.preload, input.base_damping.zeta,
+      input.damper_damping.zeta);
+  text += section("base", input.base, input.base_damping) + "load = \"base_load.txt\"\n";
+  text += section("damper", input.damper, input.damper_damping);
+  text += fmt::format(
+      "\n[branch]\nparameter = \"eta\"\nfrom = {0}\nto = {1}\nfor_each = {{ preload = [{2}, {3}, {4}] }}\n"
+      "\n[study]\nparameter = \"P\"\nfrom = {2}\nto = {4}\neta = [{0}, {1}]\n",
+      input.eta_from, input.eta_to, input.preload / 100, input.preload, input.preload * 100);
+  return text;
+}
+
+}  // namespace
+
+void write_sector_case(const std::string& folder, const SectorCase& input) {
+  Files files(folder);
+  add_files(files, "base", input.base);
+  files.add("base_load.txt", load_lines(input.base.load));
+  add_files(files, "damper", input.damper);
+  files.add("case.toml", case_text(input));
+  files.commit();
+}
+
+}  // namespace arcslip
