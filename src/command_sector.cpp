@@ -21,7 +21,7 @@ Examples
   arcslip sector plate --wave-number 2 --thickness 0.008 --ring-width 0.003 -o thin_rotor
   arcslip sector plate --radial-elements 8 --angular-elements 4 -o coarse_rotor
   arcslip sector ring --contact tangential --wave-number 4 -o ring
-  arcslip sector beams --elements-per-sector 1 -o beams    figure 8 from matrices
+  arcslip sector beams --wave-number 1 -o beams   figure 8 from matrices
   arcslip sector plate --help                     all of a kind's options, with what they are if not given)";
 
 CLI::Option* count(CLI::App* app, const std::string& name, Index& value, const std::string& help) {
@@ -57,6 +57,8 @@ void add_shared(CLI::App* app, SectorOptions& options) {
 
 CLI::App* add_paper(CLI::App* sector, SectorOptions& options, const char* name, const char* help) {
   CLI::App* app = sector->add_subcommand(name, help);
+  app->footer(
+      fmt::format("\nExample: arcslip sector {} --wave-number 1 --elements-per-sector 3 -o {}", name, name));
   SystemParameters& system = options.paper;
   add_shared(app, options);
   count(app, "--elements", system.elements, "N, elements of the whole ring");
@@ -99,6 +101,8 @@ void add_solid(CLI::App* app, SectorOptions& options) {
 CLI::App* add_plate(CLI::App* sector, SectorOptions& options) {
   CLI::App* app =
       sector->add_subcommand("plate", "An annular plate that bends, with a ring damper at its rim");
+  app->footer(
+      "\nExample: arcslip sector plate --wave-number 2 --thickness 0.008 --ring-width 0.003 -o rotor");
   AnnularPlate& plate = options.plate;
   const std::map<std::string, EdgeSupport> edges{
       {"free", EdgeSupport::free}, {"supported", EdgeSupport::supported}, {"clamped", EdgeSupport::clamped}};
@@ -127,6 +131,7 @@ CLI::App* add_plate(CLI::App* sector, SectorOptions& options) {
 
 void add_rings(CLI::App* sector, SectorOptions& options) {
   CLI::App* app = sector->add_subcommand("ring", "A ring, in its plane or out of it, with a ring damper");
+  app->footer("\nExample: arcslip sector ring --contact tangential --wave-number 4 -o ring");
   const std::map<std::string, RingDirection> directions{{"radial", RingDirection::radial},
                                                         {"tangential", RingDirection::tangential},
                                                         {"axial", RingDirection::axial}};

@@ -129,6 +129,11 @@ SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, con
     throw SectorKindError(fmt::format("--inner-radius: expected less than --outer-radius, {}, got {}",
                                       plate.outer_radius, plate.inner_radius));
   }
+  constexpr Index most = 250'000;
+  if (plate.radial_elements > most / plate.angular_elements) {
+    throw SectorKindError(
+        fmt::format("--radial-elements times --angular-elements: expected at most {}", most));
+  }
   if (plate.outer_edge != EdgeSupport::free) {
     throw SectorKindError("--outer-edge: expected free, since the damper rubs there");
   }
