@@ -27,6 +27,12 @@ SectorCase shared(const PairOptions& options, Index sectors) {
   return result;
 }
 
+/// Whether the base moves as a rigid body with this wave number. Elements keep a little stiffness against it.
+bool moves_freely(const SectorCase& result, double lowest) {
+  if (result.wave_number > 1) return false;
+  return lowest < 0.02 * lowest_frequency(result.base, 2, std::max<Index>(result.sectors, 4));
+}
+
 /// Looks a tenth beyond the frequencies of the base alone and of the pair without slip.
 void set_window(const PairOptions& options, SectorCase& result) {
   const Index n = result.wave_number;
@@ -34,7 +40,7 @@ void set_window(const PairOptions& options, SectorCase& result) {
   const double held =
       lowest_frequency(joined(result.base, result.damper, result.contact_stiffness), n, result.sectors);
   const bool given = options.eta_from && options.eta_to;
-  if (!given && !(alone > 0)) {
+  if (!given && moves_freely(result, alone)) {
     throw SectorKindError(fmt::format("the base moves freely at n = {}: --from and --to are needed", n));
   }
   const auto rounded = [](double x) { return std::stod(fmt::format("{:.3g}", x)); };

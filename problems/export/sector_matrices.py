@@ -247,8 +247,8 @@ def convert(arguments):
         r, theta, z = sector.place[node]
         return round((theta - origin + 1e-6) % (2 * math.pi), 6), z, r
 
-    found = [(order(node), i, dof) for text in arguments.contact for i, (node, dof, _) in enumerate(chosen(text, 2))]
-    contacts = [dof for *_, dof in sorted(found)]
+    found = {(order(node), dof) for text in arguments.contact for node, dof, _ in chosen(text, 2)}
+    contacts = [dof for _, dof in sorted(found)]
     load = {}
     for text in arguments.load:
         for node, dof, value in chosen(text, 3):
