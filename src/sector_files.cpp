@@ -40,8 +40,8 @@ std::string load_lines(const ComplexVector& load) {
   std::string text = "# dof, force, imaginary part\n";
   for (Index dof = 0; dof < load.size(); ++dof) {
     if (load(dof) == 0.0) continue;
-    const Complex force = load(dof) + 0.0;  // no -0
-    text += fmt::format("{} {:.17g} {:.17g}\n", dof + 1, force.real(), force.imag());
+    const double imaginary = load(dof).imag() + 0.0;  // no -0
+    text += fmt::format("{} {:.17g} {:.17g}\n", dof + 1, load(dof).real(), imaginary);
   }
   return text;
 }
