@@ -92,7 +92,7 @@ do for [n = 3:words(names) - 1:2] {
 # ---- Ranges ----
 
 wide = 4
-is_wide(low, high) = low > 1e-15 * high && high > wide * low && low > 0  # worth a logarithmic axis
+is_wide(low, high) = low > 1e-17 * high && high > wide * low && low > 0  # worth a logarithmic axis
 
 # The place of a value on an axis, from 0 to 1, and the value at a place.
 place_of(low, high, v) = is_wide(low, high) ? log(v / low) / log(1.0 * high / low) : 1.0 * (v - low) / (high - low)

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -113,7 +113,7 @@ void PeakSearch::search_border() {
       last.preload = range_.to;
       add(PeakSite::stick, {first, last});
     }
-    if (inside && point.label == "meeting") meetings_.push_back({node});
+    if (inside && point.label == "meeting") meetings_.push_back({node, 0});
   }
 }
 
@@ -162,6 +162,11 @@ void PeakSearch::search_edge(double eta) {
       sum += slope_in(at.unknowns, at.parameters, at.regime);
     }
     if (sum < 0 && stretch.size() >= 2) add(PeakSite::edge, stretch);
+    if (point.type == PointType::event && point.regime == ContactProblem::slip) {
+      PeakNode node = stretch.back();
+      node.w = std::sqrt(std::max(0.0, log_ratio(node)));
+      meetings_.push_back({node, inwards});
+    }
     stretch = {stretch.back()};
     sum = 0;
   }
@@ -266,24 +271,16 @@ void PeakSearch::add_section(std::vector<PeakNode> nodes) {
 void PeakSearch::snap(PeakNode& end) {
   constexpr double same = 1e-6;
   for (Meeting& meeting : meetings_) {
-    if (std::abs(end.w) > same || std::abs(meeting.node.eta - end.eta) > same * end.eta) continue;
+    const double apart = std::abs(meeting.node.eta - end.eta) / end.eta;
+    const bool there = meeting.inwards == 0 ? std::abs(end.w) <= same && apart <= same
+                                            : apart <= 1e-9 && std::abs(meeting.node.preload - end.preload) <=
+                                                                   same * end.preload;
+    if (!there) continue;
     meeting.met = true;
-    end.w = 0;
     end.eta = meeting.node.eta;
     end.preload = meeting.node.preload;
     end.log_R = meeting.node.log_R;
-  }
-  for (const PeakPiece& piece : pieces_) {
-    if (piece.site() != PeakSite::edge) continue;
-    for (const PeakNode* node : {&piece.nodes().front(), &piece.nodes().back()}) {
-      if (std::abs(node->eta - end.eta) > 1e-9 * end.eta ||
-          std::abs(node->preload - end.preload) > same * end.preload)
-        continue;
-      end.eta = node->eta;
-      end.preload = node->preload;
-      end.log_R = node->log_R;
-      end.w = std::sqrt(std::max(0.0, log_ratio(end)));
-    }
+    end.w = meeting.node.w;
   }
 }
 
@@ -291,26 +288,30 @@ double PeakSearch::log_ratio(const PeakNode& node) const {
   return node.log_R - problem_.system().log_threshold(node.eta, node.preload).value;
 }
 
-/// A little way along the ridge that meets the border here, into slip.
-PeakNode PeakSearch::inside(PeakNode meeting) const {
-  constexpr double way = 1e-4;
+/// A little way along the ridge from where it meets the border or an end of the window.
+PeakNode PeakSearch::inside(const Meeting& meeting) const {
+  constexpr double way = 1e-5;
+  PeakNode node = meeting.node;
   const FrictionSystem& system = problem_.system();
-  const RidgePoint at = ridge_point(system, 0, meeting.eta, meeting.preload);
-  // d(eta, P)/dw along the ridge
-  Eigen::Matrix2d across;
-  across << at.by_place.col(1), at.by_preload;
-  const Eigen::Vector2d along = across.partialPivLu().solve(-at.by_place.col(0));
-  const double length = std::hypot(1, std::hypot(along(0) / meeting.eta, along(1) / meeting.preload));
-  meeting.w = way / length;
-  meeting.eta += along(0) * meeting.w;
-  meeting.preload += along(1) * meeting.w;
-  solve_ridge(system, meeting.preload, meeting.w, meeting.eta);
-  return meeting;
+  const RidgePoint at = ridge_point(system, node.w, node.eta, node.preload);
+  const Eigen::Vector3d unit(1, node.eta, node.preload);
+  Eigen::Matrix<double, 2, 3> slopes;  // of both residuals over (w, eta, P), in units
+  slopes << at.by_place, at.by_preload;
+  slopes = slopes * unit.asDiagonal();
+  Eigen::Vector3d along = slopes.row(0).cross(slopes.row(1)).transpose().normalized();
+  const double inwards = meeting.inwards == 0 ? along(0) : meeting.inwards * along(1);
+  if (inwards < 0) along = -along;
+  along = way * along.cwiseProduct(unit);
+  node.w += along(0);
+  node.eta += along(1);
+  node.preload += along(2);
+  solve_ridge(system, node.preload, node.w, node.eta);
+  return node;
 }
 
-void PeakSearch::follow_from_border() {
+void PeakSearch::follow_from_meetings() {
   for (std::size_t i = 0; i < meetings_.size(); ++i) {
-    if (!meetings_[i].met) follow(inside(meetings_[i].node));
+    if (!meetings_[i].met) follow(inside(meetings_[i]));
   }
 }
 

@@ -106,7 +106,7 @@ void look_everywhere(PeakSearch& search, double from, double to) {
     places.push_back(i == 0 ? from : from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
   places.push_back(to);
   for (const double preload : places) search.look_at(preload);
-  search.follow_from_border();
+  search.follow_from_meetings();
   struct Gap {
     double from;
     double to;

@@ -131,16 +131,16 @@ class BranchSection {
 };
 
 /// What may differ from branch to branch.
-std::vector<std::string> for_each_keys(const LibraryModel* model) {
-  std::vector<std::string> keys = system_keys(model);
+std::vector<std::string> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
+  std::vector<std::string> keys = listed_keys(document, model);
   if (model == nullptr) keys.emplace_back("eta");
-  if (model != nullptr) std::erase(keys, "model");
   return keys;
 }
 
-/// The input as it is understood, defaults included.
+/// The input as it is understood, defaults included, without what belongs to [study].
 ordered_json resolve(const TomlDocument& document, const Case& built) {
   ordered_json resolved = to_json(document.root());
+  resolved.erase("study");
   const CaseBranch& first = built.branches.front();
   resolve_system(first.problem, resolved["system"]);
   resolve_continuation(first.options, resolved["continuation"]);
@@ -161,8 +161,9 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
   if (common.problem.is_limit_cycle() && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
   }
-  if (parameter == "P" && for_each.sets("preload")) {
-    branch.fail("for_each", "preload cannot be listed where P is the continuation parameter");
+  for (const char* key : {"preload", "preload_per_length"}) {
+    if (parameter == "P" && for_each.sets(key))
+      branch.fail("for_each", fmt::format("{} cannot be listed where P is the continuation parameter", key));
   }
   if (parameter != "P" && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
@@ -171,7 +172,9 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
 
 }  // namespace
 
-std::vector<std::string> case_sections() { return {"title", "system", "branch", "study", "continuation"}; }
+std::vector<std::string> case_sections() {
+  return {"title", "system", "geometry", "branch", "study", "continuation"};
+}
 
 bool has_section(const std::string& path, const std::string& name, const std::vector<std::string>& settings) {
   return TomlDocument(path, settings).root().contains(name);
@@ -191,7 +194,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   const CaseBranch common = BranchSection(document, section, model).read(read_continuation(document));
   // Of a curve, the branch on which its first points are looked for is what counts.
   const std::string& parameter = common.curve ? common.curve->active : common.options.parameter;
-  const ForEach for_each(document, section, for_each_keys(model), ForEach::Lists::together);
+  const ForEach for_each(document, section, for_each_keys(document, model), ForEach::Lists::together);
   if (model == nullptr) check_fixed(section, for_each, common, parameter);
   if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
   for (std::size_t i = 0; i < for_each.count(); ++i) {

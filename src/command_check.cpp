@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arcslip/continuation/derivative_check.hpp"
+#include "arcslip/results.hpp"
 #include "arcslip/runs.hpp"
 #include "arcslip/study_case.hpp"
 #include "commands.hpp"
@@ -23,11 +24,9 @@ std::string describe(const ProblemRequest& problem) {
     return text;
   }
   const SystemParameters& system = problem.system;
-  std::string text = fmt::format(
-      "{}, n = {}, N = {}, M* = {:g}, gamma = {:g}, K_FD = {:.6g}, zeta = {:g} (base), {:g} (damper), F = "
-      "{:g}",
-      to_string(system.model), system.wave_number, system.elements, system.mass_ratio, system.frequency_ratio,
-      system.interface_stiffness, system.base_damping, system.damper_damping, system.force);
+  std::string text = fmt::format("{}, n = {}, N = {}, {}, zeta = {:g} (base), {:g} (damper)",
+                                 to_string(system.model), system.wave_number, system.elements,
+                                 describe_groups(problem), system.base_damping, system.damper_damping);
   if (system.base_damping_kind == DampingKind::structural) text += ", structural damping of the base";
   if (system.fixed_damper) text += ", damper held";
   if (system.cubic_stiffness != 0) text += fmt::format(", cubic stiffness {:g}", system.cubic_stiffness);
@@ -117,6 +116,7 @@ bool check_branches(const CheckOptions& options) {
     const std::string values = arcslip::describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
+    if (branch.problem.geometry) text += fmt::format("  {}\n", describe_units(branch.problem));
     if (!options.derivatives) continue;
     const continuation::DerivativeReport report = check_derivatives(branch);
     good = good && report.worst <= exact;
@@ -137,6 +137,19 @@ std::string describe(const std::string& key, const nlohmann::ordered_json& liste
                      listed["to"].dump(), listed.value("scale", "linear"));
 }
 
+std::string describe(const problems::Scatter& scatter) {
+  if (scatter.kind == problems::Scatter::Kind::none) return "fixed";
+  if (scatter.kind == problems::Scatter::Kind::lognormal)
+    return fmt::format("lognormal, {:g}", scatter.deviation);
+  return fmt::format("uniform, {:g} to {:g}", scatter.low, scatter.high);
+}
+
+std::string describe(const problems::Uncertainty& uncertainty) {
+  return fmt::format("scatter of mu: {}; of the preload: {}; of the force: {}; {} samples, seed {}",
+                     describe(uncertainty.friction), describe(uncertainty.preload),
+                     describe(uncertainty.force), uncertainty.samples, uncertainty.seed);
+}
+
 void check_study(const CheckOptions& options) {
   const StudyCase study = read_study(options.case_path, options.settings);
   const problems::PreloadRange& range = study.range;
@@ -144,6 +157,7 @@ void check_study(const CheckOptions& options) {
   text += fmt::format("study of {} design{}: P from {:g} to {:g}, peaks between eta = {:g} and {:g}{}\n",
                       study.count, study.count == 1 ? "" : "s", range.from, range.to, range.eta_low,
                       range.eta_high, study.sweep ? "" : ", no sweep.csv");
+  if (study.uncertain) text += fmt::format("  {}\n", describe(*study.uncertain));
   if (!study.keys.empty()) {
     const nlohmann::ordered_json& for_each = study.resolved["study"]["for_each"];
     for (const std::string& key : study.keys) {
@@ -157,8 +171,10 @@ void check_study(const CheckOptions& options) {
     ProblemRequest problem;
     const StudyDesign design = study.design(i);
     problem.system = design.system;
+    problem.geometry = design.geometry;
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
                         arcslip::describe(design.values), describe(problem));
+    if (problem.geometry) text += fmt::format("  {}\n", describe_units(problem));
     if (study.count == 1) break;
   }
   print(text);

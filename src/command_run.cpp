@@ -59,6 +59,8 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
   for (std::size_t i = 0; i < traced.size(); ++i) {
     const std::string values = describe(traced[i].request->values);
     if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
+    const ProblemRequest& problem = traced[i].request->problem;
+    if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
     text += special_table_header(traced[i]) + special_table(i, traced[i]);
     if (traced[i].branch.stop != continuation::Stop::reached_end)
       text += fmt::format("{}: {}\n", to_string(traced[i].branch.stop), traced[i].branch.explanation);

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <thread>
+#include <optional>
 
 #include "commands.hpp"
+#include "crew.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "study_results.hpp"
-#include "study_run.hpp"
 
 namespace arcslip {
 namespace {
@@ -39,6 +38,14 @@ std::string plural(std::size_t count, const char* what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// The tables beside optimum.csv.
+std::string list_of_files(const StudyCase& study) {
+  std::string files;
+  if (study.sweep) files += "sweep.csv, ";
+  if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  return files;
+}
+
 /// Names each design that failed, with the reason. Returns how many there are.
 std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   std::size_t failures = 0;
@@ -52,26 +59,36 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   return failures;
 }
 
-}  // namespace
+/// What a study that is done gives: files, the table, the designs that failed.
+int conclude(const StudyOptions& options, const StudyCase& study, const std::string& folder,
+             StudyStore& store, const StudyWork& work) {
+  write_results(folder, study, store, work);
+  store.tidy();
+  if (!options.quiet) {
+    const std::size_t before = study.count - work.computed;
+    print((study.title.empty() ? "" : study.title + "\n\n") + study_table(study, store) +
+          fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
+                      plural(study.count, "design"), work.seconds, work.rate(),
+                      before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
+                      list_of_files(study)));
+  }
+  return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
+}
 
-int study_command(const StudyOptions& options) {
+int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, Crew& crew) {
   const Clock::time_point start = Clock::now();
-  const StudyCase study = read_study(options.case_path, options.settings);
   const std::string folder = results_folder(options.folder, options.case_path);
   create_folder(folder);
-  catch_interrupts();
   StudyStore store(folder, study, options.resume);
   PendingDesigns pending(store.finished());
   const std::size_t before = study.count - pending.left();
-
   StudyWork work;
   {
     ProgressLine line(!options.quiet);
-    StudyWorkers workers(study, options.jobs > 0 ? options.jobs : std::thread::hardware_concurrency());
-    compute(
-        workers, pending,
+    crew.compute(
+        study, jobs, pending,
         [&](const FinishedDesign& design) {
-          store.add(design.curve, design.values, design.result);
+          store.add(design.curve, design.values, design.result, design.scatter());
           ++work.computed;
         },
         [&] {
@@ -81,22 +98,31 @@ int study_command(const StudyOptions& options) {
         });
   }
   work.seconds = seconds_since(start);
-  const std::size_t done = before + work.computed;
-  if (done < study.count) {
-    fmt::print(stderr, "arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}\n", done,
-               study.count, folder);
-    return status::incomplete_branch;
+  if (before + work.computed == study.count) return conclude(options, study, folder, store, work);
+  fmt::print(stderr, "arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}\n",
+             before + work.computed, study.count, folder);
+  return status::incomplete_branch;
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options) {
+  Crew crew;
+  catch_interrupts();
+  std::optional<StudyCase> study;
+  std::string error;
+  try {
+    study = read_study(options.case_path, options.settings);
+  } catch (const InputError& wrong) {
+    error = wrong.what();
   }
-  write_results(folder, study, store, work);
-  store.tidy();
-  if (!options.quiet) {
-    print((study.title.empty() ? "" : study.title + "\n\n") + study_table(study, store) +
-          fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
-                      plural(study.count, "design"), work.seconds, work.rate(),
-                      before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
-                      study.sweep ? "sweep.csv, " : ""));
-  }
-  return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
+  if (!crew.agree(error)) return status::wrong_input;
+  const std::size_t jobs = options.jobs > 0 ? options.jobs : crew.default_jobs();
+  if (!crew.leads()) return crew.assist(*study, jobs);
+  // What went wrong is said before the others leave: their end may end this process as well.
+  const int status = guarded([&] { return lead(options, *study, jobs, crew); });
+  crew.dismiss(status);
+  return status;
 }
 
 }  // namespace arcslip

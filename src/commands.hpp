@@ -1,8 +1,8 @@
 #pragma once
 
-// The commands of the program. Each returns its exit status; InputError and OutputError are left to the
-// caller.
+// The commands of the program. Each returns its exit status; what it throws is for `guarded`.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +47,9 @@ struct CheckOptions {
 
 /// Prints what `run` and `study` would do.
 int check_command(const CheckOptions& options);
+
+/// Runs a command; what it throws is printed on stderr and becomes the status.
+int guarded(const std::function<int()>& command);
 
 /// Where results go: `given`, or out/<name of the case file>.
 std::string results_folder(const std::string& given, const std::string& case_path);

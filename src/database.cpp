@@ -105,7 +105,8 @@ void Statement::write_csv(int column, std::string& row) const {
   row += '"';
 }
 
-Database::Database(const std::string& path) : path_(path), connection_(nullptr, &sqlite3_close) {
+// Statements may outlive the connection, which is then closed with the last of them.
+Database::Database(const std::string& path) : path_(path), connection_(nullptr, &sqlite3_close_v2) {
   sqlite3* connection = nullptr;
   const int code = sqlite3_open(path.c_str(), &connection);
   connection_.reset(connection);

@@ -6,26 +6,57 @@
 #include <algorithm>
 #include <cmath>
 
+#include "system_section.hpp"
+
 namespace arcslip {
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr std::size_t most_sets = 1'000'000'000;
+constexpr std::size_t most_samples = 10'000;  // of all sets, a fraction of a second
 
-/// The keys of a table in the order of the file, which the table does not keep.
-std::vector<std::string> keys_of(const toml::table& table) {
-  std::vector<const toml::key*> keys;
-  for (const auto& [key, node] : table) keys.push_back(&key);
-  std::stable_sort(keys.begin(), keys.end(), [](const toml::key* a, const toml::key* b) {
-    return a->source().begin < b->source().begin;
-  });
-  std::vector<std::string> names;
-  for (const toml::key* key : keys) names.emplace_back(key->str());
-  return names;
+/// A key, dotted if it stands in a table of its own, with its value.
+struct Entry {
+  std::string key;
+  const toml::key* last;  ///< part of it
+  const toml::node* node;
+};
+
+void collect(const toml::table& table, const std::string& prefix, const std::vector<std::string>& allowed,
+             std::vector<Entry>& entries) {
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix + std::string(key.str());
+    const bool is_group = std::any_of(allowed.begin(), allowed.end(),
+                                      [&](const std::string& one) { return one.starts_with(name + "."); });
+    if (is_group && node.is_table()) {
+      collect(*node.as_table(), name + ".", allowed, entries);
+    } else {
+      entries.push_back({name, &key, &node});
+    }
+  }
 }
 
-std::string path_of(const std::string& key) { return key == "eta" ? "branch.eta" : "system." + key; }
+/// The entries of a table in the order of the file, which the table does not keep. Refuses other keys.
+std::vector<Entry> entries_of(const TomlDocument& document, const toml::table& table, const std::string& path,
+                              const std::vector<std::string>& allowed) {
+  std::vector<Entry> entries;
+  collect(table, "", allowed, entries);
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.last->source().begin < b.last->source().begin;
+  });
+  for (const Entry& entry : entries) {
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
+      document.fail(entry.node, path + "." + entry.key, unknown_key(entry.key, allowed));
+  }
+  return entries;
+}
+
+std::string keys_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> keys;
+  for (const Entry& entry : entries) keys.push_back(entry.key);
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
 
 }  // namespace
 
@@ -53,25 +84,26 @@ void ForEach::read_tables(const TomlSection& section, const toml::array& tables,
                           const std::vector<std::string>& allowed) {
   const char* expected = "a table of lists, or an array of tables that all have the same keys";
   if (tables.empty()) section.mismatch("for_each", expected);
+  std::vector<Entry> first;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const std::string here = fmt::format("{}[{}]", path_, i);
     const toml::table* table = tables.get(i)->as_table();
     if (table == nullptr || table->empty())
       document_->mismatch(*tables.get(i), here, "a table with at least one key");
-    TomlSection(*document_, *table, here).allow_only(allowed);
+    const std::vector<Entry> entries = entries_of(*document_, *table, here, allowed);
     if (i == 0) {
-      for (const std::string& key : keys_of(*table)) axes_.push_back({.key = key, .place = &tables});
+      first = entries;
+      for (const Entry& entry : entries) axes_.push_back({.key = entry.key, .place = &tables});
     }
     for (Axis& axis : axes_) {
-      const toml::node* node = table->get(axis.key);
-      if (node == nullptr || table->size() != axes_.size()) {
-        std::vector<std::string> keys;
-        for (const Axis& one : axes_) keys.push_back(one.key);
+      const auto found = std::find_if(entries.begin(), entries.end(),
+                                      [&](const Entry& entry) { return entry.key == axis.key; });
+      if (found == entries.end() || entries.size() != axes_.size()) {
         document_->fail(table, here,
-                        fmt::format("expected the keys of the first table, {}; got {}", fmt::join(keys, ", "),
-                                    fmt::join(keys_of(*table), ", ")));
+                        fmt::format("expected the keys of the first table, {}; got {}", keys_of(first),
+                                    keys_of(entries)));
       }
-      axis.listed.push_back(node);
+      axis.listed.push_back(found->node);
       axis.count = axis.listed.size();
     }
   }
@@ -80,33 +112,35 @@ void ForEach::read_tables(const TomlSection& section, const toml::array& tables,
 
 void ForEach::read_lists(const TomlSection& section, const std::vector<std::string>& allowed, Lists lists) {
   const TomlSection table(*document_, path_);
-  table.allow_only(allowed);
-  if (table.table()->empty()) section.mismatch("for_each", "a table with at least one key");
+  const std::vector<Entry> entries = entries_of(*document_, *table.table(), path_, allowed);
+  if (entries.empty()) section.mismatch("for_each", "a table with at least one key");
   combined_ = lists == Lists::combined;
-  for (const std::string& key : keys_of(*table.table())) {
-    axes_.push_back(read_axis(table, key, *table.table()->get(key)));
+  for (const auto& [key, last, node] : entries) {
+    axes_.push_back(read_axis(key, *node));
     const std::size_t count = axes_.back().count;
     if (!combined_ && axes_.size() > 1 && count != count_) {
-      table.fail(key,
-                 fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}",
-                             count_, axes_.front().key, count));
+      document_->fail(
+          node, table.name(key),
+          fmt::format("expected {} values, as many as {} has (the lists are walked together), got {}", count_,
+                      axes_.front().key, count));
     }
     if (combined_ && count > most_sets / count_)
-      table.fail(key, fmt::format("with its {} values there are more than {:g} designs", count, 1e9));
+      document_->fail(node, table.name(key),
+                      fmt::format("with its {} values there are more than {:g} designs", count, 1e9));
     count_ = combined_ ? count_ * count : count;
   }
 }
 
-ForEach::Axis ForEach::read_axis(const TomlSection& section, const std::string& key,
-                                 const toml::node& node) const {
+ForEach::Axis ForEach::read_axis(const std::string& key, const toml::node& node) const {
+  const std::string name = path_ + "." + key;
   Axis axis{.key = key, .place = &node};
-  if (node.is_table()) {
-    axis.range = read_range(TomlSection(*document_, section.name(key)), axis.count);
+  if (const toml::table* range = node.as_table()) {
+    axis.range = read_range(TomlSection(*document_, *range, name), axis.count);
     return axis;
   }
   const toml::array* list = node.as_array();
   if (list == nullptr || list->empty())
-    section.mismatch(key, "an array with at least one value, or a range { from, to, count }");
+    document_->mismatch(node, name, "an array with at least one value, or a range { from, to, count }");
   axis.listed.reserve(list->size());
   for (const toml::node& value : *list) axis.listed.push_back(&value);
   axis.count = list->size();
@@ -165,14 +199,15 @@ ForEachSet ForEach::at(std::size_t index) const {
     if (axis.range) set.made.push_back(axis.make(position[k]));
     const toml::node* node = axis.range ? set.made.back().get() : axis.listed[position[k]];
     set.values[axis.key] = arcslip::to_json(*node);
-    set.replacements[path_of(axis.key)] = {node, name(axis, position[k]), axis.range ? axis.place : node};
+    const std::string path = axis.key == "eta" ? "branch.eta" : path_of(axis.key);
+    set.replacements[path] = {node, name(axis, position[k]), axis.range ? axis.place : node};
   }
   return set;
 }
 
 std::vector<std::size_t> ForEach::samples() const {
   std::vector<std::size_t> indices;
-  if (!combined_) {
+  if (!combined_ || count_ <= most_samples) {
     for (std::size_t i = 0; i < count_; ++i) indices.push_back(i);
     return indices;
   }

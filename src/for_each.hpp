@@ -1,7 +1,8 @@
 #pragma once
 
 // `for_each` of a case file: what differs from one branch, or one design, to the next. Lists by key are
-// walked together or combined with one another; an array of tables gives the sets one by one.
+// walked together or combined with one another; an array of tables gives the sets one by one. A key in a
+// table of its own goes by its dotted name, damper.width.
 
 #include <memory>
 #include <optional>
@@ -13,7 +14,7 @@ namespace arcslip {
 /// One set of values.
 struct ForEachSet {
   nlohmann::ordered_json values;                        ///< by key, in the order of the file
-  Replacements replacements;                            ///< of keys of [system], and of branch.eta
+  Replacements replacements;                            ///< of [system] and [geometry], and of branch.eta
   std::vector<std::unique_ptr<const toml::node>> made;  ///< values of ranges, which the replacements point to
 };
 
@@ -30,9 +31,9 @@ class ForEach {
   std::size_t count() const { return count_; }  ///< of sets; one, which is empty, without `for_each`
   ForEachSet at(std::size_t index) const;
 
-  /// Indices of sets among which each value of a key stands beside the largest one of each other key: of
-  /// lists that are combined as many as the lists are long, not as their product. Of ranges the first two
-  /// values and the last one do.
+  /// Indices of all sets or, of more than 10^4 that are combined, of sets among which each value of a key
+  /// stands beside the largest one of each other key: as many as the lists are long, not as their product. Of
+  /// ranges the first two values and the last one do.
   std::vector<std::size_t> samples() const;
 
   /// As it was written, keys in the order of the file.
@@ -61,7 +62,7 @@ class ForEach {
   void read_tables(const TomlSection& section, const toml::array& tables,
                    const std::vector<std::string>& allowed);
   void read_lists(const TomlSection& section, const std::vector<std::string>& allowed, Lists lists);
-  Axis read_axis(const TomlSection& section, const std::string& key, const toml::node& node) const;
+  Axis read_axis(const std::string& key, const toml::node& node) const;
   Range read_range(const TomlSection& section, std::size_t& count) const;
   std::string name(const Axis& axis, std::size_t index) const;
 

@@ -19,6 +19,7 @@ Examples
   arcslip plot out/figure_8                       its pictures, PNG and SVG
   arcslip check problems/figure_8.toml            what would run
   arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
+  arcslip run problems/rotor_ring.toml            a system given in SI units
   arcslip run problems/ridge.toml                 the peaks over the preload: a curve in two parameters
   arcslip study problems/chart.toml               the best preload of each of 400 designs
 
@@ -47,6 +48,13 @@ A case file; what follows "optional" need not be given:
   preload_growth = 0.0       # P_2 of the preload P + P_2 eta^2
   cubic_stiffness = 0.0      # of springs between base and ground
   fixed_damper = false       # true: friction against a rigid ring
+  [geometry]                 # in place of mass_ratio to preload, and of poisson_ratio: two rings in SI units
+  circumference = 0.8        # or radius, the mean one
+  friction_coefficient = 0.3
+  preload_per_length = 300   # p_0, N/m
+  force_per_length = 100     # f_0, N/m
+  base = { elastic_modulus = 110e9, density = 7200, width = 0.045, height = 0.024 }
+  damper = { elastic_modulus = 210e9, density = 7850, poisson_ratio = 0.29, width = 0.006, height = 0.004 }
   [branch]
   parameter = "eta"          # or "P", with eta = ... for the fixed frequency; or a library model's parameter
   from = 0.5
@@ -82,7 +90,7 @@ the highest peak is lowest, for each design. Writes DIR/study.sqlite (each desig
 DIR/optimum.csv (one row for each design), DIR/sweep.csv (one row for each peak and preload) and DIR/summary.json. A
 study that was interrupted or killed goes on with --resume; without it a study in DIR is begun anew.
 
-A case file has [system], as for arcslip run but for preload, which is not needed, and:
+A case file has [system] and [geometry], as for arcslip run but for the preload, which is not needed, and:
   [study]
   parameter = "P"
   from = 0.1                 # preloads
@@ -91,10 +99,17 @@ A case file has [system], as for arcslip run but for preload, which is not neede
   # optional
   for_each = { mass_ratio = [5.0, 10.0], frequency_ratio = [2.0, 4.0] }   # every value with every other
   sweep = true               # false: no sweep.csv, for charts of very many designs
+  [study.uncertain]          # optional: factors that scatter about the nominal values
+  mu = { lognormal = 0.2 }              # standard deviation of the logarithm
+  preload = { uniform = [0.8, 1.25] }   # or force; one of the three at least
+  samples = 4000             # optional, as what follows
+  seed = 1
+  quantiles = [0.05, 0.5, 0.95]         # of the highest peak, at every preload
 
 In place of a list a range, { from = 1.0, to = 100.0, count = 50, scale = "log" } ("linear" if not given); in place of
 the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }, ...]. Preloads of
-continuation.stop_at get a row for every peak.)";
+continuation.stop_at get a row for every peak. Where something scatters, DIR/quantiles.csv has the quantiles and
+DIR/robust.csv the preload at which the 95 % quantile is lowest.)";
 
 void add_settings(CLI::App* command, std::vector<std::string>& settings) {
   command->add_option("--set", settings, "Replace a value of the case file; may be repeated")
@@ -160,21 +175,25 @@ int dispatch(int argc, char** argv) {
 
 }  // namespace
 
+int arcslip::guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    std::cerr << error.what() << std::endl;
+    return status::wrong_input;
+  } catch (const OutputError& error) {
+    std::cerr << error.what() << std::endl;
+    return status::cannot_write;
+  } catch (const std::exception& error) {
+    std::cerr << "arcslip: " << error.what() << std::endl;
+    return status::wrong_input;
+  }
+}
+
 int main(int argc, char** argv) {
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is reported as one that cannot be written
 #endif
   std::signal(SIGPIPE, SIG_IGN);
-  try {
-    return dispatch(argc, argv);
-  } catch (const arcslip::InputError& error) {
-    std::cerr << error.what() << '\n';
-    return arcslip::status::wrong_input;
-  } catch (const arcslip::OutputError& error) {
-    std::cerr << error.what() << '\n';
-    return arcslip::status::cannot_write;
-  } catch (const std::exception& error) {
-    std::cerr << "arcslip: " << error.what() << '\n';
-    return arcslip::status::wrong_input;
-  }
+  return arcslip::guarded([&] { return dispatch(argc, argv); });
 }

@@ -65,6 +65,11 @@ std::string symbol(const std::string& name, bool is_friction) {
       {"slenderness", italic("L") + "/" + italic("h") + "_D"},
       {"poisson_ratio", italic("ν")},
       {"interface_stiffness", italic("K") + "_{FD}"},
+      {"circumference", italic("L")},
+      {"radius", italic("r")},
+      {"friction_coefficient", italic("μ")},
+      {"preload_per_length", italic("p") + "_0"},
+      {"force_per_length", italic("f") + "_0"},
       {"R_over_S", italic("R") + "/" + italic("S")}};
   const auto found = symbols.find(name);
   return !is_friction || found == symbols.end() ? library_symbol(name) : found->second;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace arcslip {
 namespace {
@@ -75,8 +76,62 @@ class Columns {
   std::vector<double> values_;
 };
 
+/// The columns in SI units that a system given in them has besides; none of any other.
+class PhysicalColumns {
+ public:
+  explicit PhysicalColumns(const TracedBranch& traced) {
+    const ProblemRequest& problem = traced.request->problem;
+    if (!problem.geometry) return;
+    scale_.emplace(*problem.geometry, problem.system);
+    const Columns columns(traced);
+    for (const char* name : {"eta", "P", "R", "S", "Y", "U", "dissipated"})
+      sources_.push_back(static_cast<std::size_t>(columns.find(name)));
+    names_ = {"frequency_Hz", "preload_N_per_m", "R_m", "S_m", "Y_m", "U_m", "dissipated_J"};
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// In the order of the names, from the values of Columns.
+  std::vector<double> values(const std::vector<double>& row) const {
+    if (!scale_) return {};
+    const auto at = [&](std::size_t i) { return row[sources_[i]]; };
+    return {scale_->frequency(at(0)),        scale_->preload_per_length(at(1)), scale_->displacement(at(2)),
+            scale_->displacement(at(3)),     scale_->displacement(at(4)),       scale_->displacement(at(5)),
+            scale_->dissipated(at(6), at(3))};
+  }
+
+  /// Those that the table shows of a special point.
+  std::vector<std::size_t> shown() const {
+    return scale_ ? std::vector<std::size_t>{0, 4} : std::vector<std::size_t>{};
+  }
+
+ private:
+  std::optional<PhysicalScale> scale_;
+  std::vector<std::size_t> sources_;
+  std::vector<std::string> names_;
+};
+
+/// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
+void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
+  if (!problem.geometry) return;
+  const SystemParameters& system = problem.system;
+  const PhysicalScale scale(*problem.geometry, system);
+  ordered_json groups = {{"mass_ratio", system.mass_ratio},
+                         {"frequency_ratio", system.frequency_ratio},
+                         {"interface_stiffness", system.interface_stiffness},
+                         {"force", system.force}};
+  if (problem.geometry->preload_per_length > 0) groups["preload"] = system.preload;
+  summary["groups"] = groups;
+  summary["units"] = {{"frequency_Hz", scale.frequency(1)},
+                      {"displacement_m", scale.displacement(1)},
+                      {"preload_N_per_m", scale.preload_per_length(1)},
+                      {"force_N_per_m", scale.force_per_length(1)},
+                      {"energy_J", scale.energy(1)}};
+}
+
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
+  const PhysicalColumns physical(traced);
   ordered_json listed = ordered_json::array();
   for (const BranchPoint& point : traced.branch.points) {
     if (point.type == PointType::regular) continue;
@@ -84,6 +139,8 @@ ordered_json special_points(const TracedBranch& traced) {
     ordered_json special = {{"type", to_string(point.type)}};
     for (const Index k : columns.shown())
       special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
+    const std::vector<double> in_units = physical.values(values);
+    for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
     listed.push_back(std::move(special));
   }
   return listed;
@@ -108,6 +165,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"points", traced.branch.points.size()},
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
+  add_geometry(traced.request->problem, summary);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
@@ -133,19 +191,26 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
   fmt::format_to(out, "branch,point,type,regime");
   const Columns header(first);
   for (const std::string& name : header.names()) fmt::format_to(out, ",{}", name);
-  fmt::format_to(out, "{},arclength,iterations,residual\n", equilibrium ? ",unstable" : "");
+  fmt::format_to(out, "{},arclength,iterations,residual", equilibrium ? ",unstable" : "");
+  const PhysicalColumns physical_header(first);
+  for (const std::string& name : physical_header.names()) fmt::format_to(out, ",{}", name);
+  fmt::format_to(out, "\n");
   flush();
   for (std::size_t number = 0; number < traced.size(); ++number) {
     const TracedBranch& one = traced[number];
     Columns columns(one);
+    const PhysicalColumns physical(one);
     const std::vector<std::string> regimes = one.base->regime_names();
     for (std::size_t i = 0; i < one.branch.points.size(); ++i) {
       const BranchPoint& point = one.branch.points[i];
       fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
                      regimes[static_cast<std::size_t>(point.regime)]);
-      for (const double value : columns.values(point)) fmt::format_to(out, ",{:.17g}", value);
+      const std::vector<double>& values = columns.values(point);
+      for (const double value : values) fmt::format_to(out, ",{:.17g}", value);
       if (equilibrium) fmt::format_to(out, ",{}", point.unstable);
-      fmt::format_to(out, ",{:.17g},{},{:.17g}\n", point.arclength, point.iterations, point.residual);
+      fmt::format_to(out, ",{:.17g},{},{:.17g}", point.arclength, point.iterations, point.residual);
+      for (const double value : physical.values(values)) fmt::format_to(out, ",{:.17g}", value);
+      fmt::format_to(out, "\n");
       flush();
     }
   }
@@ -162,6 +227,27 @@ ordered_json summarize(const Case& input, const std::vector<TracedBranch>& trace
           {"seconds", seconds}};
 }
 
+std::string describe_groups(const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  std::string text = fmt::format("M* = {:.6g}, gamma = {:.6g}, K_FD = {:.6g}, F = {:.6g}", system.mass_ratio,
+                                 system.frequency_ratio, system.interface_stiffness, system.force);
+  if (problem.geometry && problem.geometry->preload_per_length > 0)
+    text += fmt::format(", P = {:.6g}", system.preload);
+  return text;
+}
+
+std::string describe_units(const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  const PhysicalScale scale(problem.geometry.value(), system);
+  const auto n = static_cast<double>(system.wave_number);
+  const double damper = system.model == StructureModel::rods ? n : n * n;
+  return fmt::format(
+      "eta = 1: {:.6g} Hz, P = 1: {:.6g} N/m, Y = 1: {:.6g} m; resonances alone: base {:.6g} Hz, damper "
+      "{:.6g} Hz",
+      scale.frequency(1), scale.preload_per_length(1), scale.displacement(1),
+      scale.frequency(damper * system.frequency_ratio), scale.frequency(damper));
+}
+
 std::string special_table_header(const TracedBranch& traced) {
   const Columns columns(traced);
   std::string header = fmt::format("{:>6} {:>6}  {:<12}", "branch", "point", "type");
@@ -169,11 +255,14 @@ std::string special_table_header(const TracedBranch& traced) {
     const std::string& name = columns.names()[static_cast<std::size_t>(i)];
     header += fmt::format(" {:>15}", name == "R_over_S" ? "R/S" : name);
   }
+  const PhysicalColumns physical(traced);
+  for (const std::size_t i : physical.shown()) header += fmt::format(" {:>15}", physical.names()[i]);
   return header + "\n";
 }
 
 std::string special_table(std::size_t number, const TracedBranch& traced) {
   Columns columns(traced);
+  const PhysicalColumns physical(traced);
   const std::vector<Index> shown = columns.shown();
   std::string rows;
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
@@ -182,6 +271,8 @@ std::string special_table(std::size_t number, const TracedBranch& traced) {
     const std::vector<double>& values = columns.values(point);
     rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, to_string(point.type));
     for (const Index k : shown) rows += fmt::format(" {:>15.9g}", values[static_cast<std::size_t>(k)]);
+    const std::vector<double> in_units = physical.values(values);
+    for (const std::size_t k : physical.shown()) rows += fmt::format(" {:>15.9g}", in_units[k]);
     rows += "\n";
   }
   return rows;

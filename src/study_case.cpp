@@ -6,7 +6,9 @@
 
 #include "continuation_section.hpp"
 #include "for_each.hpp"
+#include "geometry_section.hpp"
 #include "system_section.hpp"
+#include "uncertain_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -22,7 +24,11 @@ struct Source {
     auto [values, replacements, made] = for_each->at(index);
     ProblemRequest problem;
     read_system(document, replacements, {nullptr, "P", true}, problem);
-    return {std::move(values), problem.system};
+    if (problem.system.preload_growth != 0 && scatters(document))
+      TomlSection(document, "system", &replacements)
+          .fail("preload_growth",
+                "not beside [study.uncertain], whose response is proportional to the force");
+    return {std::move(values), problem.system, problem.geometry};
   }
 };
 
@@ -56,6 +62,7 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
   resolve_system(first, resolved["system"]);
   resolved["study"]["sweep"] = study.sweep;
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
+  if (study.uncertain) resolve_uncertainty(*study.uncertain, resolved["study"]["uncertain"]);
   resolve_continuation(study.options, resolved["continuation"]);
   return resolved;
 }
@@ -69,7 +76,7 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
   root.allow_only(case_sections());
   const TomlSection section(document, "study");
   if (section.table() == nullptr) document.fail(nullptr, "study", "missing; expected a section [study]");
-  section.allow_only({"parameter", "from", "to", "eta", "for_each", "sweep"});
+  section.allow_only({"parameter", "from", "to", "eta", "for_each", "sweep", "uncertain"});
   if (TomlSection(document, "system").table() == nullptr)
     document.fail(nullptr, "system", "missing; expected a section [system]");
 
@@ -79,13 +86,19 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
   study.options = read_continuation(document);
   study.options.stop_at = study.range.stop_at;
   study.sweep = section.boolean("sweep", true);
-  std::vector<std::string> allowed = system_keys(nullptr);
+  if (scatters(document)) study.uncertain = read_uncertainty(document);
+  study.is_physical = has_geometry(document);
+  const std::vector<std::string> allowed = listed_keys(document, nullptr);
   source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);
-  if (source->for_each->sets("preload")) section.fail("for_each", "preload cannot be listed: P is swept");
+  for (const char* key : {"preload", "preload_per_length"}) {
+    if (source->for_each->sets(key))
+      section.fail("for_each", fmt::format("{} cannot be listed: P is swept", key));
+  }
   study.keys = source->for_each->keys();
   study.count = source->for_each->count();
   study.design = [source](std::size_t index) { return source->design(index); };
-  // Each key's rule is an interval that at most the largest value of another key narrows.
+  // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
+  // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
   study.resolved = resolve(*source, study);
   return study;

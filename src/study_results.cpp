@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <functional>
+#include <memory>
 
 #include "output.hpp"
 
@@ -39,34 +40,42 @@ std::string shown(const ordered_json& value) {
 
 void write_results(const std::string& folder, const StudyCase& study, const StudyStore& store,
                    const StudyWork& work) {
-  AtomicFile optimum(folder + "/optimum.csv");
-  std::optional<AtomicFile> sweep;
-  AtomicFile summary(folder + "/summary.json");
-  store.write_optimum([&](std::string_view text) { optimum.write(text); });
-  if (study.sweep) {
-    sweep.emplace(folder + "/sweep.csv");
-    store.write_sweep([&](std::string_view text) { sweep->write(text); });
-    sweep->sync();
-  }
-  summary.write(summarize(study, store, work).dump(2) + "\n");
-  optimum.sync();
-  summary.sync();
-  if (sweep) sweep->commit();
-  optimum.commit();
-  summary.commit();
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  const auto write = [&](const char* name, const std::function<void(const Sink&)>& table) {
+    files.push_back(std::make_unique<AtomicFile>(folder + "/" + name));
+    table([&](std::string_view text) { files.back()->write(text); });
+    files.back()->sync();
+  };
+  if (study.sweep) write("sweep.csv", [&](const Sink& sink) { store.write_sweep(sink); });
+  if (store.has_quantiles()) write("quantiles.csv", [&](const Sink& sink) { store.write_quantiles(sink); });
+  if (store.has_robust()) write("robust.csv", [&](const Sink& sink) { store.write_robust(sink); });
+  write("optimum.csv", [&](const Sink& sink) { store.write_optimum(sink); });
+  write("summary.json", [&](const Sink& sink) { sink(summarize(study, store, work).dump(2) + "\n"); });
+  for (const auto& file : files) file->commit();
 }
 
 std::string study_table(const StudyCase& study, const StudyStore& store) {
   std::string text = fmt::format("{:>6}", "curve");
   for (const std::string& key : study.keys) text += fmt::format(" {:>{}}", key, width(key));
-  text += fmt::format(" {:>13} {:>13} {:>13} {:>13}  kind\n", "P_opt", "eta_opt", "Y_opt", "ratio_opt");
+  text += fmt::format(" {:>13} {:>13} {:>13} {:>13}", "P_opt", "eta_opt", "Y_opt", "ratio_opt");
+  if (store.has_robust()) text += fmt::format(" {:>13} {:>13}", "P_q95", "ratio_q95");
+  if (study.is_physical) text += fmt::format(" {:>15} {:>13}", "preload_N_per_m", "Y_m");
+  text += "  kind\n";
   std::size_t rows = 0;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
-    const ordered_json values = study.design(design.curve).values;
+    const auto [values, system, geometry] = study.design(design.curve);
     text += fmt::format("{:>6}", design.curve);
     for (const auto& [key, value] : values.items()) text += fmt::format(" {:>{}}", shown(value), width(key));
-    text += fmt::format(" {:>13.8g} {:>13.8g} {:>13.8g} {:>13.6g}  {}\n", design.preload, design.eta,
-                        design.Y, design.ratio, design.kind);
+    text += fmt::format(" {:>13.8g} {:>13.8g} {:>13.8g} {:>13.6g}", design.preload, design.eta, design.Y,
+                        design.ratio);
+    if (store.has_robust())
+      text += fmt::format(" {:>13.6g} {:>13.6g}", design.robust_preload, design.robust_ratio);
+    if (geometry) {
+      const PhysicalScale scale(*geometry, system);
+      text += fmt::format(" {:>15.6g} {:>13.6g}", scale.preload_per_length(design.preload),
+                          scale.displacement(design.Y));
+    }
+    text += fmt::format("  {}\n", design.kind);
     return ++rows < most_rows;
   });
   if (study.count > most_rows) text += fmt::format("... and {} more\n", study.count - most_rows);

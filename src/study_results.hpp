@@ -17,7 +17,8 @@ struct StudyWork {
   double rate() const { return seconds > 0 ? static_cast<double>(computed) / seconds : 0; }
 };
 
-/// Writes optimum.csv, sweep.csv if it is asked for, and summary.json. Throws OutputError.
+/// Writes optimum.csv, sweep.csv, robust.csv and quantiles.csv as asked for, and summary.json. Throws
+/// OutputError.
 void write_results(const std::string& folder, const StudyCase& study, const StudyStore& store,
                    const StudyWork& work);
 

@@ -18,6 +18,9 @@ struct FinishedDesign {
   std::size_t curve = 0;
   nlohmann::ordered_json values;  ///< what for_each sets on it
   problems::PreloadStudy result;
+  std::optional<problems::UncertainPeaks> uncertain;  ///< where the study asks for it
+
+  const problems::UncertainPeaks* scatter() const { return uncertain ? &*uncertain : nullptr; }
 };
 
 /// Threads that take designs in the order in which they are given and hand their results back in the order

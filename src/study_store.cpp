@@ -48,21 +48,33 @@ constexpr std::array optimum_columns = {"P_opt",
 constexpr std::array peak_columns = {
     "curve",     "peak_branch", "point", "P",    "eta_peak", "Y_max", "R_over_S",      "dissipated",
     "is_global", "type",        "site",  "by_P", "by_mu",    "by_F",  "by_mass_ratio", "by_frequency_ratio"};
-constexpr const char* sweep_header =
-    "curve,peak_branch,P,eta_peak,Y_max,Y_nd_max,ratio,R_over_S,dissipated,is_global,type,site,by_P,by_mu,"
-    "by_F,by_mass_ratio,by_frequency_ratio\n";
-constexpr const char* sweep_query =
-    "SELECT s.curve, s.peak_branch, s.P, s.eta_peak, s.Y_max, d.Y_nd_max, s.Y_max/d.Y_nd_max, s.R_over_S, "
-    "s.dissipated, s.is_global, s.type, s.site, s.by_P, s.by_mu, s.by_F, s.by_mass_ratio, "
-    "s.by_frequency_ratio FROM sweep s CROSS JOIN designs d ON d.curve = s.curve "
-    "ORDER BY s.curve, s.peak_branch, s.point";
+/// The columns of sweep.csv.
+const std::vector<ExtraColumn> sweep_columns = {{"curve", "s.curve"},
+                                                {"peak_branch", "s.peak_branch"},
+                                                {"P", "s.P"},
+                                                {"eta_peak", "s.eta_peak"},
+                                                {"Y_max", "s.Y_max"},
+                                                {"Y_nd_max", "d.Y_nd_max"},
+                                                {"ratio", "s.Y_max/d.Y_nd_max"},
+                                                {"R_over_S", "s.R_over_S"},
+                                                {"dissipated", "s.dissipated"},
+                                                {"is_global", "s.is_global"},
+                                                {"type", "s.type"},
+                                                {"site", "s.site"},
+                                                {"by_P", "s.by_P"},
+                                                {"by_mu", "s.by_mu"},
+                                                {"by_F", "s.by_F"},
+                                                {"by_mass_ratio", "s.by_mass_ratio"},
+                                                {"by_frequency_ratio", "s.by_frequency_ratio"}};
 
-/// The columns of optimum.csv.
-std::vector<std::string> columns_of(const std::vector<std::string>& keys) {
-  std::vector<std::string> names = {"curve"};
-  names.insert(names.end(), keys.begin(), keys.end());
-  names.insert(names.end(), optimum_columns.begin(), optimum_columns.end());
-  return names;
+/// A name in SQL, where a key of for_each may have a dot.
+std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
+
+/// The column of a design that has its number, and those of for_each.
+std::vector<ExtraColumn> key_columns(const std::vector<std::string>& keys) {
+  std::vector<ExtraColumn> columns = {{"curve", "d.curve"}};
+  for (const std::string& key : keys) columns.push_back({key, "d." + quoted(key)});
+  return columns;
 }
 
 std::string placeholders(std::size_t count) {
@@ -72,16 +84,17 @@ std::string placeholders(std::size_t count) {
 /// The tables of a study with its input, in a new file.
 void create(const std::string& path, const StudyCase& study) {
   Database database(path);
-  std::vector<std::string> columns = columns_of(study.keys);
-  columns.erase(columns.begin());
+  std::string columns;
+  for (const std::string& key : study.keys) columns += quoted(key) + ", ";
+  columns += fmt::format("{}", fmt::join(optimum_columns, ", "));
   // Columns without a type keep what they are given to the last bit.
   database.execute(
       fmt::format("BEGIN;"
                   "CREATE TABLE study (version TEXT, input TEXT, designs INTEGER);"
                   "CREATE TABLE runs (run INTEGER PRIMARY KEY, begun TEXT DEFAULT CURRENT_TIMESTAMP);"
                   "CREATE TABLE designs (curve INTEGER PRIMARY KEY, {}, failure TEXT, free_eta, run INTEGER);"
-                  "CREATE TABLE sweep ({}, PRIMARY KEY (curve, peak_branch, point)) WITHOUT ROWID;",
-                  fmt::join(columns, ", "), fmt::join(peak_columns, ", ")));
+                  "CREATE TABLE sweep ({}, PRIMARY KEY (curve, peak_branch, point)) WITHOUT ROWID;{}",
+                  columns, fmt::join(peak_columns, ", "), StudyExtras(study).tables()));
   database.prepare("INSERT INTO study VALUES (?, ?, ?)")
       .bind(ARCSLIP_VERSION)
       .bind(study.resolved.dump())
@@ -105,8 +118,11 @@ void remove_leftovers(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    for (const char* start : {"study.sqlite.", "optimum.csv.", "sweep.csv.", "summary.json."}) {
-      if (name.starts_with(start) && name.ends_with(".tmp")) remove(entry.path().string());
+    for (const char* start :
+         {"study.sqlite.", "optimum.csv.", "sweep.csv.", "robust.csv.", "quantiles.csv.", "summary.json."}) {
+      // A database leaves its journal beside it.
+      if (name.starts_with(start) && (name.ends_with(".tmp") || name.ends_with(".tmp-journal")))
+        remove(entry.path().string());
     }
   }
 }
@@ -152,8 +168,17 @@ void bind_failed(Statement& row, double free_Y) {
   bind_nothing(row, static_cast<int>(optimum_columns.size()) - 8);
 }
 
-/// All rows of a query as CSV.
-void write_rows(Statement query, const Sink& sink) {
+/// All rows of a query as CSV, below the names of its columns.
+void write_table(const Database& database, const std::vector<ExtraColumn>& columns, const std::string& tables,
+                 const Sink& sink) {
+  std::vector<std::string> names;
+  std::vector<std::string> values;
+  for (const ExtraColumn& column : columns) {
+    names.push_back(column.name);
+    values.push_back(column.value);
+  }
+  sink(fmt::format("{}\n", fmt::join(names, ",")));
+  Statement query = database.prepare(fmt::format("SELECT {} FROM {}", fmt::join(values, ", "), tables));
   std::string row;
   while (query.step()) {
     row.clear();
@@ -169,7 +194,11 @@ void write_rows(Statement query, const Sink& sink) {
 }  // namespace
 
 StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool resume)
-    : folder_(folder), path_(folder + "/study.sqlite"), keys_(study.keys), sweep_(study.sweep) {
+    : folder_(folder),
+      path_(folder + "/study.sqlite"),
+      keys_(study.keys),
+      sweep_(study.sweep),
+      extras_(study) {
   if (resume && std::filesystem::exists(path_)) {
     check_same(study);
   } else {
@@ -199,7 +228,8 @@ void StudyStore::begin(const StudyCase& study) {
     throw OutputError(fmt::format("{}: cannot be written: {}", path_, error.message()));
   }
   // What the former study gave is no longer what the folder holds.
-  for (const char* name : {"optimum.csv", "sweep.csv", "summary.json"}) remove(folder_ + "/" + name);
+  for (const char* name : {"optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv", "summary.json"})
+    remove(folder_ + "/" + name);
 }
 
 void StudyStore::check_same(const StudyCase& study) const {
@@ -237,7 +267,8 @@ void StudyStore::open() {
   remove_leftovers(folder_);
   database_.emplace(path_);
   database_->execute(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs DEFAULT VALUES");
+      "PRAGMA busy_timeout = 1000; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs "
+      "DEFAULT VALUES");
   Statement last = database_->prepare("SELECT max(run) FROM runs");
   last.step();
   run_ = last.integer(0);
@@ -245,6 +276,7 @@ void StudyStore::open() {
   insert_design_ = database_->prepare(fmt::format("INSERT INTO designs VALUES ({})", placeholders(columns)));
   insert_peak_ =
       database_->prepare(fmt::format("INSERT INTO sweep VALUES ({})", placeholders(peak_columns.size())));
+  extras_.open(*database_);
 }
 
 std::vector<bool> StudyStore::finished() const {
@@ -256,7 +288,8 @@ std::vector<bool> StudyStore::finished() const {
   return finished;
 }
 
-void StudyStore::add(std::size_t curve, const ordered_json& values, const problems::PreloadStudy& result) {
+void StudyStore::add(std::size_t curve, const ordered_json& values, const problems::PreloadStudy& result,
+                     const problems::UncertainPeaks* uncertain) {
   database_->execute("BEGIN IMMEDIATE");
   Statement& row = *insert_design_;
   row.bind(static_cast<std::int64_t>(curve));
@@ -267,9 +300,12 @@ void StudyStore::add(std::size_t curve, const ordered_json& values, const proble
   } else {
     bind(row, *result.optimum, result.free_Y);
   }
-  row.bind(failed && result.failure.empty() ? "there is no peak in the window" : result.failure);
-  row.bind(result.free_eta).bind(run_).run();
+  std::string failure = result.failure;
+  if (failed && failure.empty()) failure = "there is no peak in the window";
+  if (!failed && uncertain != nullptr) failure = uncertain->failure;
+  row.bind(failure).bind(result.free_eta).bind(run_).run();
   if (sweep_) add_sweep(curve, result);
+  extras_.add(curve, failed ? nullptr : uncertain);
   database_->execute("COMMIT");
 }
 
@@ -289,30 +325,55 @@ void StudyStore::add_sweep(std::size_t curve, const problems::PreloadStudy& resu
 }
 
 void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const {
+  const bool robust = extras_.has_robust();
   Statement row = database_->prepare(fmt::format(
-      "SELECT curve, kind, failure, P_opt, eta_opt, Y_opt, ratio_opt FROM designs {} ORDER BY curve",
-      which == Which::failed ? "WHERE kind = 'failed'" : ""));
+      "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, {} FROM designs d {} {} "
+      "ORDER BY "
+      "d.curve",
+      robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
+      which == Which::failed ? "WHERE d.failure <> ''" : ""));
   while (row.step()) {
     if (!visitor({static_cast<std::size_t>(row.integer(0)), row.text(1), row.text(2), row.real(3),
-                  row.real(4), row.real(5), row.real(6)}))
+                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8)}))
       return;
   }
 }
 
 void StudyStore::write_optimum(const Sink& sink) const {
-  const std::string columns = fmt::format("{}", fmt::join(columns_of(keys_), ","));
-  sink(columns + "\n");
-  write_rows(database_->prepare(fmt::format("SELECT {} FROM designs ORDER BY curve", columns)), sink);
+  std::vector<ExtraColumn> columns = key_columns(keys_);
+  for (const char* name : optimum_columns) columns.push_back({name, fmt::format("d.{}", name)});
+  for (const ExtraColumn& column : extras_.optimum_columns()) columns.push_back(column);
+  write_table(*database_, columns, "designs d" + extras_.join_units() + " ORDER BY d.curve", sink);
 }
 
 void StudyStore::write_sweep(const Sink& sink) const {
-  sink(sweep_header);
-  write_rows(database_->prepare(sweep_query), sink);
+  std::vector<ExtraColumn> columns = sweep_columns;
+  for (const ExtraColumn& column : extras_.sweep_columns()) columns.push_back(column);
+  write_table(*database_, columns,
+              "sweep s CROSS JOIN designs d ON d.curve = s.curve" + extras_.join_units() +
+                  " ORDER BY s.curve, s.peak_branch, s.point",
+              sink);
+}
+
+void StudyStore::write_robust(const Sink& sink) const {
+  std::vector<ExtraColumn> columns = key_columns(keys_);
+  for (const ExtraColumn& column : extras_.robust_columns()) columns.push_back(column);
+  write_table(
+      *database_, columns,
+      "designs d LEFT JOIN robust r ON r.curve = d.curve" + extras_.join_units() + " ORDER BY d.curve", sink);
+}
+
+void StudyStore::write_quantiles(const Sink& sink) const {
+  write_table(*database_, extras_.quantile_columns(),
+              "quantiles q CROSS JOIN designs d ON d.curve = q.curve" + extras_.join_units() +
+                  " ORDER BY q.curve, q.point",
+              sink);
 }
 
 void StudyStore::tidy() {
   insert_design_.reset();
   insert_peak_.reset();
+  extras_.close();
   try {
     database_->execute("PRAGMA journal_mode = DELETE");
   } catch (const DatabaseInUse&) {

@@ -2,8 +2,8 @@
 
 // The results of a study on the disk, DIR/study.sqlite: each finished design in a transaction of its own, so
 // that a study that was killed at any moment goes on where it was. Tables: `study` (the input), `runs` (when
-// it was worked on), `designs` (one row each: what for_each sets, the optimum, the free peak, why it failed)
-// and `sweep` (the peaks at each preload).
+// it was worked on), `designs` (one row each: what for_each sets, the optimum, the free peak, why it failed),
+// `sweep` (the peaks at each preload) and those of study_extras.hpp.
 
 #include <functional>
 #include <optional>
@@ -13,18 +13,21 @@
 #include "arcslip/results.hpp"
 #include "arcslip/study_case.hpp"
 #include "database.hpp"
+#include "study_extras.hpp"
 
 namespace arcslip {
 
 /// What a table on the screen shows of a design.
 struct StoredDesign {
   std::size_t curve = 0;
-  std::string kind;     ///< of the optimum, or "failed"
-  std::string failure;  ///< why, or empty
-  double preload = 0;   ///< P_opt
-  double eta = 0;       ///< eta_opt
-  double Y = 0;         ///< Y_opt
-  double ratio = 0;     ///< Y_opt/Y_nd_max
+  std::string kind;           ///< of the optimum, or "failed"
+  std::string failure;        ///< why, or empty
+  double preload = 0;         ///< P_opt
+  double eta = 0;             ///< eta_opt
+  double Y = 0;               ///< Y_opt
+  double ratio = 0;           ///< Y_opt/Y_nd_max
+  double robust_preload = 0;  ///< P_q95; nan of a study without scatter
+  double robust_ratio = 0;    ///< Y_q95/Y_nd_max
 };
 
 class StudyStore {
@@ -36,16 +39,22 @@ class StudyStore {
   /// Which designs are stored.
   std::vector<bool> finished() const;
 
-  /// Stores a design whole.
-  void add(std::size_t curve, const nlohmann::ordered_json& values, const problems::PreloadStudy& result);
+  /// Stores a design whole, `uncertain` if the study asks for it.
+  void add(std::size_t curve, const nlohmann::ordered_json& values, const problems::PreloadStudy& result,
+           const problems::UncertainPeaks* uncertain = nullptr);
+
+  bool has_robust() const { return extras_.has_robust(); }
+  bool has_quantiles() const { return extras_.has_quantiles(); }
 
   enum class Which { all, failed };
   /// In the order of the designs, until the visitor returns false.
   void visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const;
 
-  /// optimum.csv and sweep.csv, in the order of the designs and of their peaks.
+  /// optimum.csv, sweep.csv, robust.csv, quantiles.csv, in the order of the designs and of their peaks.
   void write_optimum(const Sink& sink) const;
   void write_sweep(const Sink& sink) const;
+  void write_robust(const Sink& sink) const;
+  void write_quantiles(const Sink& sink) const;
 
   /// Leaves the database as one file that is read without others beside it.
   void tidy();
@@ -60,6 +69,7 @@ class StudyStore {
   std::string path_;
   std::vector<std::string> keys_;
   bool sweep_;
+  StudyExtras extras_;
   std::int64_t run_ = 0;
   std::optional<Database> database_;
   std::optional<Statement> insert_design_;

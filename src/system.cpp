@@ -12,6 +12,11 @@ double shear_interface_stiffness(double slenderness, double poisson_ratio) {
   return 12 * std::pow(slenderness, 4) / (1 + poisson_ratio);
 }
 
+double shear_interface_stiffness(StructureModel model, double slenderness, double poisson_ratio) {
+  if (model == StructureModel::beams) return shear_interface_stiffness(slenderness, poisson_ratio);
+  return slenderness * slenderness / (1 + poisson_ratio);
+}
+
 double base_damping_factor(const SystemParameters& parameters) {
   return 2 * parameters.base_damping / parameters.frequency_ratio;
 }

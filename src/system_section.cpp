@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "geometry_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -21,9 +24,7 @@ NumberRule damping_rule() {
 }
 
 double read_interface_stiffness(const TomlSection& section, StructureModel model) {
-  const double poisson_ratio =
-      section.number("poisson_ratio", {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"},
-                     default_poisson_ratio);
+  const double poisson_ratio = section.number("poisson_ratio", poisson_rule(), default_poisson_ratio);
   if (model == StructureModel::rods) {
     if (section.has("slenderness"))
       section.fail("slenderness", "only for beams; rods take interface_stiffness");
@@ -60,8 +61,18 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
   }
 }
 
-void read_friction(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
-                   SystemParameters& system) {
+/// What [geometry] stands for where it is given.
+void read_groups(const TomlSection& section, const SystemUse& use, SystemParameters& system) {
+  system.mass_ratio = section.number("mass_ratio", positive());
+  system.frequency_ratio = section.number("frequency_ratio", positive());
+  system.interface_stiffness = read_interface_stiffness(section, system.model);
+  system.force = section.number("force", positive());
+  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
+}
+
+void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
+                   const SystemUse& use, ProblemRequest& problem) {
+  SystemParameters& system = problem.system;
   system.model =
       section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
   constexpr Index most = 1'000'000'000;
@@ -69,12 +80,12 @@ void read_friction(const TomlDocument& document, const TomlSection& section, con
   system.elements =
       section.integer("elements", 2 * system.wave_number + 1, most,
                       fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
-  system.mass_ratio = section.number("mass_ratio", positive());
-  system.frequency_ratio = section.number("frequency_ratio", positive());
-  system.interface_stiffness = read_interface_stiffness(section, system.model);
+  if (has_geometry(document)) {
+    read_geometry(document, replacements, section, use.parameter, problem);
+  } else {
+    read_groups(section, use, system);
+  }
   read_damping(document, section, use.linear_passive, system);
-  system.force = section.number("force", positive());
-  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
   system.preload_growth = section.number("preload_growth", any_number(), 0);
   const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
   system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
@@ -114,6 +125,25 @@ std::vector<std::string> system_keys(const problems::LibraryModel* model) {
   return keys;
 }
 
+std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model) {
+  std::vector<std::string> names = system_keys(model);
+  if (model != nullptr) std::erase(names, "model");
+  if (model == nullptr && has_geometry(document)) {
+    for (const std::string& key : geometry_keys()) names.push_back(key);
+  }
+  return names;
+}
+
+std::string path_of(const std::string& key) {
+  const std::vector<std::string> of_geometry = geometry_keys();
+  const bool is_physical = std::find(of_geometry.begin(), of_geometry.end(), key) != of_geometry.end();
+  return (is_physical ? "geometry." : "system.") + key;
+}
+
+NumberRule poisson_rule() {
+  return {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"};
+}
+
 NumberRule parameter_rule(const problems::LibraryModel* model, const std::string& parameter) {
   if (model == nullptr) return parameter == "zeta_B" ? damping_rule() : positive();
   for (const problems::Setting& setting : model->settings) {
@@ -133,9 +163,11 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   section.allow_only(system_keys(use.model));
   problem.model = use.model;
   if (use.model != nullptr) {
+    if (has_geometry(document))
+      document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
     read_settings(section, use, problem.settings);
   } else {
-    read_friction(document, section, use, problem.system);
+    read_friction(document, replacements, section, use, problem);
   }
 }
 

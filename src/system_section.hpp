@@ -1,6 +1,6 @@
 #pragma once
 
-// The section [system] of a case file.
+// The sections [system] and, by geometry_section.hpp, [geometry] of a case file.
 
 #include "toml_reader.hpp"
 
@@ -10,6 +10,11 @@ namespace arcslip {
 std::vector<std::string> system_keys(const problems::LibraryModel* model);
 std::vector<std::string> model_names();
 
+/// Keys that for_each may list, those of [geometry] by dotted names, and the path of the value that a key
+/// stands for.
+std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);
+std::string path_of(const std::string& key);
+
 /// What [system] is read for.
 struct SystemUse {
   const problems::LibraryModel* model;  ///< null for a system with friction
@@ -17,12 +22,16 @@ struct SystemUse {
   bool linear_passive = false;          ///< only damping > 0 and no cubic stiffness, as in studies
 };
 
-/// Reads the section into the problem's settings or system. Throws InputError.
+/// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws
+/// InputError.
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem);
 
 /// Adds the defaults that were taken to the section as JSON.
 void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& section);
+
+/// What Poisson's ratio may be.
+NumberRule poisson_rule();
 
 /// The numbers that a parameter of the problem may be.
 NumberRule parameter_rule(const problems::LibraryModel* model, const std::string& parameter);

@@ -238,11 +238,14 @@ void TomlSection::allow_only(const std::vector<std::string>& keys) const {
   if (table_ == nullptr) return;
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-    const std::string meant = nearest_name(key.str(), keys);
-    const std::string hint = meant.empty() ? fmt::format("expected one of {}", fmt::join(keys, ", "))
-                                           : fmt::format("did you mean '{}'?", meant);
-    document_.fail(&node, name(key.str()), "unknown key; " + hint);
+    document_.fail(&node, name(key.str()), unknown_key(key.str(), keys));
   }
+}
+
+std::string unknown_key(std::string_view key, const std::vector<std::string>& keys) {
+  const std::string meant = nearest_name(key, keys);
+  if (!meant.empty()) return fmt::format("unknown key; did you mean '{}'?", meant);
+  return fmt::format("unknown key; expected one of {}", fmt::join(keys, ", "));
 }
 
 nlohmann::ordered_json to_json(const toml::node& node) {

@@ -100,6 +100,9 @@ class TomlSection {
 /// The same value as JSON.
 nlohmann::ordered_json to_json(const toml::node& node);
 
+/// What is said of a key that is not among `keys`: which one it was most likely meant to be, or all of them.
+std::string unknown_key(std::string_view key, const std::vector<std::string>& keys);
+
 /// The name among `names` that `name` was most likely meant to be, or "".
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names);
 

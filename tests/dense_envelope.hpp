@@ -61,6 +61,11 @@ inline std::vector<LocalPeak> peaks_at(const Case& c, const Window& window, Real
     }
   }
   if (last.log_Y_slope > 0) edge(window.high, last, heights[heights.size() - 2]);
+  if (peaks.empty()) {  // where R touches S on the peak, rounding decides on which side it is
+    const Event top = *std::max_element(scan.events().begin(), scan.events().end(),
+                                        [](const Event& a, const Event& b) { return a.log_Y < b.log_Y; });
+    peaks.push_back({top.at, top.log_Y, 0, Site::corner, 0});
+  }
   return peaks;
 }
 
@@ -113,19 +118,22 @@ inline LocalPeak free_peak(const Case& c, const Window& window) {
   return best;
 }
 
-/// d ln Y/d ln x of a local peak in the window, where `change(case, ln P, h)` multiplies x by e^h: central differences of
-/// fourth order, of a scan of its surroundings.
+/// d ln Y/d ln x of a local peak in the window, where `change(case, ln P, h)` multiplies x by e^h: central
+/// differences of fourth order, of a scan of its surroundings.
 template <class Change>
-Real sensitivity(const Case& c, const Window& window, Real preload, const LocalPeak& peak, Change change, Real step = 1e-3L) {
+Real sensitivity(const Case& c, const Window& window, Real preload, const LocalPeak& peak, Change change,
+                 Real step = 1e-3L) {
   const auto log_Y = [&](Real h) {
     Case changed = c;
     Real log_preload = std::log(preload);
     change(changed, log_preload, h);
     const Window around{std::max(peak.eta * 0.9L, window.low), std::min(peak.eta * 1.1L, window.high)};
     const std::vector<LocalPeak> peaks = peaks_at(changed, around, std::exp(log_preload));
-    return std::min_element(peaks.begin(), peaks.end(), [&](const LocalPeak& a, const LocalPeak& b) {
-             return std::abs(a.eta - peak.eta) < std::abs(b.eta - peak.eta);
-           })->log_Y;
+    return std::min_element(peaks.begin(), peaks.end(),
+                            [&](const LocalPeak& a, const LocalPeak& b) {
+                              return std::abs(a.eta - peak.eta) < std::abs(b.eta - peak.eta);
+                            })
+        ->log_Y;
   };
   return (8 * (log_Y(step) - log_Y(-step)) - (log_Y(2 * step) - log_Y(-2 * step))) / (12 * step);
 }

@@ -109,9 +109,9 @@ inline std::vector<Real> positive_roots(const Polynomial& p) {
   return roots;
 }
 
-/// One ring under the travelling wave. With d = 1 + j beta eta, or 1 + j loss, and lambda = w*^2/d, the dynamic
-/// stiffness is d (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda. All
-/// their coefficients are free of cancellation, for the longest waves too.
+/// One ring under the travelling wave. With d = 1 + j beta eta, or 1 + j loss, and lambda = w*^2/d, the
+/// dynamic stiffness is d (K - lambda M), of which Cramer's rule leaves ratios of real polynomials in lambda.
+/// All their coefficients are free of cancellation, for the longest waves too.
 struct Ring {
   Polynomial determinant;  ///< of K - lambda M
   Polynomial by_contact;   ///< c = by_contact/determinant/d
@@ -206,7 +206,7 @@ struct Sample {
 
 /// What follows without solving where eta and R/S are given.
 struct Given {
-  Real preload;      ///< P, which may be negative if it grows with eta^2
+  Real preload;  ///< P, which may be negative if it grows with eta^2
   Real log_Y;
   Real log_Y_slope;  ///< in ln eta, at fixed P
   Real log_ratio_slope;
@@ -281,7 +281,7 @@ class Response {
     Real at;
     Real log_threshold;  ///< ln S
     Real log_threshold_slope;
-    Real log_free;       ///< ln|y_0|
+    Real log_free;  ///< ln|y_0|
     Real log_free_slope;
     Jet c;
     Jet c_damper;

@@ -4,8 +4,8 @@
 //
 //   P = (K_FD/K*) |y_0|/(R/S |1 + k phi(R/S) c|),   Y = |y_0| |1 + k phi c_D|/|1 + k phi c|,
 //
-// and so does G = d ln Y/d ln eta at fixed P. Ridges and valleys are the zeros of G in a rectangle, which is cut
-// into cells until each is either free of zeros or crossed by one curve, nearly straight.
+// and so does G = d ln Y/d ln eta at fixed P. Ridges and valleys are the zeros of G in a rectangle, which is
+// cut into cells until each is either free of zeros or crossed by one curve, nearly straight.
 
 #include <algorithm>
 #include <array>
@@ -50,7 +50,8 @@ class RidgeMap {
     for (std::size_t j = 1; j < rows.size(); ++j) {
       above.clear();
       for (const Real x : columns) above.push_back(at(x, rows[j]));
-      for (std::size_t i = 0; i + 1 < columns.size(); ++i) cut({below[i], below[i + 1], above[i], above[i + 1]}, 0);
+      for (std::size_t i = 0; i + 1 < columns.size(); ++i)
+        cut({below[i], below[i + 1], above[i], above[i + 1]}, 0);
       std::swap(below, above);
     }
   }
@@ -84,8 +85,7 @@ class RidgeMap {
     const Real by_u = u > 40 ? 1 : 1 / (1 + std::exp(-u));
     const Real least = log_low_ - 5;  // of P, which may even be negative
     const Real log_P = given.preload > 0 ? std::max(std::log(given.preload), least) : least;
-    return {x, u, given.log_Y_slope, log_P, given.log_Y, t,
-            given.log_ratio_slope / by_u};
+    return {x, u, given.log_Y_slope, log_P, given.log_Y, t, given.log_ratio_slope / by_u};
   }
 
   /// u beyond which P is below the range everywhere.
@@ -108,8 +108,8 @@ class RidgeMap {
     const auto mean = [&](int i, int j) { return (c[i].*f + c[j].*f) / 2; };
     const Real center = (mean(0, 1) + mean(2, 3)) / 2;
     return std::max({std::abs(m[0].*f - mean(0, 1)), std::abs(m[1].*f - mean(2, 3)),
-                     std::abs(m[2].*f - mean(0, 2)), std::abs(m[3].*f - mean(1, 3)), std::abs(m[4].*f - center),
-                     std::abs(mean(0, 3) - mean(1, 2)) / 2});
+                     std::abs(m[2].*f - mean(0, 2)), std::abs(m[3].*f - mean(1, 3)),
+                     std::abs(m[4].*f - center), std::abs(mean(0, 3) - mean(1, 2)) / 2});
   }
 
   static Real span(const Cell& c, Real Node::*f) {
@@ -124,7 +124,8 @@ class RidgeMap {
     const std::array<Node, 5> m{at(x, c[0].u), at(x, c[2].u), at(c[0].x, u), at(c[1].x, u), at(x, u)};
     int positive = 0;
     Real least = std::abs(m[0].G);
-    for (const auto* nodes = c.data(); const Node& node : {nodes[0], nodes[1], nodes[2], nodes[3], m[0], m[1], m[2], m[3], m[4]}) {
+    for (const auto* nodes = c.data();
+         const Node& node : {nodes[0], nodes[1], nodes[2], nodes[3], m[0], m[1], m[2], m[3], m[4]}) {
       positive += node.G > 0 ? 1 : 0;
       least = std::min(least, std::abs(node.G));
     }
@@ -178,7 +179,8 @@ class RidgeMap {
     const Real x = (a.x + b.x) / 2;
     const Real u = (a.u + b.u) / 2;
     const Real size = along_x ? c[1].x - c[0].x : c[2].u - c[0].u;
-    for (Real reach = std::abs(along_x ? b.x - a.x : b.u - a.u) / 8 + 1e-15L * size; reach < size / 2; reach *= 2) {
+    for (Real reach = std::abs(along_x ? b.x - a.x : b.u - a.u) / 8 + 1e-15L * size; reach < size / 2;
+         reach *= 2) {
       const Node left = along_x ? at(x - reach, u) : at(x, u - reach);
       const Node right = along_x ? at(x + reach, u) : at(x, u + reach);
       if ((left.G > 0) != (right.G > 0)) return zero(left, right);
@@ -186,8 +188,8 @@ class RidgeMap {
     return {};
   }
 
-  /// Of a cell where G is nearly linear: false if its edges do not show exactly one curve, or one whose bending
-  /// at fixed P may have zeros unseen.
+  /// Of a cell where G is nearly linear: false if its edges do not show exactly one curve, or one whose
+  /// bending at fixed P may have zeros unseen.
   bool add_piece(const Cell& c) {
     std::vector<Node> ends;
     for (const auto& [i, j] : {std::pair(0, 1), std::pair(2, 3), std::pair(0, 2), std::pair(1, 3)}) {
@@ -200,7 +202,8 @@ class RidgeMap {
     const Real bend_b = bending(ends[1], c);
     const Real bow = std::abs(bending(*middle, c) - (bend_a + bend_b) / 2);
     const bool folds = bend_a * bend_b < 0;
-    if (bow > (folds ? 0.1L * std::abs(bend_a - bend_b) : std::min(std::abs(bend_a), std::abs(bend_b)) / 2)) return false;
+    if (bow > (folds ? 0.1L * std::abs(bend_a - bend_b) : std::min(std::abs(bend_a), std::abs(bend_b)) / 2))
+      return false;
     if (folds && !add_fold(c, ends[0], ends[1], bend_a)) return false;
     pieces_.push_back({point(ends[0], bend_a), point(ends[1], bend_b)});
     return true;

@@ -62,11 +62,14 @@ class StudyJudge {
   using Peak = problems::Peak;
   using Real = dense::Real;
 
-  explicit StudyJudge(StudyRun run, const continuation::TraceOptions& options = {})
+  explicit StudyJudge(const StudyRun& run)
+      : StudyJudge(run, problems::study_preload(run.system, run.range)) {}
+
+  StudyJudge(StudyRun run, problems::PreloadStudy study)
       : run_(std::move(run)),
         case_(dense_case(run_.system)),
         window_{run_.range.eta_low, run_.range.eta_high},
-        study_(problems::study_preload(run_.system, run_.range, options)) {
+        study_(std::move(study)) {
     judge_order();
     judge_tiles();
     judge_exchanges();
@@ -81,8 +84,8 @@ class StudyJudge {
     const std::vector<dense::LocalPeak> peaks = dense::peaks_at(case_, window_, preload);
     std::vector<Peak> rows;
     for (const problems::PeakBranch& branch : study_.branches) {
-      const auto row = std::find_if(branch.begin(), branch.end(),
-                                    [&](const Peak& p) { return std::abs(p.preload / preload - 1) < 1e-14; });
+      const auto row =
+          std::find_if(branch.begin(), branch.end(), [&](const Peak& p) { return p.preload == preload; });
       if (row != branch.end()) rows.push_back(*row);
     }
     for (const dense::LocalPeak& peak : peaks) {
@@ -102,7 +105,8 @@ class StudyJudge {
   /// The highest peak at any preload of a row.
   void judge_global(const Peak& row) {
     const dense::LocalPeak top = dense::highest(dense::peaks_at(case_, window_, row.preload));
-    if (!(std::abs(std::log(row.Y) - top.log_Y) < tight)) {
+    // a row is as near to its ridge as the tolerance in P
+    if (!(std::abs(std::log(row.Y) - top.log_Y) < tight * std::max(1.0, std::abs(row.sensitivity.preload)))) {
       complain("called the highest: {}; but there is {}", describe(row), describe(top));
     }
   }
@@ -221,10 +225,12 @@ class StudyJudge {
     std::sort(tiles.begin(), tiles.end());
     double covered = run_.range.from;
     for (const auto& [low, high] : tiles) {
-      if (std::abs(low / covered - 1) > 1e-9) complain("highest from {:.15g}, known to {:.15g}", low, covered);
+      if (std::abs(low / covered - 1) > 1e-9)
+        complain("highest from {:.15g}, known to {:.15g}", low, covered);
       covered = high;
     }
-    if (std::abs(covered / run_.range.to - 1) > 1e-9) complain("the highest is known to {:.15g} only", covered);
+    if (std::abs(covered / run_.range.to - 1) > 1e-9)
+      complain("the highest is known to {:.15g} only", covered);
   }
 
   /// Two of equal height change places at one preload.
@@ -243,8 +249,10 @@ class StudyJudge {
 
   void judge_free_base() {
     const dense::LocalPeak free = dense::free_peak(case_, window_);
-    if (!(std::abs(std::log(study_.free_Y) - free.log_Y) < tight && std::abs(study_.free_eta / free.eta - 1) < 1e-8L))
-      complain("free base: eta = {:.15g}, Y = {:.15g}, but {}", study_.free_eta, study_.free_Y, describe(free));
+    if (!(std::abs(std::log(study_.free_Y) - free.log_Y) < tight &&
+          std::abs(study_.free_eta / free.eta - 1) < 1e-8L))
+      complain("free base: eta = {:.15g}, Y = {:.15g}, but {}", study_.free_eta, study_.free_Y,
+               describe(free));
   }
 
   static Real interpolated(const Peak& a, const Peak& b, Real preload);
@@ -273,7 +281,8 @@ inline std::vector<double> StudyJudge::overtakings(const dense::RidgeMap& map) c
         return P >= rows.first.preload && P <= rows.second.preload;
       });
       if (!point.is_peak || span == spans.end()) continue;
-      if (point.log_Y > interpolated(span->first, span->second, P) + 1e-5L) found.push_back(static_cast<double>(P));
+      if (point.log_Y > interpolated(span->first, span->second, P) + 1e-5L)
+        found.push_back(static_cast<double>(P));
     }
   }
   return found;
@@ -290,14 +299,16 @@ inline dense::Real StudyJudge::interpolated(const Peak& a, const Peak& b, Real p
 /// Each sensitivity of each peak, where the differences agree with those of half the step.
 inline void StudyJudge::judge_sensitivities(double preload) {
   using dense::Case;
-  const auto judge = [&](const char* what, const Peak& row, const dense::LocalPeak& peak, double value, auto change) {
+  const auto judge = [&](const char* what, const Peak& row, const dense::LocalPeak& peak, double value,
+                         auto change) {
     for (const Real step : {1e-3L, 1e-4L, 1e-5L, 1e-10L}) {
       const Real once = dense::sensitivity(case_, window_, preload, peak, change, step);
       const Real again = dense::sensitivity(case_, window_, preload, peak, change, step / 2);
       if (std::abs(again - once) > 2e-8L * std::max(1.0L, std::abs(again))) continue;
       ++sensitivities_;
       if (std::abs(again - value) > 1e-7L * std::max(1.0L, std::abs(again)))
-        complain("sensitivity to {} is {:.12g}, not {:.12g}: {}", what, static_cast<double>(again), value, describe(row));
+        complain("sensitivity to {} is {:.12g}, not {:.12g}: {}", what, static_cast<double>(again), value,
+                 describe(row));
       return;
     }
   };
@@ -314,7 +325,8 @@ inline void StudyJudge::judge_sensitivities(double preload) {
         });
         judge("F", row, peak, s.force, [](Case& c, Real&, Real h) { c.force *= std::exp(h); });
         judge("M*", row, peak, s.mass_ratio, [](Case& c, Real&, Real h) { c.mass_ratio *= std::exp(h); });
-        judge("gamma", row, peak, s.frequency_ratio, [](Case& c, Real&, Real h) { c.frequency_ratio *= std::exp(h); });
+        judge("gamma", row, peak, s.frequency_ratio,
+              [](Case& c, Real&, Real h) { c.frequency_ratio *= std::exp(h); });
         break;
       }
     }

@@ -74,7 +74,7 @@ TEST_CASE("The coefficients are the Fourier integrals of the hysteresis loop") {
   }
 }
 
-TEST_CASE("Stick is linear; at R = S the coefficient is continuous and its slope jumps to 4/(pi S)") {
+TEST_CASE("Stick is linear, and at R = S the coefficient is continuous and its slope jumps to 4/(pi S)") {
   const HarmonicCoefficient stick = hysteresis_coefficient(0.3, 1);
   CHECK(stick.phi == Complex(1, 0));
   CHECK(stick.phi_log == Complex(0, 0));

@@ -23,14 +23,18 @@ namespace fs = std::filesystem;
 
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
-const std::set<std::string, std::less<>> mechanics{"annular_plate",    "contact",       "dynamic_stiffness",
-                                                   "elements",         "finite_sector", "matrix_market",
-                                                   "modal_model",      "precise",       "sector",
-                                                   "sector_reduction", "sector_solver", "system"};
-const std::set<std::string, std::less<>> files{
-    "case_file",  "continuation_section", "database",  "for_each",    "output",        "results",
-    "runs",       "study_case",           "study_run", "study_store", "study_results", "system_section",
-    "toml_reader"};
+const std::set<std::string, std::less<>> mechanics{
+    "annular_plate", "contact",        "dynamic_stiffness", "elements", "finite_sector",    "matrix_market",
+    "modal_model",   "physical_scale", "precise",           "sector",   "sector_reduction", "sector_solver",
+    "system"};
+const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
+                                               "database",         "for_each",
+                                               "geometry_section", "output",
+                                               "results",          "runs",
+                                               "study_case",       "study_extras",
+                                               "study_run",        "study_store",
+                                               "study_results",    "system_section",
+                                               "toml_reader",      "uncertain_section"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {

@@ -133,7 +133,8 @@ TEST_CASE("Peaks of figures 11 and 12 change places and die where the scan says"
   }
   CHECK_THAT(exchanges[0].Y, WithinRel(exchanges[1].Y, 1e-10));
   std::vector<Peak> deaths = rows_of(study, PeakType::death);
-  std::erase_if(deaths, [](const Peak& peak) { return peak.eta >= 5; });  // of gamma = 1.5, at the window's end
+  std::erase_if(deaths,
+                [](const Peak& peak) { return peak.eta >= 5; });  // of gamma = 1.5, at the window's end
   REQUIRE(deaths.size() == 1);
   CHECK_THAT(deaths[0].preload, WithinRel(curve.death, 1e-9));
   CHECK_THAT(deaths[0].eta, WithinRel(curve.death_eta, 1e-6));  // at a fold, P turns
@@ -294,19 +295,19 @@ TEST_CASE("Studies of empty ranges and of systems that are not passive are refus
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   for (const PreloadRange& range : std::vector<PreloadRange>{{1, 1, 0.5, 6, {}},
-                                                            {2, 1, 0.5, 6, {}},
-                                                            {0, 1, 0.5, 6, {}},
-                                                            {-1, 1, 0.5, 6, {}},
-                                                            {nan, 1, 0.5, 6, {}},
-                                                            {1, nan, 0.5, 6, {}},
-                                                            {1, inf, 0.5, 6, {}},
-                                                            {0.1, 1, 6, 6, {}},
-                                                            {0.1, 1, 6, 5, {}},
-                                                            {0.1, 1, 0, 6, {}},
-                                                            {0.1, 1, 0.5, inf, {}},
-                                                            {0.1, 1, 0.5, nan, {}},
-                                                            {0.1, 1, 0.5, 6, {2}},
-                                                            {0.1, 1, 0.5, 6, {nan}}}) {
+                                                             {2, 1, 0.5, 6, {}},
+                                                             {0, 1, 0.5, 6, {}},
+                                                             {-1, 1, 0.5, 6, {}},
+                                                             {nan, 1, 0.5, 6, {}},
+                                                             {1, nan, 0.5, 6, {}},
+                                                             {1, inf, 0.5, 6, {}},
+                                                             {0.1, 1, 6, 6, {}},
+                                                             {0.1, 1, 6, 5, {}},
+                                                             {0.1, 1, 0, 6, {}},
+                                                             {0.1, 1, 0.5, inf, {}},
+                                                             {0.1, 1, 0.5, nan, {}},
+                                                             {0.1, 1, 0.5, 6, {2}},
+                                                             {0.1, 1, 0.5, 6, {nan}}}) {
     CAPTURE(range.from, range.to, range.eta_low, range.eta_high);
     CHECK_THROWS_AS(problems::study_preload(good, range), std::invalid_argument);
   }

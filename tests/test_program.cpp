@@ -18,6 +18,25 @@ const std::string figure_8 = case_named("figure_8");
 
 }  // namespace
 
+TEST_CASE("check and run print the groups of a system in SI units, and run its special points in these") {
+  const TemporaryFolder folder;
+  const std::string units =
+      "eta = 1: 56.2442 Hz, P = 1: 34879.2 N/m, Y = 1: 0.816814 m; resonances alone: base 2295.23 Hz, damper "
+      "506.198 Hz\n";
+  const Outcome checked = arcslip_program("check " + case_named("rotor_ring"));
+  CHECK(checked.status == 0);
+  CHECK_THAT(checked.out, ContainsSubstring("preload_per_length = 300") && ContainsSubstring(units) &&
+                              ContainsSubstring("K_FD = 1.6175e+10, F = 0.00955679, P = 0.00860111"));
+  const Outcome run = arcslip_program("run " + case_named("rotor_ring") + " -o " + folder.path("r"));
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, ContainsSubstring(units) && ContainsSubstring("frequency_Hz             Y_m") &&
+                          ContainsSubstring("2283.16277  4.57696756e-06"));
+  const std::vector<std::string> header = read_csv(folder.path("r/branches.csv")).front();
+  const std::vector<std::string> last(header.end() - 7, header.end());
+  CHECK(last == std::vector<std::string>{"frequency_Hz", "preload_N_per_m", "R_m", "S_m", "Y_m", "U_m",
+                                         "dissipated_J"});
+}
+
 TEST_CASE("run writes both files whole, prints the special points and nothing on stderr") {
   const TemporaryFolder folder;
   const Outcome outcome = arcslip_program("run " + figure_8 + " -o " + folder.path("r"));

@@ -58,14 +58,16 @@ TEST_CASE("The README's C++ is that of the project which the tests build against
   }
 }
 
-TEST_CASE("The README's case is problems/figure_8.toml, its curve that of the folds of rods on springs") {
+TEST_CASE("The README's cases are problems/figure_8.toml and parts of others") {
   const auto shown = blocks(read(source + "/README.md"), "toml");
-  REQUIRE(shown.size() == 2);
+  REQUIRE(shown.size() == 4);
   const arcslip::testing::TemporaryFolder folder;
   const arcslip::Case first = arcslip::read_case(folder.write("case.toml", shown[0]));
   const arcslip::Case figure_8 = arcslip::read_case(source + "/problems/figure_8.toml");
   CHECK(first.resolved == figure_8.resolved);
   CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[1]));
+  CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(shown[2]));
+  CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[3]));
 }
 
 TEST_CASE("Every case file stands in the README's table") {

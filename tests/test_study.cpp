@@ -148,6 +148,39 @@ TEST_CASE("study writes its tables whole, prints the optima and nothing on stder
   CHECK(summary["case"]["study"]["for_each"]["mass_ratio"][1] == 10.0);
 }
 
+TEST_CASE("Designs of the case files have the optima that closed forms and curves of peaks give", "[study]") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("study " + case_named("chart") + " --quiet -o " + folder.path("r") +
+                          " --set study.for_each.mass_ratio=[1.0,5.0] --set "
+                          "study.for_each.frequency_ratio=[1.0,4.0]")
+              .status == 0);
+  const auto rows = read_csv(folder.path("r/optimum.csv"));
+  REQUIRE(rows.size() == 5);
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"optimum.csv", "study.sqlite", "summary.json"});
+  // gamma = 1: stuck together, base and damper have the same frequency and damping as each alone, and the
+  // mass 1 + 1/M*. What is left is the coupling of the parts' damping, of the order of zeta = 1e-4.
+  for (const int row : {1, 3}) {
+    const double mass_ratio = std::stod(rows[static_cast<std::size_t>(row)][1]);
+    CHECK_THAT(std::stod(rows[static_cast<std::size_t>(row)][6]),
+               WithinRel(mass_ratio / (1 + mass_ratio), 1e-4));
+    CHECK(rows[static_cast<std::size_t>(row)][7] == "flat");
+  }
+  // M* = 5, gamma = 4: the trough of problems/ridge.toml, to the digits given there.
+  CHECK_THAT(std::stod(rows[4][3]), WithinRel(1.04129171, 1e-8));
+  CHECK_THAT(std::stod(rows[4][4]), WithinRel(3.82092304, 1e-8));
+  CHECK_THAT(std::stod(rows[4][5]), WithinRel(0.00715396993, 1e-8));
+
+  REQUIRE(arcslip_program("study " + case_named("wave_numbers") + " --quiet -o " + folder.path("s") +
+                          " --set study.for_each.wave_number=[1,2,4,8] --set study.sweep=false")
+              .status == 0);
+  const auto waves = read_csv(folder.path("s/optimum.csv"));
+  REQUIRE(waves.size() == 5);
+  // As the case file says.
+  const double factors[] = {448, 131, 61, 1 / 0.62};
+  for (std::size_t i = 0; i < 4; ++i) CHECK_THAT(1 / std::stod(waves[i + 1][5]), WithinRel(factors[i], 0.01));
+  CHECK(waves[3][6] == "exchange");
+}
+
 TEST_CASE("The tables do not depend on the number of threads", "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
@@ -192,7 +225,7 @@ TEST_CASE("A study killed ten times ends as if it had not been, and computes no 
   CHECK(names_in(folder.path("killed")) == all_files);
 }
 
-TEST_CASE("An interrupt ends a study cleanly; it goes on with --resume", "[study]") {
+TEST_CASE("An interrupt ends a study cleanly, and it goes on with --resume", "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
   const std::string command = "study " + path + " --quiet -o ";

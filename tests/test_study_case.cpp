@@ -49,7 +49,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-TEST_CASE("A study is read with its defaults; of one design where nothing is listed", "[study]") {
+TEST_CASE("A study is read with its defaults, of one design where nothing is listed", "[study]") {
   const StudyCase study = read_text(good + "[continuation]\nstop_at = [1, 10]\n");
   CHECK(study.title == "A study");
   CHECK(study.range.from == 0.1);
@@ -124,7 +124,7 @@ TEST_CASE("Designs may be listed one by one", "[study]") {
   CHECK(sections.design(1).system.mass_ratio == 2);
 }
 
-TEST_CASE("A case may hold a study beside its branches; each command reads its own", "[study]") {
+TEST_CASE("A case may hold a study beside its branches, and each command reads its own", "[study]") {
   const std::string both = replaced(good, "force = 1.0", "force = 1.0\npreload = 1.0") +
                            "[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 6.0\n";
   const TemporaryFolder folder;

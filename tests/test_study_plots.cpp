@@ -128,6 +128,26 @@ TEST_CASE("plot draws each value with each as maps, whatever their order, with g
              ContainsSubstring("mass ratio") && ContainsSubstring("frequency ratio"));
 }
 
+TEST_CASE("plot draws the study or the branches, whichever was written last", "[plots]") {
+  if (!has_gnuplot()) return;
+  const TemporaryFolder folder;
+  const std::string path = folder.write(
+      "case.toml",
+      "[system]\nmodel = 'beams'\nwave_number = 1\nelements = 30\nmass_ratio = 5\nfrequency_ratio = 4\n"
+      "slenderness = 33.3\nforce = 1\npreload = 1\n"
+      "[branch]\nparameter = 'eta'\nfrom = 3\nto = 5\n"
+      "[study]\nparameter = 'P'\nfrom = 0.5\nto = 5\neta = [3, 5]\nfor_each = { mass_ratio = [5, 20] }\n");
+  const std::string into = " --quiet -o '" + folder.path("r") + "'";
+  const auto drawn = [&](const std::string& command) {
+    const Outcome outcome = arcslip_program(command + " '" + path + "'" + into);
+    CHECK(outcome.err.empty());
+    CHECK(outcome.status == 0);
+    return arcslip_program("plot '" + folder.path("r") + "'").out;
+  };
+  CHECK_THAT(drawn("study"), ContainsSubstring("ratio.png") && ContainsSubstring("optimum.svg"));
+  CHECK_THAT(drawn("run"), ContainsSubstring("phase_difference.png") && !ContainsSubstring("ratio"));
+}
+
 TEST_CASE("plot refuses a study's folder that lacks something, in one line that says what", "[plots]") {
   const std::string good = optimum_of("mass_ratio", {"5", "20", "100"});
   const std::string header = good.substr(0, good.find('\n') + 1);

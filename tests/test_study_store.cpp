@@ -116,7 +116,7 @@ TEST_CASE("A design is never stored twice, and what is stored outlives the progr
   CHECK(StudyStore(folder.path(""), study, false).finished() == std::vector<bool>(3));
 }
 
-TEST_CASE("--resume refuses another study in one line that says what differs", "[study]") {
+TEST_CASE("Another study is refused by --resume, in one line that says what differs", "[study]") {
   const TemporaryFolder folder;
   const auto resumed = [&](const std::string& more, const std::vector<std::string>& settings = {}) {
     const StudyCase study = read_study(folder.write("other.toml", study_text + more), settings);
@@ -161,7 +161,8 @@ TEST_CASE("Threads compute every design once, and stop where they are told to", 
   std::atomic<std::size_t> asked = 0;
   study.design = [&](std::size_t i) {
     ++asked;
-    return StudyDesign{{{"i", i}}, {}};  // with an empty range, which the study refuses: a failure at once
+    return StudyDesign{
+        {{"i", i}}, {}, {}};  // with an empty range, which the study refuses: a failure at once
   };
   StudyWorkers workers(study, 3);
   std::set<std::size_t> curves;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "arcslip/continuation/curve.hpp"
+#include "arcslip/physical_scale.hpp"
 #include "arcslip/problems/library.hpp"
-#include "arcslip/system.hpp"
 
 namespace arcslip {
 
@@ -39,6 +39,7 @@ struct ProblemRequest {
   const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
   problems::LibraryModel::Values settings;        ///< the library model's
   SystemParameters system;
+  std::optional<Geometry> geometry;  ///< where the system is given in SI units
   Response response = Response::forced;
   double eta = 0;  ///< the fixed frequency where eta is not continued
 

@@ -16,11 +16,18 @@ namespace arcslip {
 using Sink = std::function<void(std::string_view)>;
 
 /// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the
-/// observables, of an equilibrium the number of unstable eigenvalues, arclength, iterations, residual.
+/// observables, of an equilibrium the number of unstable eigenvalues, arclength, iterations, residual; of a
+/// system given in SI units the same in these: frequency_Hz, preload_N_per_m, R_m, S_m, Y_m, U_m,
+/// dissipated_J.
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
 
 /// summary.json as described in the README.
 nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds);
+
+/// The nondimensional groups of a system with friction, and the units of one given in SI units, with the
+/// frequencies of its parts.
+std::string describe_groups(const ProblemRequest& problem);
+std::string describe_units(const ProblemRequest& problem);
 
 /// Rows of special points, as AUTO prints them; `number` is the branch's.
 std::string special_table(std::size_t number, const TracedBranch& traced);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Case files of preload studies: [system], [study] and [continuation].
+// Case files of preload studies: [system], [geometry], [study], [study.uncertain] and [continuation].
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "arcslip/case_file.hpp"
-#include "arcslip/problems/preload_study.hpp"
+#include "arcslip/problems/uncertainty.hpp"
 
 namespace arcslip {
 
@@ -16,6 +16,7 @@ namespace arcslip {
 struct StudyDesign {
   nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
   SystemParameters system;
+  std::optional<Geometry> geometry;  ///< where the system is given in SI units
 };
 
 /// A study of `count` designs, which are made when asked for, from several threads: there may be millions.
@@ -25,7 +26,9 @@ struct StudyCase {
   std::vector<std::string> keys;    ///< of for_each, in the order of the columns of optimum.csv
   problems::PreloadRange range;
   continuation::TraceOptions options;
-  bool sweep = true;  ///< whether sweep.csv is wanted beside optimum.csv
+  bool sweep = true;                               ///< whether sweep.csv is wanted beside optimum.csv
+  std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does
+  bool is_physical = false;                        ///< whether its designs are given in SI units
   std::size_t count = 1;
   std::function<StudyDesign(std::size_t)> design;
 };

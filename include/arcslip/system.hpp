@@ -41,8 +41,12 @@ struct SystemParameters {
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
 
-/// Shear estimate of the interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
+/// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
 double shear_interface_stiffness(double slenderness, double poisson_ratio);
+
+/// The same estimate for either model: k_F = G w_D L/(h_D/2) over k_D = E w_D h_D/L of rods is
+/// (L/h_D)^2/(1 + nu).
+double shear_interface_stiffness(StructureModel model, double slenderness, double poisson_ratio);
 
 /// ln S with its derivatives.
 struct LogThreshold {

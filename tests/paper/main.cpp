@@ -19,7 +19,7 @@ bool Statement::holds() const {
 std::string Statement::text() const {
   std::string text = fmt::format("{}  {}\n", number_, words_);
   for (const Finding& finding : findings_) {
-    text += fmt::format("   {:<5} {:<52} {:<18} {}\n", finding.holds ? "ok" : "WRONG", finding.what,
+    text += fmt::format("   {:<5} {:<58} {:<14} {}\n", finding.holds ? "ok" : "WRONG", finding.what,
                         finding.measured, finding.required);
   }
   text += fmt::format("   {}\n", holds() ? "holds" : "DOES NOT HOLD");

@@ -22,8 +22,9 @@ class PeakSearch {
   /// were any.
   bool look_at(double preload);
 
-  /// Follows the peaks in slip that meet the border and were not met otherwise.
-  void follow_from_border();
+  /// Follows the peaks in slip that meet the border or an end of the window and were not found otherwise.
+  /// What is left to be found by `look_at` are ridges that are born and die in slip.
+  void follow_from_meetings();
 
   const std::vector<PeakPiece>& pieces() const { return pieces_; }
 
@@ -31,9 +32,10 @@ class PeakSearch {
   const std::string& failure() const { return failure_; }
 
  private:
-  /// Where a peak in slip meets the border.
+  /// Where a ridge in slip meets the border or an end of the window.
   struct Meeting {
     PeakNode node;
+    double inwards;  ///< 0 on the border; at an end of the window the sign of eta's change on the way in
     bool met = false;
   };
 
@@ -45,7 +47,7 @@ class PeakSearch {
   bool follow(const PeakNode& start);
   void add_sections(const continuation::Branch& curve);
   void add_section(std::vector<PeakNode> nodes);
-  PeakNode inside(PeakNode meeting) const;
+  PeakNode inside(const Meeting& meeting) const;
   void snap(PeakNode& end);
   double log_ratio(const PeakNode& node) const;
   void add(PeakSite site, std::vector<PeakNode> nodes);
