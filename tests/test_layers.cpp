@@ -24,9 +24,8 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "annular_plate", "contact",        "dynamic_stiffness", "elements", "finite_sector",    "matrix_market",
-    "modal_model",   "physical_scale", "precise",           "sector",   "sector_reduction", "sector_solver",
-    "system"};
+    "contact",        "dynamic_stiffness", "elements", "finite_sector",    "matrix_market", "modal_model",
+    "physical_scale", "precise",           "sector",   "sector_reduction", "sector_solver", "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",
