@@ -1,92 +1,13 @@
 #include "arcslip/sector_solver.hpp"
 
 #include <fmt/format.h>
-#include <klu.h>
 
-#include <new>
 #include <numbers>
 #include <stdexcept>
 
+#include "complex_factors.hpp"
+
 namespace arcslip {
-namespace {
-
-constexpr double worst_growth = 1e-3;  // of the pivots' growth when they were chosen
-
-double* numbers_of(Complex* values) { return reinterpret_cast<double*>(values); }
-
-}  // namespace
-
-/// Owns what KLU allocates.
-struct SectorSolver::Factors {
-  explicit Factors(ComplexSparseMatrix& pattern) {
-    klu_defaults(&common);
-    common.btf = 0;  // a sector is one block, whose diagonal must stay where it is
-    symbolic = klu_analyze(static_cast<int>(pattern.rows()), pattern.outerIndexPtr(), pattern.innerIndexPtr(),
-                           &common);
-    check_memory();
-  }
-  ~Factors() {
-    klu_z_free_numeric(&numeric, &common);
-    klu_free_symbolic(&symbolic, &common);
-  }
-  Factors(const Factors&) = delete;
-  Factors& operator=(const Factors&) = delete;
-
-  void check_memory() const {
-    if (common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (common.status < 0) throw std::length_error("sector: more entries than indices can count");
-  }
-
-  bool factor_with_old_pivots(ComplexSparseMatrix& matrix) {
-    if (numeric == nullptr) return false;
-    ++quick;
-    const int done = klu_z_refactor(matrix.outerIndexPtr(), matrix.innerIndexPtr(),
-                                    numbers_of(matrix.valuePtr()), symbolic, numeric, &common);
-    return done != 0 && common.status == KLU_OK && regular() &&
-           growth(matrix) >= worst_growth * chosen_growth;
-  }
-
-  bool factor_with_new_pivots(ComplexSparseMatrix& matrix) {
-    ++full;
-    klu_z_free_numeric(&numeric, &common);
-    numeric = klu_z_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix.valuePtr()),
-                           symbolic, &common);
-    check_memory();
-    if (numeric == nullptr || common.status != KLU_OK || !regular()) return false;
-    chosen_growth = growth(matrix);
-    return true;
-  }
-
-  bool regular() {
-    klu_z_rcond(symbolic, numeric, &common);
-    return common.status == KLU_OK && common.rcond > 0;
-  }
-
-  /// Reciprocal growth of the entries in the elimination: small where the pivots are bad.
-  double growth(ComplexSparseMatrix& matrix) {
-    klu_z_rgrowth(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix.valuePtr()), symbolic,
-                  numeric, &common);
-    return common.rgrowth;
-  }
-
-  void solve(ComplexMatrix& columns) {
-    klu_z_solve(symbolic, numeric, static_cast<int>(columns.rows()), static_cast<int>(columns.cols()),
-                numbers_of(columns.data()), &common);
-  }
-
-  void solve_transposed(ComplexMatrix& columns) {
-    constexpr int conjugate = 0;
-    klu_z_tsolve(symbolic, numeric, static_cast<int>(columns.rows()), static_cast<int>(columns.cols()),
-                 numbers_of(columns.data()), conjugate, &common);
-  }
-
-  klu_common common{};
-  klu_symbolic* symbolic = nullptr;
-  klu_numeric* numeric = nullptr;
-  double chosen_growth = 1;
-  int full = 0;
-  int quick = 0;
-};
 
 SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss)
     : reduction_(sector), loss_(loss), outputs_(sector.outputs) {
@@ -102,25 +23,26 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
   left_.resize(reduction_.size(), m);
   response_ = {ComplexMatrix(m, m), ComplexMatrix(m, m), ComplexVector(m),
                ComplexVector(m),    ComplexMatrix(p, m), ComplexVector(p)};
-  factors_ = std::make_unique<Factors>(dynamic_stiffness_);
+  factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
 }
 
 SectorSolver::~SectorSolver() = default;
 
-int SectorSolver::full_factorisations() const { return factors_->full; }
-int SectorSolver::quick_factorisations() const { return factors_->quick; }
+int SectorSolver::full_factorisations() const { return factors_->full(); }
+int SectorSolver::quick_factorisations() const { return factors_->quick(); }
 
 void SectorSolver::assemble(double eta) {
   const double two_pi = 2 * std::numbers::pi;
   const double w = two_pi * eta;
   const Complex k(1, loss_.at(eta));
   const Complex k_eta(0, loss_.viscous);
-  const double m_eta = -2 * two_pi * w;
+  const Complex m(-w * w, two_pi * loss_.mass * w);
+  const Complex m_eta(-2 * two_pi * w, two_pi * two_pi * loss_.mass);
   const Complex* stiffness = reduction_.stiffness().valuePtr();
   const Complex* mass = reduction_.mass().valuePtr();
   const Index count = dynamic_stiffness_.nonZeros();
   for (Index i = 0; i < count; ++i) {
-    dynamic_stiffness_.valuePtr()[i] = k * stiffness[i] - w * w * mass[i];
+    dynamic_stiffness_.valuePtr()[i] = k * stiffness[i] + m * mass[i];
     slope_.valuePtr()[i] = k_eta * stiffness[i] + m_eta * mass[i];
   }
   if (reduction_.damping().size() == 0) return;
@@ -158,8 +80,7 @@ void SectorSolver::collect() {
 
 const SectorResponse& SectorSolver::at(double eta) {
   assemble(eta);
-  if (!factors_->factor_with_old_pivots(dynamic_stiffness_) &&
-      !factors_->factor_with_new_pivots(dynamic_stiffness_)) {
+  if (!factors_->factor(dynamic_stiffness_)) {
     throw std::domain_error(fmt::format("the dynamic stiffness of the sector is singular at eta = {}", eta));
   }
   set_right_hand_sides();

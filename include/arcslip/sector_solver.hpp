@@ -2,7 +2,7 @@
 
 // Response of a finite-element sector under a travelling wave at its contact dofs and outputs:
 //
-//   Z(eta) = K (1 + j (beta eta + delta)) + j w* C - w*^2 M,   w* = 2 pi eta
+//   Z(eta) = K (1 + j (beta eta + delta)) + j w* (C + 2 pi mu M) - w*^2 M,   w* = 2 pi eta
 //   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
 //   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
 //
@@ -16,6 +16,8 @@
 
 namespace arcslip {
 
+class ComplexFactors;
+
 /// Response of m contacts and p outputs at a given eta.
 struct SectorResponse {
   ComplexMatrix compliance;  ///< c, m x m: motion of the contact of the row per force on that of the column
@@ -28,8 +30,9 @@ struct SectorResponse {
 
 class SectorSolver {
  public:
-  /// `sector` is checked, `forward` is e^{-ja}. `loss` is that of damping proportional to stiffness, beside
-  /// the sector's own C. Throws SectorError where the reduced mass is not positive definite.
+  /// `sector` is checked, `forward` is e^{-ja}. `loss` is that of damping proportional to stiffness and mass,
+  /// beside the sector's own C; modal damping is no part of Z. Throws SectorError where the reduced mass is not
+  /// positive definite.
   SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss);
   ~SectorSolver();
   SectorSolver(const SectorSolver&) = delete;
@@ -45,8 +48,6 @@ class SectorSolver {
   int quick_factorisations() const;
 
  private:
-  struct Factors;
-
   void assemble(double eta);
   void set_right_hand_sides();
   void collect();
@@ -61,7 +62,7 @@ class SectorSolver {
   ComplexMatrix left_;                     // X_l
   ComplexMatrix product_;                  // Z' times `right_`
   SectorResponse response_;
-  std::unique_ptr<Factors> factors_;
+  std::unique_ptr<ComplexFactors> factors_;
 };
 
 }  // namespace arcslip

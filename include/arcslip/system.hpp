@@ -65,6 +65,7 @@ struct FrictionSystem {
   Loss base_loss_per_zeta = {};  ///< the base's loss over zeta_B
   double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
   double preload_growth = 0;     ///< P_2
+  Loss base_loss_fixed = {};     ///< the rest of the base's loss
 
   /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0.
   bool is_loaded(double eta, double preload) const {
