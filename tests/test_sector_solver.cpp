@@ -102,7 +102,7 @@ TEST_CASE(
 TEST_CASE("The derivatives of the sector's response in eta are those of the values") {
   SectorSolver solver(random_sector(), std::polar(1.0, -1.3), {0.02, 0.01});
   for (const double eta : {0.1, 0.6, 1.4}) {
-    const double h = 1e-4 * eta;
+    const double h = 1e-5 * eta;
     const SectorResponse here = solver.at(eta);
     const auto slope = [&](auto member) {  // of fourth order in h
       const auto between = [&](double step) {
@@ -111,9 +111,10 @@ TEST_CASE("The derivatives of the sector's response in eta are those of the valu
       };
       return ((8 * between(h) - between(2 * h)) / (12 * h)).eval();
     };
+    // 1e-7: rounding by condition numbers of 1e3 over h/eta; peaks are about 1e-3 wide.
     CHECK((here.compliance_eta - slope(&SectorResponse::compliance)).norm() <
-          1e-9 * here.compliance_eta.norm());
-    CHECK((here.free_eta - slope(&SectorResponse::free)).norm() < 1e-9 * here.free_eta.norm());
+          1e-7 * here.compliance_eta.norm());
+    CHECK((here.free_eta - slope(&SectorResponse::free)).norm() < 1e-7 * here.free_eta.norm());
   }
 }
 
@@ -189,14 +190,23 @@ TEST_CASE("One symbolic analysis and its pivots serve a whole sweep, and are giv
   CHECK(sweep.full_factorisations() == 1);
   CHECK(sweep.quick_factorisations() == 199);
 
-  // The pivot that serves at eta = 0 vanishes where the tip alone resonates: w*^2 = k/m.
-  const double alone = std::sqrt(2e6 / 0.25) / (2 * std::numbers::pi);
-  SectorSolver solver(checked(bladed_disk()), forward(3, 24), {});
+  // The pivots that serve at eta = 0, on the diagonal, both all but vanish at w* = 1.
+  Matrix stiffness = Matrix::Zero(3, 3);
+  stiffness.topLeftCorner<2, 2>() << 1 + 1e-12, 0.5, 0.5, 1 + 1e-12;
+  FiniteSector pair;
+  pair.mass = sparse(Matrix(Eigen::Vector3d(1, 1, 0).asDiagonal()));
+  pair.stiffness = sparse(stiffness);
+  pair.left = {0};
+  pair.right = {2};
+  pair.contacts = {0};
+  pair.load = ComplexVector::Ones(3);
+  SectorSolver solver(checked(pair), 1, {});
+  const double eta = 0.5 / std::numbers::pi;
   solver.at(0);
-  const Complex c = solver.at(alone).compliance(0, 0);
+  const Complex c = solver.at(eta).compliance(0, 0);
   CHECK(solver.full_factorisations() == 2);
-  SectorSolver fresh(checked(bladed_disk()), forward(3, 24), {});
-  check_close(c, fresh.at(alone).compliance(0, 0), 1e-12);
+  // Z = [1e-12 1/2; 1/2 1e-12]: c = 1e-12/(1e-24 - 1/4), to the rounding of the difference 1 - w*^2.
+  CHECK(std::abs(c + 4e-12) < 2e-15);
 }
 
 TEST_CASE("An undamped sector at its own frequency has no response") {
