@@ -2,15 +2,15 @@
 
 // The projection of a sector on given vectors and its modes there, in long double.
 
-#include "arcslip/sector_modes.hpp"
-#include "arcslip/sector_reduction.hpp"
+#include "extended_sector.hpp"
 
 namespace arcslip {
 
 class RitzSpace {
  public:
   /// `sector` must outlive this.
-  RitzSpace(const FiniteSector& sector, const SectorWave& wave);
+  RitzSpace(const FiniteSector& sector, const SectorWave& wave)
+      : sector_(sector, wave), basis_(sector_.size(), 0) {}
 
   /// Widens the space by the columns, vectors of reduced dofs.
   void add(const ComplexMatrix& columns);
@@ -21,22 +21,17 @@ class RitzSpace {
   std::vector<Mode> modes(double below) const;
 
  private:
-  using Real = long double;
-  using Number = std::complex<Real>;
-  using Vectors = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
-  using NumberVector = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+  using Real = ExtendedSector::Real;
+  using Number = ExtendedSector::Number;
+  using NumberVector = ExtendedSector::NumberVector;
+  using NumberMatrix = ExtendedSector::NumberMatrix;
 
-  NumberVector fold(const NumberVector& of_sector) const;
-  NumberVector product(const SparseMatrix& matrix, const NumberVector& unfolded) const;
-  void widen(Vectors& projection, Index column, const NumberVector& product);
+  void widen(NumberMatrix& projection, Index column, const NumberVector& product);
 
-  const FiniteSector& sector_;
-  SectorMap map_;
-  Number forward_;
-  NumberVector folded_load_;
+  ExtendedSector sector_;
   ComplexMatrix basis_;
-  Vectors mass_;
-  Vectors stiffness_;
+  NumberMatrix mass_;
+  NumberMatrix stiffness_;
   NumberVector load_;
 };
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "complex_factors", "contact", "dynamic_stiffness", "elements", "finite_sector", "matrix_market",
+    "complex_factors", "contact", "dynamic_stiffness", "elements", "extended_sector", "finite_sector", "matrix_market",
     "modal_model", "physical_scale", "precise", "ritz_space", "sector", "sector_modes", "sector_pair",
     "sector_reduction", "sector_solver", "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",

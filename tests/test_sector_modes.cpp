@@ -90,7 +90,7 @@ TEST_CASE("Lanczos finds modes that give the response to the tolerance asked for
     worst = std::max({worst, relative(a.compliance, b.compliance), relative(a.free, b.free)});
   }
   CHECK(worst < tolerance);
-  CHECK(some.error < std::max(tolerance, 1e-8));  // the full solve is no better where K(a) cancels
+  CHECK(some.error < tolerance);
 }
 
 TEST_CASE("A static load moves the contact of a reduced sector as it does that of the whole") {

@@ -11,7 +11,8 @@
 // response is exact, or a little below where K(a) is singular. One factorisation serves all of them.
 //
 // The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the error
-// of an eigenvalue is that of the given numbers and the square of that of V.
+// of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the response is
+// compared with are refined in the same arithmetic.
 
 #include <vector>
 
