@@ -70,18 +70,19 @@ Peak free_peak(const FrictionSystem& system, const PreloadRange& range,
 
 /// zeta_B of the base alone whose highest peak is Y, by the secant method: the peak is about inverse to the
 /// damping.
-double equivalent_damping(const SystemParameters& parameters, const PreloadRange& range, const Peak& free,
-                          double Y, const continuation::TraceOptions& options) {
+double equivalent_damping(const FrictionSystem& system, double zeta, const PreloadRange& range,
+                          const Peak& free, double Y, const continuation::TraceOptions& options) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (free.site == PeakSite::edge) return none;
-  SystemParameters damped = parameters;
+  FrictionSystem damped = system;
   const auto excess = [&](double log_zeta) {
     if (!(log_zeta < 0)) return none;
-    damped.base_damping = std::exp(log_zeta);
-    const Peak peak = free_peak(build_system(damped), range, options);
+    damped.base =
+        system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
+    const Peak peak = free_peak(damped, range, options);
     return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
   };
-  double last = std::log(parameters.base_damping);
+  double last = std::log(zeta);
   double last_excess = std::log(free.Y / Y);
   double log_zeta = last + last_excess;
   constexpr double rounding = 1e-11;
@@ -309,7 +310,7 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
     Optimum optimum = assembly.optimum();
     const double S = system.slip_threshold(optimum.peak.eta, optimum.peak.preload);
     optimum.energy = parameters.interface_stiffness * S * S * optimum.peak.dissipated;
-    optimum.damping = equivalent_damping(parameters, range, free, optimum.peak.Y, options);
+    optimum.damping = equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
   } catch (const std::exception& error) {

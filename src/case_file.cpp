@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "arcslip/runs.hpp"
 #include "continuation_section.hpp"
 #include "for_each.hpp"
+#include "sector_section.hpp"
 #include "system_section.hpp"
 #include "toml_reader.hpp"
 
@@ -170,6 +172,22 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
   }
 }
 
+/// The eta that the branches pass; 0 where they are unknown beforehand.
+std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
+                                    const CaseBranch& common, const std::string& parameter) {
+  if (common.problem.is_limit_cycle()) return {0, 0};
+  if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
+  if (common.options.parameter == "eta")
+    return std::minmax({common.options.from, common.options.to});
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t i = 0; i < for_each.count(); ++i) {
+    const ForEachSet set = for_each.at(i);
+    const double eta = TomlSection(document, "branch", &set.replacements).number("eta", positive());
+    range = {std::min(range.first, eta), std::max(range.second, eta)};
+  }
+  return range;
+}
+
 }  // namespace
 
 std::vector<std::string> case_sections() {
@@ -197,11 +215,13 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   const ForEach for_each(document, section, for_each_keys(document, model), ForEach::Lists::together);
   if (model == nullptr) check_fixed(section, for_each, common, parameter);
   if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
+  SystemUse use{model, parameter, false, model == nullptr ? read_sectors(document) : nullptr};
+  if (use.sectors) std::tie(use.eta_low, use.eta_high) = eta_range(document, for_each, common, parameter);
   for (std::size_t i = 0; i < for_each.count(); ++i) {
     const auto [values, replacements, made] = for_each.at(i);
     CaseBranch branch = common;
     branch.values = values;
-    read_system(document, replacements, {model, parameter}, branch.problem);
+    read_system(document, replacements, use, branch.problem);
     if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
       TomlSection(document, "system", &replacements)
           .fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");

@@ -8,6 +8,7 @@
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/results.hpp"
 #include "arcslip/runs.hpp"
+#include "arcslip/sector_pair.hpp"
 #include "arcslip/study_case.hpp"
 #include "commands.hpp"
 #include "output.hpp"
@@ -15,6 +16,18 @@
 namespace arcslip {
 
 namespace {
+
+std::string describe_sector(const SystemParameters& system) {
+  const double k = system.interface_stiffness / static_cast<double>(system.elements);
+  std::string text =
+      fmt::format("sector, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})",
+                  system.wave_number, system.elements, k, system.limit_per_preload, system.force,
+                  system.base_damping, to_string(system.sectors->base().damping_kind));
+  if (system.sectors->damper() != nullptr)
+    text += fmt::format(", {:g} (damper, {})", system.damper_damping,
+                        to_string(system.sectors->damper()->damping_kind));
+  return text + "\n  " + describe_modes(system);
+}
 
 std::string describe(const ProblemRequest& problem) {
   if (problem.model != nullptr) {
@@ -24,6 +37,7 @@ std::string describe(const ProblemRequest& problem) {
     return text;
   }
   const SystemParameters& system = problem.system;
+  if (system.sectors) return describe_sector(system);
   std::string text = fmt::format("{}, n = {}, N = {}, {}, zeta = {:g} (base), {:g} (damper)",
                                  to_string(system.model), system.wave_number, system.elements,
                                  describe_groups(problem), system.base_damping, system.damper_damping);

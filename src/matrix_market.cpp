@@ -234,6 +234,24 @@ std::vector<Index> read_dofs(std::string_view text, const std::string& file, Ind
   return dofs;
 }
 
+ComplexVector read_load(std::string_view text, const std::string& file, Index size) {
+  Lines lines(text, file, "%#");
+  ComplexVector load = ComplexVector::Zero(size);
+  while (lines.advance_to_words()) {
+    const std::int64_t dof = integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); });
+    const auto number = [&](std::string_view word) {
+      const std::optional<double> value = finite_number(word);
+      if (!value) lines.fail("a finite number", given(word));
+      return *value;
+    };
+    const double real = number(lines.word());
+    const std::string_view more = lines.word();
+    load(dof - 1) += Complex(real, more.empty() ? 0 : number(more));
+    end_of_line(lines, "the force");
+  }
+  return load;
+}
+
 std::string write_matrix_market(const SparseMatrix& matrix, MatrixSymmetry symmetry) {
   const bool lower_only = symmetry == MatrixSymmetry::symmetric;
   if (lower_only && (SparseMatrix(matrix.transpose()) - matrix).norm() != 0) {

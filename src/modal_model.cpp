@@ -44,11 +44,9 @@ ModalModel ModalModel::unyielding() const {
 
 ContactResponse ModalModel::at(double eta) const {
   ContactResponse response{};
-  const double loss = loss_.at(eta);
   for (const Mode& mode : modes_) {
-    const double stiffness = mode.frequency * mode.frequency;
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss * stiffness);
-    const Complex d_eta(-2 * eta, loss_.viscous * stiffness);
+    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss_.part(eta, mode.frequency));
+    const Complex d_eta(-2 * eta, loss_.part_eta(mode.frequency));
     const Complex inverse = std::conj(d) / std::norm(d);
     const Complex slope = -inverse * inverse * d_eta;
     response.compliance += mode.residue * inverse;
@@ -61,12 +59,10 @@ ContactResponse ModalModel::at(double eta) const {
 
 ContactCurvature ModalModel::curvature(double eta) const {
   ContactCurvature curvature{};
-  const double loss = loss_.at(eta);
   for (const Mode& mode : modes_) {
-    const double stiffness = mode.frequency * mode.frequency;
-    const Complex inverse =
-        1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta), loss * stiffness);  // 1/d
-    const Complex d_eta(-2 * eta, loss_.viscous * stiffness);
+    const Complex inverse = 1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta),
+                                          loss_.part(eta, mode.frequency));  // 1/d
+    const Complex d_eta(-2 * eta, loss_.part_eta(mode.frequency));
     const Complex bend = 2.0 * inverse * inverse * (inverse * d_eta * d_eta + 1.0);  // d2d/deta2 = -2
     curvature.compliance += mode.residue * bend;
     curvature.free += mode.load_residue * bend;
@@ -74,17 +70,17 @@ ContactCurvature ModalModel::curvature(double eta) const {
   return curvature;
 }
 
-DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& loss_per_zeta) const {
+DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& per_zeta,
+                                        const Loss& fixed) const {
   DampedCompliance compliance{};
-  const double loss = loss_per_zeta.at(eta);
+  const Loss loss = fixed + zeta * per_zeta;
   for (const Mode& mode : modes_) {
-    const double stiffness = mode.frequency * mode.frequency;
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), zeta * loss * stiffness);
+    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss.part(eta, mode.frequency));
     const Complex inverse = std::conj(d) / std::norm(d);
     const Complex slope = -mode.residue * inverse * inverse;  // dc/dd
     compliance.value += mode.residue * inverse;
-    compliance.by_eta += slope * Complex(-2 * eta, zeta * loss_per_zeta.viscous * stiffness);
-    compliance.by_zeta += slope * Complex(0, loss * stiffness);
+    compliance.by_eta += slope * Complex(-2 * eta, loss.part_eta(mode.frequency));
+    compliance.by_zeta += slope * Complex(0, per_zeta.part(eta, mode.frequency));
   }
   return compliance;
 }

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <optional>
 
+#include "arcslip/sector_pair.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -166,6 +168,8 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
   add_geometry(traced.request->problem, summary);
+  if (traced.request->problem.system.sectors)
+    summary["reduction"] = modes_to_json(traced.request->problem.system);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
@@ -246,6 +250,34 @@ std::string describe_units(const ProblemRequest& problem) {
       "{:.6g} Hz",
       scale.frequency(1), scale.preload_per_length(1), scale.displacement(1),
       scale.frequency(damper * system.frequency_ratio), scale.frequency(damper));
+}
+
+std::string describe_modes(const SystemParameters& system) {
+  std::string text;
+  const ordered_json parts = modes_to_json(system);
+  for (const auto& [name, part] : parts.items()) {
+    text += fmt::format(
+        "{}{}: {} of {} modes, error {:.1e} against the full solve at {} eta, at worst at eta = {:g}; {} "
+        "factorisations",
+        text.empty() ? "" : "\n  ", name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
+        part["error"].get<double>(), part["check_etas"].size(), part["error_eta"].get<double>(),
+        part["factorisations"].get<int>());
+  }
+  return text;
+}
+
+ordered_json modes_to_json(const SystemParameters& system) {
+  ordered_json parts = ordered_json::object();
+  const SectorUse use = sector_use(system);
+  const auto add = [&](const char* name, const SectorModes& modes) {
+    parts[name] = {{"dofs", modes.dofs},           {"modes", modes.modes.size()},
+                   {"error", modes.error},         {"error_eta", modes.error_eta},
+                   {"check_etas", modes.check_etas}, {"factorisations", modes.factorisations}};
+  };
+  add("base", system.sectors->base_modes(use, system.base_damping));
+  if (system.sectors->damper() != nullptr)
+    add("damper", system.sectors->damper_modes(use, system.damper_damping));
+  return parts;
 }
 
 std::string special_table_header(const TracedBranch& traced) {

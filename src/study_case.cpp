@@ -7,6 +7,7 @@
 #include "continuation_section.hpp"
 #include "for_each.hpp"
 #include "geometry_section.hpp"
+#include "sector_section.hpp"
 #include "system_section.hpp"
 #include "uncertain_section.hpp"
 
@@ -19,11 +20,14 @@ using nlohmann::ordered_json;
 struct Source {
   TomlDocument document;
   std::optional<ForEach> for_each;
+  std::shared_ptr<const SectorPair> sectors;
+  problems::PreloadRange range;
 
   StudyDesign design(std::size_t index) const {
     auto [values, replacements, made] = for_each->at(index);
     ProblemRequest problem;
-    read_system(document, replacements, {nullptr, "P", true}, problem);
+    read_system(document, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high},
+                problem);
     if (problem.system.preload_growth != 0 && scatters(document))
       TomlSection(document, "system", &replacements)
           .fail("preload_growth",
@@ -70,7 +74,7 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
 }  // namespace
 
 StudyCase read_study(const std::string& path, const std::vector<std::string>& settings) {
-  const auto source = std::make_shared<Source>(Source{{path, settings}, {}});
+  const auto source = std::make_shared<Source>(Source{{path, settings}, {}, {}, {}});
   const TomlDocument& document = source->document;
   const TomlSection root(document, "");
   root.allow_only(case_sections());
@@ -87,6 +91,8 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
   study.options.stop_at = study.range.stop_at;
   study.sweep = section.boolean("sweep", true);
   if (scatters(document)) study.uncertain = read_uncertainty(document);
+  source->range = study.range;
+  source->sectors = read_sectors(document);
   study.is_physical = has_geometry(document);
   const std::vector<std::string> allowed = listed_keys(document, nullptr);
   source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);

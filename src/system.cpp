@@ -2,11 +2,19 @@
 
 #include <cmath>
 
+#include "arcslip/sector_pair.hpp"
+
 namespace arcslip {
 
-std::string to_string(StructureModel model) { return model == StructureModel::rods ? "rods" : "beams"; }
+std::string to_string(StructureModel model) {
+  if (model == StructureModel::sector) return "sector";
+  return model == StructureModel::rods ? "rods" : "beams";
+}
 
-std::string to_string(DampingKind kind) { return kind == DampingKind::viscous ? "viscous" : "structural"; }
+std::string to_string(DampingKind kind) {
+  if (kind == DampingKind::modal) return "modal";
+  return kind == DampingKind::viscous ? "viscous" : "structural";
+}
 
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {
   return 12 * std::pow(slenderness, 4) / (1 + poisson_ratio);
@@ -41,6 +49,7 @@ Loss base_loss_per_zeta(const SystemParameters& parameters) {
 }
 
 FrictionSystem build_system(const SystemParameters& parameters) {
+  if (parameters.sectors) return build_sector_system(parameters);
   const ReducedPair pair = reduce(parameters);
   const Loss base_loss = parameters.base_damping_kind == DampingKind::structural
                              ? Loss{0, 2 * parameters.base_damping}
@@ -54,7 +63,8 @@ FrictionSystem build_system(const SystemParameters& parameters) {
           parameters.stiffness_ratio() / parameters.interface_stiffness,
           base_loss_per_zeta(parameters),
           parameters.cubic_stiffness * parameters.stiffness_ratio() / elements,
-          parameters.preload_growth};
+          parameters.preload_growth,
+          {}};
 }
 
 }  // namespace arcslip

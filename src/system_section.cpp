@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry_section.hpp"
+#include "sector_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -44,7 +45,7 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
   if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
   for (const auto& [key, node] : *table) {
     const std::string name = section.name_given("damping") + "." + std::string(key.str());
-    if (key.str() == "kind") {
+    if (key.str() == "kind" && !system.sectors) {
       const std::string kind = node.value<std::string>().value_or("");
       if (kind != "viscous" && kind != "structural")
         document.mismatch(node, name, R"("viscous" or "structural", for the base)");
@@ -53,7 +54,8 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
     }
     const bool base = key.str() == "base";
     if (!base && key.str() != "damper")
-      document.fail(&node, name, "unknown key; expected base, damper or kind");
+      document.fail(&node, name, system.sectors ? "unknown key; expected base or damper"
+                                                : "unknown key; expected base, damper or kind");
     const NumberRule rule = base && !passive ? damping_rule() : inside(0, 1);
     const double value = node.value<double>().value_or(0);
     if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
@@ -70,8 +72,8 @@ void read_groups(const TomlSection& section, const SystemUse& use, SystemParamet
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
 }
 
-void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
-                   const SystemUse& use, ProblemRequest& problem) {
+void read_rings(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
+                const SystemUse& use, ProblemRequest& problem) {
   SystemParameters& system = problem.system;
   system.model =
       section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
@@ -85,11 +87,22 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   } else {
     read_groups(section, use, system);
   }
-  read_damping(document, section, use.linear_passive, system);
-  system.preload_growth = section.number("preload_growth", any_number(), 0);
   const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
   system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
   system.fixed_damper = section.boolean("fixed_damper", false);
+}
+
+void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
+                   const SystemUse& use, ProblemRequest& problem) {
+  if (use.sectors) {
+    if (has_geometry(document))
+      document.fail(document.root().get("geometry"), "geometry", "only for rods and beams");
+    read_sector_system(document, section, use, problem.system);
+  } else {
+    read_rings(document, replacements, section, use, problem);
+  }
+  read_damping(document, section, use.linear_passive, problem.system);
+  problem.system.preload_growth = section.number("preload_growth", any_number(), 0);
 }
 
 void read_settings(const TomlSection& section, const SystemUse& use,
@@ -113,7 +126,7 @@ void read_settings(const TomlSection& section, const SystemUse& use,
 }  // namespace
 
 std::vector<std::string> model_names() {
-  std::vector<std::string> names = {"rods", "beams"};
+  std::vector<std::string> names = {"rods", "beams", "sector"};
   for (const problems::LibraryModel& model : problems::library()) names.push_back(model.name);
   return names;
 }
@@ -126,6 +139,11 @@ std::vector<std::string> system_keys(const problems::LibraryModel* model) {
 }
 
 std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model) {
+  if (is_sector(document)) {
+    std::vector<std::string> names = sector_keys();
+    for (const char* key : {"model", "base", "damper", "reduction_tolerance"}) std::erase(names, key);
+    return names;
+  }
   std::vector<std::string> names = system_keys(model);
   if (model != nullptr) std::erase(names, "model");
   if (model == nullptr && has_geometry(document)) {
@@ -160,7 +178,7 @@ NumberRule parameter_rule(const problems::LibraryModel* model, const std::string
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem) {
   const TomlSection section(document, "system", &replacements);
-  section.allow_only(system_keys(use.model));
+  section.allow_only(use.sectors ? sector_keys() : system_keys(use.model));
   problem.model = use.model;
   if (use.model != nullptr) {
     if (has_geometry(document))
@@ -191,6 +209,7 @@ void resolve_system(const ProblemRequest& problem, ordered_json& section) {
   ordered_json& damping = section["damping"];
   if (!damping.contains("base")) damping["base"] = system.base_damping;
   if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
+  if (system.sectors) return resolve_sectors(system, section);
   if (!damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
   if (section.contains("slenderness")) set("poisson_ratio", default_poisson_ratio);
   set("preload_growth", system.preload_growth);

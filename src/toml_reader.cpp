@@ -30,18 +30,6 @@ std::string shown(const toml::node& node) {
   return out.str();
 }
 
-std::string read_text(const std::string& path) {
-  errno = std::filesystem::is_directory(path) ? EISDIR : 0;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (errno == 0 && in) text << in.rdbuf();
-  if (errno != 0 || !in || in.bad()) {
-    const int code = errno != 0 ? errno : EIO;
-    throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(code)));
-  }
-  return text.str();
-}
-
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts;
   std::istringstream in(path);
@@ -66,6 +54,18 @@ toml::table parse_value(const std::string& setting, const std::string& value) {
 }
 
 }  // namespace
+
+std::string read_text(const std::string& path) {
+  errno = std::filesystem::is_directory(path) ? EISDIR : 0;
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (errno == 0 && in) text << in.rdbuf();
+  if (errno != 0 || !in || in.bad()) {
+    const int code = errno != 0 ? errno : EIO;
+    throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(code)));
+  }
+  return text.str();
+}
 
 TomlDocument::TomlDocument(const std::string& path, const std::vector<std::string>& settings) : path_(path) {
   const std::string text = read_text(path);

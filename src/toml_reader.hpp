@@ -15,12 +15,16 @@
 
 namespace arcslip {
 
+/// What a file holds. Throws InputError.
+std::string read_text(const std::string& path);
+
 /// A file's table and the settings on top of it.
 class TomlDocument {
  public:
   TomlDocument(const std::string& path, const std::vector<std::string>& settings);
 
   const toml::table& root() const { return root_; }
+  const std::string& path() const { return path_; }
 
   /// Error at a node; `name` is the key as the user wrote it.
   [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;

@@ -24,19 +24,20 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "annular_plate", "chain_sector",     "contact",          "dynamic_stiffness",
-    "elements",      "finite_sector",    "lowest_frequency", "matrix_market",
-    "modal_model",   "physical_scale",   "precise",          "ring_sector",
-    "sector",        "sector_reduction", "shape_functions",  "system"};
+    "annular_plate",   "chain_sector",    "complex_factors", "contact",          "dynamic_stiffness",
+    "elements",        "extended_sector", "finite_sector",   "lowest_frequency", "matrix_market",
+    "modal_model",     "physical_scale",  "precise",         "ring_sector",      "ritz_space",
+    "sector",          "sector_modes",    "sector_pair",     "sector_reduction", "sector_solver",
+    "shape_functions", "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",
                                                "results",          "runs",
-                                               "sector_files",     "study_case",
-                                               "study_extras",     "study_run",
-                                               "study_store",      "study_results",
-                                               "system_section",   "toml_reader",
-                                               "uncertain_section"};
+                                               "sector_files",     "sector_section",
+                                               "study_case",       "study_extras",
+                                               "study_results",    "study_run",
+                                               "study_store",      "system_section",
+                                               "toml_reader",      "uncertain_section"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {

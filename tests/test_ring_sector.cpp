@@ -62,16 +62,16 @@ double exact(const Ring& ring, Index wave_number) {
 
 TEST_CASE("A thin free ring has the published frequencies in its plane") {
   // n (n^2 - 1)/(2 pi R^2) sqrt(E I/(m (n^2 + 1))) for a ring that does not stretch [SDLS109, recomputed].
-  // At a thousandth of the height stretching changes a frequency, which falls with the height, by 2e-9.
+  // At a hundredth of the height stretching changes a frequency, which falls with the height, by 3e-7.
   constexpr double published[] = {211.652218, 598.642875, 1147.845316};
   Ring thin = free_ring(RingDirection::radial, 4);
-  thin.height *= 1e-3;
+  thin.height *= 1e-2;
   for (Index n = 2; n <= 4; ++n) {
     const double expected = published[n - 2];
     // (n angle)^4/1440, with angles of 10 degrees, is the error of a straight beam with cubic shapes. That of
     // a ring, of which u + u_tt bends it and not u_tt alone, is a few times as large.
     const double error = 4 * std::pow(static_cast<double>(n) * pi / 18, 4) / 1440;
-    CHECK_THAT(1e3 * lowest(thin, n), WithinRel(expected, error));
+    CHECK_THAT(100 * lowest(thin, n), WithinRel(expected, error));
     // At its own height it stretches: alpha (2 n^2/(n^2 + 1))^2/2 off the frequency, alpha = h^2/(12 R^2).
     const double alpha = std::pow(0.048 / 0.369, 2) / 12;
     const double n2 = static_cast<double>(n * n);

@@ -8,10 +8,13 @@
 //
 //   c(eta)   = e^T Z^{-1} e = sum_k a_k/d_k,      a_k = |e^T v_k|^2/(2 pi)^2
 //   y_0(eta) = e^T Z^{-1} F = sum_k b_k/d_k,      b_k = (e^T v_k)(v_k^H F)/(2 pi)^2
-//   d_k(eta) = (eta_k - eta)(eta_k + eta) + j (beta eta + delta) eta_k^2
+//   d_k(eta) = (eta_k - eta)(eta_k + eta) + j (beta eta + delta) eta_k^2 + j (2 zeta eta_k + mu) eta
+//
+// where mu belongs to C = 2 pi mu M, and zeta is that of modal damping, the same for every mode.
 //
 // The difference eta_k - eta is exact, so that the sums are accurate to rounding on the sharpest peak.
 
+#include <utility>
 #include <vector>
 
 #include "arcslip/sector.hpp"
@@ -32,15 +35,33 @@ struct ContactCurvature {
   Complex free;        ///< d2y_0/deta2
 };
 
-/// Loss factor beta eta + delta of damping proportional to stiffness; negative where it feeds energy in.
+/// Damping that the undamped modes diagonalise; negative where it feeds energy in.
 struct Loss {
-  double viscous = 0;     ///< beta
-  double structural = 0;  ///< delta
+  double viscous = 0;     ///< beta of C = (beta/2 pi) K
+  double structural = 0;  ///< delta of K (1 + j delta)
+  double modal = 0;       ///< 2 zeta, zeta the damping ratio of every mode
+  double mass = 0;        ///< mu of C = 2 pi mu M
 
+  /// Loss factor of what is proportional to stiffness.
   double at(double eta) const { return viscous * eta + structural; }
+
+  /// Im d_k of a mode, with its derivative in eta.
+  double part(double eta, double frequency) const {
+    return at(eta) * frequency * frequency + (modal * frequency + mass) * eta;
+  }
+  double part_eta(double frequency) const {
+    return viscous * frequency * frequency + modal * frequency + mass;
+  }
+
+  friend Loss operator+(const Loss& a, const Loss& b) {
+    return {a.viscous + b.viscous, a.structural + b.structural, a.modal + b.modal, a.mass + b.mass};
+  }
+  friend Loss operator*(double factor, const Loss& loss) {
+    return {factor * loss.viscous, factor * loss.structural, factor * loss.modal, factor * loss.mass};
+  }
 };
 
-/// Compliance c for a loss that is zeta times a given one, with its derivatives.
+/// Compliance c for a loss fixed + zeta * per_zeta, with its derivatives.
 struct DampedCompliance {
   Complex value;    ///< c
   Complex by_eta;   ///< dc/deta
@@ -54,7 +75,7 @@ struct Mode {
   Complex load_residue;  ///< b_k
 };
 
-/// All modes of a structure, in ascending order of frequency.
+/// The modes of a structure, in ascending order of frequency.
 class ModalModel {
  public:
   /// A structure that is held and cannot move: no modes, c = 0, y_0 = 0.
@@ -67,6 +88,12 @@ class ModalModel {
   ModalModel(const ReducedStructure& structure, Index contact_dof, double damping)
       : ModalModel(structure, contact_dof, Loss{damping, 0}) {}
 
+  /// Modes that are known.
+  ModalModel(std::vector<Mode> modes, const Loss& loss) : modes_(std::move(modes)), loss_(loss) {}
+
+  /// The same modes with another damping.
+  ModalModel damped(const Loss& loss) const { return {modes_, loss}; }
+
   /// The same structure where nothing but its own load moves it: c = 0.
   ModalModel unyielding() const;
 
@@ -75,8 +102,8 @@ class ModalModel {
 
   ContactCurvature curvature(double eta) const;
 
-  /// Compliance of the same modes where the loss is zeta * loss_per_zeta.
-  DampedCompliance compliance(double eta, double zeta, const Loss& loss_per_zeta) const;
+  /// Compliance of the same modes where the loss is fixed + zeta * per_zeta.
+  DampedCompliance compliance(double eta, double zeta, const Loss& per_zeta, const Loss& fixed = {}) const;
 
   const std::vector<Mode>& modes() const { return modes_; }
   const Loss& loss() const { return loss_; }

@@ -4,19 +4,23 @@
 // model built from it.
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "arcslip/modal_model.hpp"
 
 namespace arcslip {
 
-enum class StructureModel { rods, beams };
+class SectorPair;
+
+enum class StructureModel { rods, beams, sector };
 
 std::string to_string(StructureModel model);
 
-/// How the base dissipates: viscous, C_B = (2 zeta_B/gamma)/(2 pi) K_B [paper, footnote 3], or structural
+/// How a structure dissipates: viscous, C_B = (2 zeta_B/gamma)/(2 pi) K_B [paper, footnote 3], or structural
 /// with the stiffness K_B (1 + 2 j zeta_B) at every eta. Both have the loss factor 2 zeta_B at eta = gamma.
-enum class DampingKind { viscous, structural };
+/// Modal, of sectors only: every mode has the damping ratio zeta.
+enum class DampingKind { viscous, structural, modal };
 
 std::string to_string(DampingKind kind);
 
@@ -37,6 +41,13 @@ struct SystemParameters {
   bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
+
+  /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k, and no ratio,
+  /// cubic stiffness or fixed damper counts.
+  std::shared_ptr<const SectorPair> sectors;
+  double limit_per_preload = 1;  ///< L
+  double eta_low = 0;            ///< window of eta in which the modes give the response
+  double eta_high = 0;
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
@@ -65,6 +76,7 @@ struct FrictionSystem {
   Loss base_loss_per_zeta = {};  ///< the base's loss over zeta_B
   double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
   double preload_growth = 0;     ///< P_2
+  Loss base_loss_fixed = {};     ///< the rest of the base's loss
 
   /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0.
   bool is_loaded(double eta, double preload) const {

@@ -1,0 +1,38 @@
+#pragma once
+
+// The projection of a sector on given vectors and its modes there, in long double.
+
+#include "extended_sector.hpp"
+
+namespace arcslip {
+
+class RitzSpace {
+ public:
+  /// `sector` must outlive this.
+  RitzSpace(const FiniteSector& sector, const SectorWave& wave)
+      : sector_(sector, wave), basis_(sector_.size(), 0) {}
+
+  /// Widens the space by the columns, vectors of reduced dofs.
+  void add(const ComplexMatrix& columns);
+
+  Index size() const { return mass_.rows(); }
+
+  /// All modes in the space. `below` < 0 is a shift in w*^2 that makes K - below M definite. Throws SectorError.
+  std::vector<Mode> modes(double below) const;
+
+ private:
+  using Real = ExtendedSector::Real;
+  using Number = ExtendedSector::Number;
+  using NumberVector = ExtendedSector::NumberVector;
+  using NumberMatrix = ExtendedSector::NumberMatrix;
+
+  void widen(NumberMatrix& projection, Index column, const NumberVector& product);
+
+  ExtendedSector sector_;
+  ComplexMatrix basis_;
+  NumberMatrix mass_;
+  NumberMatrix stiffness_;
+  NumberVector load_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,248 @@
+#include "arcslip/sector_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "arcslip/sector_reduction.hpp"
+#include "complex_factors.hpp"
+#include "ritz_space.hpp"
+
+namespace arcslip {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double worst_error = 1e-6;  // beyond which modes and matrices are not the same sector
+
+double square(double x) { return x * x; }
+
+/// What shift-invert Lanczos adds to the space, block by block.
+class Krylov {
+ public:
+  Krylov(const FiniteSector& sector, const SectorWave& wave, double below)
+      : reduction_(sector), shifted_(reduction_.stiffness()), factors_(shifted_) {
+    reduction_.set_forward(wave.forward());
+    factor(below);
+    block_ = ComplexMatrix::Zero(reduction_.size(), 2);
+    block_(reduction_.reduced_dof(sector.contacts.front()), 0) = 1;
+    block_.col(1) = reduction_.load();
+    basis_.resize(reduction_.size(), 0);
+  }
+
+  /// The next orthonormal vectors; none where the space has all that matters.
+  const ComplexMatrix& next() {
+    ComplexMatrix images = basis_.cols() == 0 ? block_ : ComplexMatrix(reduction_.mass() * block_);
+    factors_.solve(images);
+    block_.resize(images.rows(), 0);
+    for (Index column = 0; column < images.cols(); ++column) append(images.col(column));
+    return block_;
+  }
+
+  int factorisations() const { return factors_.full() + factors_.quick(); }
+
+ private:
+  void factor(double below) {
+    constexpr double singular = 1e-13;
+    shifted_ = reduction_.stiffness();
+    if (factors_.factor(shifted_) && factors_.pivot_ratio() > singular) return;
+    shifted_ -= below * reduction_.mass();
+    if (!factors_.factor(shifted_)) throw SectorError("the stiffness of the sector is singular at its shift");
+  }
+
+  double norm(const ComplexVector& v) const {
+    return std::sqrt(std::max(0.0, v.dot(reduction_.mass() * v).real()));
+  }
+
+  void append(ComplexVector v) {
+    constexpr double lost = 1e-11;
+    const double before = norm(v);
+    if (!(before > 0)) return;
+    for (int pass = 0; pass < 2; ++pass) {
+      v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
+    }
+    const double after = norm(v);
+    if (!(after > lost * before)) return;
+    v /= after;
+    v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
+    v /= norm(v);
+    for (ComplexMatrix* matrix : {&basis_, &block_}) {
+      matrix->conservativeResize(Eigen::NoChange, matrix->cols() + 1);
+      matrix->rightCols<1>() = v;
+    }
+  }
+
+  SectorReduction reduction_;
+  ComplexSparseMatrix shifted_;
+  ComplexFactors factors_;
+  ComplexMatrix basis_;
+  ComplexMatrix block_;
+};
+
+double relative(Complex value, Complex reference) {
+  const double size = std::abs(reference);
+  return size > 0 ? std::abs(value - reference) / size : std::abs(value);
+}
+
+double difference(const ContactResponse& a, const ContactResponse& b) {
+  return std::max(relative(a.compliance, b.compliance), relative(a.free, b.free));
+}
+
+/// The ends of the window, the modes in it that respond, and the middles between all of these.
+std::vector<double> places(const std::vector<Mode>& modes, const ModesRequest& request) {
+  std::vector<double> etas = {request.eta_low};
+  for (const Mode& mode : modes) {
+    const bool responds = mode.residue > 0 || std::abs(mode.load_residue) > 0;
+    if (responds && mode.frequency > request.eta_low && mode.frequency < request.eta_high)
+      etas.push_back(mode.frequency);
+  }
+  if (request.eta_high > request.eta_low) etas.push_back(request.eta_high);
+  const std::size_t count = etas.size();
+  for (std::size_t i = 0; i + 1 < count; ++i) etas.push_back(0.5 * (etas[i] + etas[i + 1]));
+  std::sort(etas.begin(), etas.end());
+  return etas;
+}
+
+double change(const std::vector<Mode>& modes, const std::vector<Mode>& before, const ModesRequest& request) {
+  const ModalModel now(modes, request.loss);
+  const ModalModel then(before, request.loss);
+  double worst = 0;
+  for (const double eta : places(modes, request)) worst = std::max(worst, difference(then.at(eta), now.at(eta)));
+  return worst;
+}
+
+std::vector<Mode> all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double below) {
+  RitzSpace space(sector, wave);
+  space.add(ComplexMatrix::Identity(dofs, dofs));
+  return space.modes(below);
+}
+
+std::vector<Mode> lanczos_modes(const FiniteSector& sector, const SectorWave& wave,
+                                const ModesRequest& request, double below, SectorModes& result) {
+  constexpr double growth = 1.15;  // of the space between two looks at its modes
+  constexpr int calm = 2;          // looks in a row without a change
+  Krylov krylov(sector, wave, below);
+  RitzSpace space(sector, wave);
+  std::vector<Mode> modes;
+  double next_look = 6;
+  for (int unchanged = 0; unchanged < calm;) {
+    const ComplexMatrix& block = krylov.next();
+    space.add(block);
+    const bool exhausted = block.cols() == 0;
+    if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
+    next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
+    std::vector<Mode> found = space.modes(below);
+    const bool same = !modes.empty() && change(found, modes, request) <= request.tolerance;
+    unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
+    modes = std::move(found);
+  }
+  result.factorisations += krylov.factorisations();
+  return modes;
+}
+
+/// The full response c and y_0 by sparse LU, refined with residuals in long double.
+class FullResponse {
+ public:
+  FullResponse(const FiniteSector& sector, const SectorWave& wave, const Loss& loss)
+      : extended_(sector, wave), reduction_(sector), matrix_(reduction_.stiffness()), factors_(matrix_),
+        loss_(loss) {
+    reduction_.set_forward(wave.forward());
+  }
+
+  ContactResponse at(double eta) {
+    const double w = two_pi * eta;
+    const Complex k(1, loss_.at(eta));
+    const Complex m(-w * w, two_pi * loss_.mass * w);
+    matrix_ = reduction_.stiffness();
+    matrix_ *= k;
+    for (Index i = 0; i < matrix_.nonZeros(); ++i)
+      matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
+    if (!factors_.factor(matrix_)) throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
+    const auto contact = ExtendedSector::NumberVector::Unit(extended_.size(), extended_.contact());
+    return {solve(contact, k, eta), {}, solve(extended_.load(), k, eta), {}};
+  }
+
+  int factorisations() const { return factors_.full() + factors_.quick(); }
+
+ private:
+  using Number = ExtendedSector::Number;
+  using NumberVector = ExtendedSector::NumberVector;
+
+  /// The motion of the contact under a force.
+  Complex solve(const NumberVector& force, const Complex& k, double eta) {
+    constexpr int most = 10;
+    constexpr double rounding = 1e-15;
+    const long double w = 2 * std::numbers::pi_v<long double> * eta;
+    const Number m(-w * w, 2 * std::numbers::pi_v<long double> * loss_.mass * w);
+    NumberVector motion = NumberVector::Zero(force.size());
+    NumberVector residual = force;
+    for (int i = 0; i < most; ++i) {
+      ComplexMatrix step = residual.cast<Complex>();
+      factors_.solve(step);
+      motion += step.col(0).cast<Number>();
+      const NumberVector unfolded = extended_.unfold(motion);
+      residual = force - Number(k) * extended_.stiffness_times(unfolded) - m * extended_.mass_times(unfolded);
+      if (static_cast<long double>(step.norm()) <= rounding * motion.norm()) break;
+    }
+    return Complex(motion(extended_.contact()));
+  }
+
+  ExtendedSector extended_;
+  SectorReduction reduction_;
+  ComplexSparseMatrix matrix_;
+  ComplexFactors factors_;
+  Loss loss_;
+};
+
+/// Compares the modes with the full solve at some places, evenly among all.
+void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+             SectorModes& result) {
+  std::vector<double> etas = places(result.modes, request);
+  const std::size_t most = 4 + result.modes.size() / 10;
+  if (etas.size() > most) {
+    std::vector<double> some;
+    for (std::size_t i = 0; i < most; ++i) some.push_back(etas[i * (etas.size() - 1) / (most - 1)]);
+    etas = some;
+  }
+  // Modal damping has no matrix; the structural one of the same loss at each mode takes its place.
+  Loss loss = request.loss;
+  loss.structural += loss.modal;
+  loss.modal = 0;
+  const ModalModel model(result.modes, loss);
+  FullResponse full(sector, wave, loss);
+  for (const double eta : etas) {
+    const double error = difference(model.at(eta), full.at(eta));
+    if (!(error <= result.error)) {
+      result.error = error;
+      result.error_eta = eta;
+    }
+  }
+  result.factorisations += full.factorisations();
+  result.check_etas = std::move(etas);
+}
+
+}  // namespace
+
+Complex SectorWave::forward() const {
+  return std::polar(1.0, -two_pi * static_cast<double>(wave_number) / static_cast<double>(sectors));
+}
+
+SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
+  SectorModes result;
+  SectorReduction reduction(sector);
+  reduction.set_forward(wave.forward());
+  check_mass(sector, reduction);
+  result.dofs = sector_map(sector).size;
+  const double below = -square(0.1 * two_pi * request.eta_low);
+  result.modes = result.dofs <= request.all_modes ? all_modes(sector, wave, result.dofs, below)
+                                                  : lanczos_modes(sector, wave, request, below, result);
+  compare(sector, wave, request, result);
+  if (!(result.error <= std::max(worst_error, 1e3 * request.tolerance))) {
+    throw SectorError(fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g}", result.error,
+                                  result.error_eta));
+  }
+  return result;
+}
+
+}  // namespace arcslip
