@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "arcslip/annular_plate.hpp"
 #include "arcslip/chain_sector.hpp"
 #include "arcslip/lowest_frequency.hpp"
@@ -56,6 +58,24 @@ void check_files(const testing::TemporaryFolder& folder, const std::string& name
   }
   CHECK(read_dofs(read(path("left.txt")), "left.txt", sector.mass.rows()) == sector.left);
   CHECK(read_dofs(read(path("right.txt")), "right.txt", sector.mass.rows()) == sector.right);
+}
+
+/// Rows of branches.csv at points that are no regular ones, by the names of the columns.
+std::vector<std::map<std::string, std::string>> special_points(const std::string& folder) {
+  const auto rows = testing::read_csv(folder + "/branches.csv");
+  std::vector<std::map<std::string, std::string>> special;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    std::map<std::string, std::string> row;
+    for (std::size_t k = 0; k < rows[0].size(); ++k) row[rows[0][k]] = rows[i][k];
+    if (row["type"] != "regular") special.push_back(row);
+  }
+  return special;
+}
+
+void run(const std::string& case_path, const std::string& results) {
+  const auto outcome = arcslip_program(fmt::format("run '{}' -o '{}' --quiet", case_path, results));
+  CHECK(outcome.err.empty());
+  REQUIRE(outcome.status == 0);
 }
 
 }  // namespace
@@ -131,4 +151,53 @@ TEST_CASE("The lowest frequency is that of the dense matrices, alone and joined 
   CHECK_THAT(lowest_frequency(both, 3, 24), WithinRel(held, 1e-8));
   CHECK(held < alone);
   CHECK(lowest_frequency(damper, 0, 24) == 0);
+}
+
+TEST_CASE("The beams that arcslip sector writes have the special points of the built-in model", "[program]") {
+  const testing::TemporaryFolder folder;
+  REQUIRE(arcslip_program("sector beams --wave-number 1 --from 3 --to 5 -o '" + folder.path("beams") + "'")
+              .status == 0);
+  run(folder.path("beams/case.toml"), folder.path("written"));
+  run(folder.write(
+          "case.toml",
+          "[system]\nmodel = 'beams'\nwave_number = 1\nelements = 30\nmass_ratio = 5\nfrequency_ratio = 4\n"
+          "slenderness = 33.3\nforce = 1\n[branch]\nparameter = 'eta'\nfrom = 3\nto = 5\n"
+          "for_each = { preload = [0.01, 1, 100] }\n"),
+      folder.path("built_in"));
+  const auto written = special_points(folder.path("written"));
+  const auto expected = special_points(folder.path("built_in"));
+  REQUIRE(written.size() == expected.size());
+  REQUIRE(written.size() > 10);
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    CHECK(written[i].at("type") == expected[i].at("type"));
+    for (const char* column : {"eta", "P", "R", "S", "Y", "U"}) {
+      CAPTURE(i, column);
+      // Points are located to 1e-10, and double matrices leave about as much of the elements' stiffness.
+      CHECK_THAT(std::stod(written[i].at(column)), WithinRel(std::stod(expected[i].at(column)), 1e-8));
+    }
+  }
+}
+
+TEST_CASE("The rotor resonates as the base alone under a light preload, and joined under a heavy one",
+          "[program]") {
+  const testing::TemporaryFolder folder;
+  REQUIRE(arcslip_program("sector plate --radial-elements 3 --angular-elements 2 --ring-elements 2 "
+                          "--contact-stiffness 1e9 --preload 10 --base-damping 1e-3 -o '" +
+                          folder.path("rotor") + "' ")
+              .status == 0);
+  REQUIRE(arcslip_program("run '" + folder.path("rotor/case.toml") + "' -o '" + folder.path("out") +
+                          "' --quiet --set 'branch.for_each={ preload = [1e-4, 1e5] }'")
+              .status == 0);
+  double highest[2] = {0, 0};
+  double eta[2] = {0, 0};
+  for (const auto& point : special_points(folder.path("out"))) {
+    const auto branch = static_cast<std::size_t>(std::stoi(point.at("branch")));
+    if (point.at("type") != "peak" || std::stod(point.at("Y")) < highest[branch]) continue;
+    highest[branch] = std::stod(point.at("Y"));
+    eta[branch] = std::stod(point.at("eta"));
+  }
+  const FiniteSector base = annular_plate_sector(plate());
+  // Damping and the little friction move a peak by squares of a thousandth.
+  CHECK_THAT(eta[0], WithinRel(lowest_frequency(base, 3, 24), 1e-5));
+  CHECK_THAT(eta[1], WithinRel(lowest_frequency(joined(base, ring_sector(ring()), 1e9), 3, 24), 1e-5));
 }
