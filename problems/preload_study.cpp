@@ -77,8 +77,7 @@ double equivalent_damping(const FrictionSystem& system, double zeta, const Prelo
   FrictionSystem damped = system;
   const auto excess = [&](double log_zeta) {
     if (!(log_zeta < 0)) return none;
-    damped.base =
-        system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
+    damped.base = system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
     const Peak peak = free_peak(damped, range, options);
     return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
   };
@@ -310,7 +309,8 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
     Optimum optimum = assembly.optimum();
     const double S = system.slip_threshold(optimum.peak.eta, optimum.peak.preload);
     optimum.energy = parameters.interface_stiffness * S * S * optimum.peak.dissipated;
-    optimum.damping = equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
+    optimum.damping =
+        equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
   } catch (const std::exception& error) {

@@ -19,8 +19,8 @@ ExtendedSector::NumberVector product(const SparseMatrix& matrix, const ExtendedS
 
 ExtendedSector::ExtendedSector(const FiniteSector& sector, const SectorWave& wave)
     : sector_(sector), map_(sector_map(sector)) {
-  const Real a = 2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) /
-                 static_cast<Real>(wave.sectors);
+  const Real a =
+      2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) / static_cast<Real>(wave.sectors);
   forward_ = {std::cos(a), -std::sin(a)};
   load_ = fold(sector.load.cast<Number>());
 }

@@ -270,9 +270,12 @@ ordered_json modes_to_json(const SystemParameters& system) {
   ordered_json parts = ordered_json::object();
   const SectorUse use = sector_use(system);
   const auto add = [&](const char* name, const SectorModes& modes) {
-    parts[name] = {{"dofs", modes.dofs},           {"modes", modes.modes.size()},
-                   {"error", modes.error},         {"error_eta", modes.error_eta},
-                   {"check_etas", modes.check_etas}, {"factorisations", modes.factorisations}};
+    parts[name] = {{"dofs", modes.dofs},
+                   {"modes", modes.modes.size()},
+                   {"error", modes.error},
+                   {"error_eta", modes.error_eta},
+                   {"check_etas", modes.check_etas},
+                   {"factorisations", modes.factorisations}};
   };
   add("base", system.sectors->base_modes(use, system.base_damping));
   if (system.sectors->damper() != nullptr)

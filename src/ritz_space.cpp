@@ -12,8 +12,7 @@ void RitzSpace::widen(NumberMatrix& projection, Index column, const NumberVector
   projection.conservativeResize(column + 1, column + 1);
   for (Index i = 0; i <= column; ++i) {
     Number sum = 0;
-    for (Index dof = 0; dof < product.size(); ++dof)
-      sum += std::conj(Number(basis_(dof, i))) * product(dof);
+    for (Index dof = 0; dof < product.size(); ++dof) sum += std::conj(Number(basis_(dof, i))) * product(dof);
     projection(i, column) = sum;
     projection(column, i) = std::conj(sum);
   }

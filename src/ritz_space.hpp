@@ -17,7 +17,8 @@ class RitzSpace {
 
   Index size() const { return mass_.rows(); }
 
-  /// All modes in the space. `below` < 0 is a shift in w*^2 that makes K - below M definite. Throws SectorError.
+  /// All modes in the space. `below` < 0 is a shift in w*^2 that makes K - below M definite. Throws
+  /// SectorError.
   std::vector<Mode> modes(double below) const;
 
  private:

@@ -108,7 +108,8 @@ double change(const std::vector<Mode>& modes, const std::vector<Mode>& before, c
   const ModalModel now(modes, request.loss);
   const ModalModel then(before, request.loss);
   double worst = 0;
-  for (const double eta : places(modes, request)) worst = std::max(worst, difference(then.at(eta), now.at(eta)));
+  for (const double eta : places(modes, request))
+    worst = std::max(worst, difference(then.at(eta), now.at(eta)));
   return worst;
 }
 
@@ -145,7 +146,10 @@ std::vector<Mode> lanczos_modes(const FiniteSector& sector, const SectorWave& wa
 class FullResponse {
  public:
   FullResponse(const FiniteSector& sector, const SectorWave& wave, const Loss& loss)
-      : extended_(sector, wave), reduction_(sector), matrix_(reduction_.stiffness()), factors_(matrix_),
+      : extended_(sector, wave),
+        reduction_(sector),
+        matrix_(reduction_.stiffness()),
+        factors_(matrix_),
         loss_(loss) {
     reduction_.set_forward(wave.forward());
   }
@@ -158,7 +162,8 @@ class FullResponse {
     matrix_ *= k;
     for (Index i = 0; i < matrix_.nonZeros(); ++i)
       matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
-    if (!factors_.factor(matrix_)) throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
+    if (!factors_.factor(matrix_))
+      throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
     const auto contact = ExtendedSector::NumberVector::Unit(extended_.size(), extended_.contact());
     return {solve(contact, k, eta), {}, solve(extended_.load(), k, eta), {}};
   }

@@ -123,8 +123,7 @@ Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, co
       normal.fullPivLu().solve(Eigen::Vector2d(m.cwiseProduct(c).sum(), k.cwiseProduct(c).sum()));
   const SparseMatrix rest = c - factors(0) * m - factors(1) * k;
   if (rest.norm() > rounding * c.norm()) {
-    throw SectorError(
-        "the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");
+    throw SectorError("the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");
   }
   constexpr double two_pi = 2 * std::numbers::pi;
   return {.viscous = two_pi * factors(1) / k_size, .mass = factors(0) / m_size / two_pi};

@@ -54,8 +54,9 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
     }
     const bool base = key.str() == "base";
     if (!base && key.str() != "damper")
-      document.fail(&node, name, system.sectors ? "unknown key; expected base or damper"
-                                                : "unknown key; expected base, damper or kind");
+      document.fail(&node, name,
+                    system.sectors ? "unknown key; expected base or damper"
+                                   : "unknown key; expected base, damper or kind");
     const NumberRule rule = base && !passive ? damping_rule() : inside(0, 1);
     const double value = node.value<double>().value_or(0);
     if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);

@@ -24,18 +24,19 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "complex_factors", "contact", "dynamic_stiffness", "elements", "extended_sector", "finite_sector", "matrix_market",
-    "modal_model", "physical_scale", "precise", "ritz_space", "sector", "sector_modes", "sector_pair",
-    "sector_reduction", "sector_solver", "system"};
+    "complex_factors", "contact",       "dynamic_stiffness", "elements",       "extended_sector",
+    "finite_sector",   "matrix_market", "modal_model",       "physical_scale", "precise",
+    "ritz_space",      "sector",        "sector_modes",      "sector_pair",    "sector_reduction",
+    "sector_solver",   "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",
                                                "results",          "runs",
-                                               "sector_section",
-                                               "study_case",       "study_extras",
-                                               "study_run",        "study_store",
-                                               "study_results",    "system_section",
-                                               "toml_reader",      "uncertain_section"};
+                                               "sector_section",   "study_case",
+                                               "study_extras",     "study_run",
+                                               "study_store",      "study_results",
+                                               "system_section",   "toml_reader",
+                                               "uncertain_section"};
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {
