@@ -29,7 +29,9 @@ void check(const SystemParameters& system, const PreloadRange& range) {
     throw std::invalid_argument("study_preload: the range of preloads must be positive and not empty");
   if (!(range.eta_low > 0 && range.eta_high > range.eta_low && std::isfinite(range.eta_high)))
     throw std::invalid_argument("study_preload: the window of eta must be positive and not empty");
-  if (!(system.base_damping > 0 && system.damper_damping > 0 && system.cubic_stiffness == 0))
+  // Sectors may have all their damping from elsewhere.
+  const auto passive = [&](double zeta) { return zeta > 0 || (zeta == 0 && system.sectors); };
+  if (!(passive(system.base_damping) && passive(system.damper_damping) && system.cubic_stiffness == 0))
     throw std::invalid_argument("study_preload: the system must be linear and passive but for friction");
   for (const double preload : range.stop_at) {
     if (!(preload >= range.from && preload <= range.to))

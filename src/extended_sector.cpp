@@ -56,4 +56,15 @@ Index ExtendedSector::contact() const {
   return map_.reduced[static_cast<std::size_t>(sector_.contacts.front())];
 }
 
+ExtendedSector::NumberVector ExtendedSector::observed(const NumberVector& reduced) const {
+  NumberVector values(1 + outputs());
+  values(0) = reduced(contact());
+  for (Index i = 0; i < outputs(); ++i) {
+    const auto dof = static_cast<std::size_t>(sector_.outputs[static_cast<std::size_t>(i)]);
+    const Number value = reduced(map_.reduced[dof]);
+    values(1 + i) = map_.is_right[dof] ? forward_ * value : value;
+  }
+  return values;
+}
+
 }  // namespace arcslip

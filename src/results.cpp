@@ -257,10 +257,12 @@ std::string describe_modes(const SystemParameters& system) {
   const ordered_json parts = modes_to_json(system);
   for (const auto& [name, part] : parts.items()) {
     text += fmt::format(
-        "{}{}: {} of {} modes, error {:.1e} against the full solve at {} eta, at worst at eta = {:g}; {} "
+        "{}{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
         "factorisations",
         text.empty() ? "" : "\n  ", name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
-        part["error"].get<double>(), part["check_etas"].size(), part["error_eta"].get<double>(),
+        part["error"].get<double>(),
+        part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
+        part["check_etas"].size(), part["error_eta"].get<double>(),
         part["factorisations"].get<int>());
   }
   return text;

@@ -28,6 +28,7 @@ class PartSection {
     std::vector<std::string> keys = {
         "mass",         "stiffness",           "damping",    "left", "right", "interior", "contact",
         "damping_kind", "reference_frequency", "mass_factor"};
+    keys.emplace_back("output");
     if (loaded) keys.emplace_back("load");
     section_.allow_only(keys);
   }
@@ -45,6 +46,7 @@ class PartSection {
     sector.contacts = dofs("contact");
     if (sector.contacts.size() != 1)
       section_.fail("contact", "expected one dof, got " + count(sector.contacts));
+    if (section_.has("output")) sector.outputs = dofs("output");
     sector.load = loaded_ ? load() : ComplexVector::Zero(size_);
     if (loaded_ && sector.load.isZero(0)) section_.fail("load", "expected a force that is not 0");
     try {

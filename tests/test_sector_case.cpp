@@ -1,4 +1,5 @@
 #include <Eigen/SparseLU>
+#include <array>
 #include <numbers>
 
 #include "arcslip/contact.hpp"
@@ -171,7 +172,8 @@ struct RubbedDisk {
                "[system]\nmodel = \"sector\"\nwave_number = {}\nsectors = {}\ncontact_stiffness = {:.17g}\n"
                "preload = 1.0\ndamping = {{ base = 1e-3, damper = 1e-3 }}\n",
                wave_number, sectors, k) +
-           write_sector(folder, "base", disk, "") + write_sector(folder, "damper", ring, "");
+           write_sector(folder, "base", disk, "output = [2, 3, 4]") +
+           write_sector(folder, "damper", ring, "output = [2]");
   }
 };
 
@@ -248,6 +250,14 @@ TEST_CASE("A whole ring of 300 sectors without reduction moves at every node as 
   one << base.output_free + base.output_compliance * (rubbed.k * phi * r), -damper * rubbed.k * phi * r;
   CHECK((problem.guess(eta, preload).regime == problems::ContactProblem::slip) == (preload < 1));
   CHECK_THAT(std::abs(r), WithinRel(R, 1e-10));
+  Vector values;
+  problem.observe(solution.unknowns, solution.parameters, solution.regime, values);
+  REQUIRE(values.size() == 13);
+  CHECK(problem.observables()[9].name == "Y_2");
+  CHECK(problem.observables()[12].name == "U_2");
+  const std::array<Index, 4> shown = {1, 2, 0, 3};  // dof 4 is the disk of the next sector
+  for (Index i = 0; i < 4; ++i)
+    CHECK_THAT(values(9 + i), WithinRel(std::abs(one(shown[static_cast<std::size_t>(i)])), 1e-10));
   double worst = 0;
   for (Index i = 0; i < N; ++i) {
     const Complex phase = std::pow(forward(n, N), static_cast<double>(i));
@@ -318,4 +328,50 @@ TEST_CASE("What is wrong with a sector's case is told in one line with its place
   CHECK_NOTHROW(read_case(folder.write("case.toml", text)));
   const std::string path = folder.write("case.toml", replaced(text, mistake.from, mistake.to));
   check_message(error_of([&] { read_case(path); }), mistake);
+}
+
+TEST_CASE("Proportional and modal damping of sectors act as their closed forms say") {
+  const RubbedDisk rubbed;
+  const TemporaryFolder folder;
+  const SparseMatrix c = 3.0 * rubbed.disk.mass + 2e-6 * rubbed.disk.stiffness;
+  folder.write("c.mtx", write_matrix_market(c, MatrixSymmetry::symmetric));
+  const std::string text = rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
+  const auto system = [&](const std::string& more, const std::string& damping) {
+    const std::string with = replaced(text, "output = [2, 3, 4]", more);
+    const std::string damped = replaced(with, "damping = { base = 1e-3, damper = 1e-3 }", damping);
+    return build_system(read_case(folder.write("case.toml", damped)).branches.front().problem.system);
+  };
+  const FrictionSystem plain = system("", "damping = { base = 1e-3 }");
+  const auto check = [&](const FrictionSystem& damped, double imaginary) {  // Im d of the first mode at eta = 200
+    const double frequency = damped.base.modes()[0].frequency;
+    CHECK(frequency == plain.base.modes()[0].frequency);
+    CHECK_THAT(damped.base.loss().part(200, frequency), WithinRel(imaginary, 1e-9));
+  };
+  const double f = plain.base.modes()[0].frequency;
+  const double pi = std::numbers::pi;
+  check(plain, 2e-3 * f * f);
+  check(system("damping_kind = \"viscous\"\nreference_frequency = 50", "damping = { base = 1e-3 }"),
+        2e-3 * 200 / 50 * f * f);
+  check(system("damping_kind = \"modal\"", "damping = { base = 1e-3 }"), 2e-3 * f * 200);
+  // j w (alpha M + beta K)/(2 pi)^2 in the mode: w alpha/(2 pi)^2 + w beta f^2.
+  check(system("damping = \"c.mtx\"", ""), 200 * 3 / (2 * pi) + 2 * pi * 200 * 2e-6 * f * f);
+  check(system("mass_factor = 3.0", ""), 200 * 3 / (2 * pi));
+  check(system("mass_factor = 3.0", "damping = { base = 1e-3 }"), 200 * 3 / (2 * pi) + 2e-3 * f * f);
+}
+
+TEST_CASE("A damping matrix that modes do not diagonalise is refused, and where a window is unknown") {
+  const TemporaryFolder folder;
+  const RubbedDisk rubbed;
+  SparseMatrix c = rubbed.disk.stiffness;
+  c.coeffRef(1, 1) *= 2;
+  folder.write("c.mtx", write_matrix_market(c, MatrixSymmetry::symmetric));
+  const std::string text = rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
+  const std::string path =
+      folder.write("case.toml", replaced(text, "output = [2, 3, 4]", "damping = \"c.mtx\""));
+  CHECK_THAT(error_of([&] { read_case(path); }),
+             ContainsSubstring(":8:1: system.base: the damping matrix is not a sum alpha M + beta K"));
+  const std::string cycle = folder.write(
+      "cycle.toml", rubbed.system(folder, 3, 24) +
+                        "[branch]\nresponse = \"limit_cycle\"\nparameter = \"P\"\nfrom = 1\nto = 2\n");
+  CHECK_THAT(error_of([&] { read_case(cycle); }), ContainsSubstring("system.reduction_window"));
 }

@@ -24,6 +24,9 @@ struct SectorPart {
   Loss fixed;
   std::uint64_t fingerprint = 0;  ///< of the files it was read from
 
+  /// Whether it is damped where zeta is 0.
+  bool is_damped() const { return fixed.viscous != 0 || fixed.mass != 0; }
+
   /// Loss over zeta.
   Loss loss_per_zeta() const;
 };
