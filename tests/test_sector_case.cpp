@@ -152,20 +152,9 @@ namespace {
 /// The lumped bladed disk with a ring of one dof a sector that rubs on the disk, of N sectors.
 struct RubbedDisk {
   FiniteSector disk = checked(bladed_disk());
-  FiniteSector ring;
+  FiniteSector ring = lumped_ring();
   double loss = 2e-3;
   double k = 3e5;
-
-  RubbedDisk() {
-    ring.mass = sparse(Matrix(Eigen::Vector2d(0.1, 0).asDiagonal()));
-    Matrix stiffness(2, 2);
-    stiffness << 4e5, -4e5, -4e5, 4e5;
-    ring.stiffness = sparse(stiffness);
-    ring.left = {0};
-    ring.right = {1};
-    ring.contacts = {0};
-    ring.load = ComplexVector::Zero(2);
-  }
 
   std::string system(const TemporaryFolder& folder, Index wave_number, Index sectors) const {
     return fmt::format(
