@@ -71,8 +71,8 @@ TEST_CASE("The README's cases are problems/figure_8.toml, a sector and parts of 
   write_sector(folder, "rotor", bladed_disk(), "");
   write_sector(folder, "ring", lumped_ring(), "");
   const std::string range = "[branch]\nparameter = \"eta\"\nfrom = 100.0\nto = 200.0\n";
-  CHECK_NOTHROW(arcslip::read_case(folder.write("sector.toml", shown[1] + range)));
-  CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[2]));
+  CHECK_NOTHROW(arcslip::read_case(folder.write("sector.toml", shown[2] + range)));
+  CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[1]));
   CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(shown[3]));
   CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[4]));
 }
