@@ -28,10 +28,23 @@ bool ForcedResponse::evaluate(const Vector& u, const Vector& p, int regime,
   return true;
 }
 
+std::vector<continuation::Observable> ForcedResponse::observables() const {
+  std::vector<continuation::Observable> all = ContactProblem::observables();
+  for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
+  return all;
+}
+
 void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   const State at = state(u(0), p, regime);
   const Complex r = -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
   observe_motion(at, u(0), r, p, regime, values);
+  const auto count = values.size();
+  values.conservativeResize(count + std::ssize(system_.outputs));
+  for (std::size_t i = 0; i < system_.outputs.size(); ++i) {
+    const ContactOutput& output = system_.outputs[i];
+    values(count + static_cast<Index>(i)) =
+        std::abs(output.by_load.at(p(eta)).free + at.force * r * output.by_contact.at(p(eta)).free);
+  }
 }
 
 double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,

@@ -22,8 +22,8 @@ LimitCycle::LimitCycle(FrictionSystem system) : system_(std::move(system)) {
 bool LimitCycle::evaluate(const Vector& u, const Vector& p, int /*regime*/,
                           const continuation::Evaluation& out) const {
   if (!(u(eta) > 0) || !system_.is_loaded(u(eta), p(preload))) return false;
-  const DampedCompliance base = system_.base.compliance(u(eta), p(zeta), system_.base_loss_per_zeta,
-                                                              system_.base_loss_fixed);
+  const DampedCompliance base =
+      system_.base.compliance(u(eta), p(zeta), system_.base_loss_per_zeta, system_.base_loss_fixed);
   const ContactResponse damper = system_.damper.at(u(eta));
   const LogThreshold threshold = system_.log_threshold(u(eta), p(preload));
   const HarmonicCoefficient law = slip_coefficient(u(log_R) - threshold.value);
@@ -107,8 +107,8 @@ double LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Ind
 bool LimitCycle::solve(Cycle& cycle) const {
   const Complex force = system_.contact_stiffness * slip_coefficient(cycle.log_ratio).phi;
   for (int iteration = 0; iteration < 50; ++iteration) {
-    const DampedCompliance base = system_.base.compliance(cycle.eta, cycle.zeta, system_.base_loss_per_zeta,
-                                                              system_.base_loss_fixed);
+    const DampedCompliance base =
+        system_.base.compliance(cycle.eta, cycle.zeta, system_.base_loss_per_zeta, system_.base_loss_fixed);
     const ContactResponse damper = system_.damper.at(cycle.eta);
     const Complex c = base.value + damper.compliance;
     const Complex value = force + 1.0 / c;

@@ -49,6 +49,12 @@ PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNod
   return node;
 }
 
+PeakNode ridge_node(const BranchPoint& point) {
+  PeakNode node{point.parameters(0), point.unknowns(PeakRidge::eta), 0};
+  node.w = point.unknowns(PeakRidge::root_of_log_ratio);
+  return node;
+}
+
 /// Whether a ridge has all but turned in P, so that no digit of P is left between a peak and a trough.
 bool turns(const BranchPoint& point) {
   return std::abs(point.tangent(2)) <= 1e-4 * point.parameters(0) * point.tangent.norm();
@@ -226,7 +232,7 @@ bool PeakSearch::follow(const PeakNode& start) {
   };
   const Branch curve = continuation::trace_both(ridge, guess, options, follow_with_unit);
   const auto is_lost = [&](continuation::Stop stop, const BranchPoint& end) {
-    return !is_end(stop) && !turns(end);
+    return !is_end(stop) && !turns(end) && meeting_at(ridge_node(end)) == nullptr;
   };
   if (curve.points.empty() || is_lost(curve.stop, curve.points.back()) ||
       (curve.first_stop && is_lost(*curve.first_stop, curve.points.front()))) {
@@ -243,8 +249,7 @@ bool PeakSearch::follow(const PeakNode& start) {
 void PeakSearch::add_sections(const Branch& curve) {
   std::vector<PeakNode> nodes;
   for (const BranchPoint& point : curve.points) {
-    PeakNode node{point.parameters(0), point.unknowns(PeakRidge::eta), 0};
-    node.w = point.unknowns(PeakRidge::root_of_log_ratio);
+    PeakNode node = ridge_node(point);
     node.log_R = problem_.system().log_threshold(node.eta, node.preload).value + node.w * node.w;
     node.arclength = point.arclength;
     node.d_w = point.tangent(PeakRidge::root_of_log_ratio);
@@ -264,24 +269,34 @@ void PeakSearch::add_section(std::vector<PeakNode> nodes) {
   const bool peak = ridge_point(problem_.system(), middle.w, middle.eta, middle.preload).is_peak();
   snap(nodes.front());
   snap(nodes.back());
-  if (peak) add(PeakSite::slip, std::move(nodes));
+  if (!peak) return;
+  const auto [low, high] = std::minmax(nodes.front().preload, nodes.back().preload);
+  nodes.erase(std::remove_if(
+                  nodes.begin() + 1, nodes.end() - 1,
+                  [low, high](const PeakNode& node) { return !(node.preload > low && node.preload < high); }),
+              nodes.end() - 1);
+  add(PeakSite::slip, std::move(nodes));
+}
+
+PeakSearch::Meeting* PeakSearch::meeting_at(const PeakNode& end) {
+  const auto met = std::find_if(meetings_.begin(), meetings_.end(), [&](const Meeting& meeting) {
+    const double apart = std::abs(meeting.node.eta - end.eta) / end.eta;
+    const double preload_apart = std::abs(meeting.node.preload - end.preload) / end.preload;
+    return meeting.inwards == 0 ? end.w * end.w <= 1e-9 && apart <= 1e-6 && preload_apart <= 1e-2
+                                : apart <= 1e-9 && preload_apart <= 1e-6;
+  });
+  return met == meetings_.end() ? nullptr : &*met;
 }
 
 /// The end of a curve at the border or at an end of the window is the place where it was found there itself.
 void PeakSearch::snap(PeakNode& end) {
-  constexpr double same = 1e-6;
-  for (Meeting& meeting : meetings_) {
-    const double apart = std::abs(meeting.node.eta - end.eta) / end.eta;
-    const bool there = meeting.inwards == 0 ? std::abs(end.w) <= same && apart <= same
-                                            : apart <= 1e-9 && std::abs(meeting.node.preload - end.preload) <=
-                                                                   same * end.preload;
-    if (!there) continue;
-    meeting.met = true;
-    end.eta = meeting.node.eta;
-    end.preload = meeting.node.preload;
-    end.log_R = meeting.node.log_R;
-    end.w = meeting.node.w;
-  }
+  Meeting* meeting = meeting_at(end);
+  if (meeting == nullptr) return;
+  meeting->met = true;
+  end.eta = meeting->node.eta;
+  end.preload = meeting->node.preload;
+  end.log_R = meeting->node.log_R;
+  end.w = meeting->node.w;
 }
 
 double PeakSearch::log_ratio(const PeakNode& node) const {

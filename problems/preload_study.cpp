@@ -29,7 +29,9 @@ void check(const SystemParameters& system, const PreloadRange& range) {
     throw std::invalid_argument("study_preload: the range of preloads must be positive and not empty");
   if (!(range.eta_low > 0 && range.eta_high > range.eta_low && std::isfinite(range.eta_high)))
     throw std::invalid_argument("study_preload: the window of eta must be positive and not empty");
-  if (!(system.base_damping > 0 && system.damper_damping > 0 && system.cubic_stiffness == 0))
+  // Sectors may have all their damping from elsewhere.
+  const auto passive = [&](double zeta) { return zeta > 0 || (zeta == 0 && system.sectors); };
+  if (!(passive(system.base_damping) && passive(system.damper_damping) && system.cubic_stiffness == 0))
     throw std::invalid_argument("study_preload: the system must be linear and passive but for friction");
   for (const double preload : range.stop_at) {
     if (!(preload >= range.from && preload <= range.to))
@@ -77,8 +79,7 @@ double equivalent_damping(const FrictionSystem& system, double zeta, const Prelo
   FrictionSystem damped = system;
   const auto excess = [&](double log_zeta) {
     if (!(log_zeta < 0)) return none;
-    damped.base =
-        system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
+    damped.base = system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
     const Peak peak = free_peak(damped, range, options);
     return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
   };
@@ -310,7 +311,8 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
     Optimum optimum = assembly.optimum();
     const double S = system.slip_threshold(optimum.peak.eta, optimum.peak.preload);
     optimum.energy = parameters.interface_stiffness * S * S * optimum.peak.dissipated;
-    optimum.damping = equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
+    optimum.damping =
+        equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
   } catch (const std::exception& error) {

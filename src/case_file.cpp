@@ -177,8 +177,7 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
                                     const CaseBranch& common, const std::string& parameter) {
   if (common.problem.is_limit_cycle()) return {0, 0};
   if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
-  if (common.options.parameter == "eta")
-    return std::minmax({common.options.from, common.options.to});
+  if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
   for (std::size_t i = 0; i < for_each.count(); ++i) {
     const ForEachSet set = for_each.at(i);

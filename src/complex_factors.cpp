@@ -47,8 +47,8 @@ bool ComplexFactors::factor_with_old_pivots(ComplexSparseMatrix& matrix) {
 bool ComplexFactors::factor_with_new_pivots(ComplexSparseMatrix& matrix) {
   ++full_;
   klu_z_free_numeric(&numeric_, &common_);
-  numeric_ = klu_z_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix), symbolic_,
-                          &common_);
+  numeric_ =
+      klu_z_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix), symbolic_, &common_);
   check_memory();
   if (numeric_ == nullptr || common_.status != KLU_OK || !regular()) return false;
   chosen_growth_ = growth(matrix);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Sparse LU factorisation of complex matrices that share one pattern of entries: KLU of SuiteSparse [Davis and
-// Natarajan, ACM Trans. Math. Softw. 37 (2010) 36], whose order of elimination serves them all, and whose
+// Sparse LU factorisation of complex matrices that share one pattern of entries: KLU of SuiteSparse [Davis
+// and Natarajan, ACM Trans. Math. Softw. 37 (2010) 36], whose order of elimination serves them all, and whose
 // pivots serve the next matrix as long as they are good.
 
 #include <klu.h>

@@ -19,8 +19,8 @@ ExtendedSector::NumberVector product(const SparseMatrix& matrix, const ExtendedS
 
 ExtendedSector::ExtendedSector(const FiniteSector& sector, const SectorWave& wave)
     : sector_(sector), map_(sector_map(sector)) {
-  const Real a = 2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) /
-                 static_cast<Real>(wave.sectors);
+  const Real a =
+      2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) / static_cast<Real>(wave.sectors);
   forward_ = {std::cos(a), -std::sin(a)};
   load_ = fold(sector.load.cast<Number>());
 }
@@ -54,6 +54,17 @@ ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector&
 
 Index ExtendedSector::contact() const {
   return map_.reduced[static_cast<std::size_t>(sector_.contacts.front())];
+}
+
+ExtendedSector::NumberVector ExtendedSector::observed(const NumberVector& reduced) const {
+  NumberVector values(1 + outputs());
+  values(0) = reduced(contact());
+  for (Index i = 0; i < outputs(); ++i) {
+    const auto dof = static_cast<std::size_t>(sector_.outputs[static_cast<std::size_t>(i)]);
+    const Number value = reduced(map_.reduced[dof]);
+    values(1 + i) = map_.is_right[dof] ? forward_ * value : value;
+  }
+  return values;
 }
 
 }  // namespace arcslip

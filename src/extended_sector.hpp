@@ -30,6 +30,9 @@ class ExtendedSector {
   Index size() const { return map_.size; }
   /// Reduced dof of the contact.
   Index contact() const;
+  Index outputs() const { return std::ssize(sector_.outputs); }
+  /// The contact and the outputs of a reduced vector.
+  NumberVector observed(const NumberVector& reduced) const;
 
  private:
   const FiniteSector& sector_;

@@ -257,10 +257,12 @@ std::string describe_modes(const SystemParameters& system) {
   const ordered_json parts = modes_to_json(system);
   for (const auto& [name, part] : parts.items()) {
     text += fmt::format(
-        "{}{}: {} of {} modes, error {:.1e} against the full solve at {} eta, at worst at eta = {:g}; {} "
+        "{}{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
         "factorisations",
         text.empty() ? "" : "\n  ", name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
-        part["error"].get<double>(), part["check_etas"].size(), part["error_eta"].get<double>(),
+        part["error"].get<double>(),
+        part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
+        part["check_etas"].size(), part["error_eta"].get<double>(),
         part["factorisations"].get<int>());
   }
   return text;
@@ -270,9 +272,12 @@ ordered_json modes_to_json(const SystemParameters& system) {
   ordered_json parts = ordered_json::object();
   const SectorUse use = sector_use(system);
   const auto add = [&](const char* name, const SectorModes& modes) {
-    parts[name] = {{"dofs", modes.dofs},           {"modes", modes.modes.size()},
-                   {"error", modes.error},         {"error_eta", modes.error_eta},
-                   {"check_etas", modes.check_etas}, {"factorisations", modes.factorisations}};
+    parts[name] = {{"dofs", modes.dofs},
+                   {"modes", modes.modes.size()},
+                   {"error", modes.error},
+                   {"error_eta", modes.error_eta},
+                   {"check_etas", modes.check_etas},
+                   {"factorisations", modes.factorisations}};
   };
   add("base", system.sectors->base_modes(use, system.base_damping));
   if (system.sectors->damper() != nullptr)

@@ -12,8 +12,7 @@ void RitzSpace::widen(NumberMatrix& projection, Index column, const NumberVector
   projection.conservativeResize(column + 1, column + 1);
   for (Index i = 0; i <= column; ++i) {
     Number sum = 0;
-    for (Index dof = 0; dof < product.size(); ++dof)
-      sum += std::conj(Number(basis_(dof, i))) * product(dof);
+    for (Index dof = 0; dof < product.size(); ++dof) sum += std::conj(Number(basis_(dof, i))) * product(dof);
     projection(i, column) = sum;
     projection(column, i) = std::conj(sum);
   }
@@ -34,7 +33,7 @@ void RitzSpace::add(const ComplexMatrix& columns) {
   }
 }
 
-std::vector<Mode> RitzSpace::modes(double below) const {
+SectorModes RitzSpace::modes(double below) const {
   const Real shift = below;
   // Of this pencil the lowest modes are the largest and keep all their digits.
   const NumberMatrix shifted = stiffness_ - Number(shift) * mass_;
@@ -44,19 +43,26 @@ std::vector<Mode> RitzSpace::modes(double below) const {
     throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
   const Eigen::GeneralizedSelfAdjointEigenSolver<NumberMatrix> solver(mass_, shifted);
   if (solver.info() != Eigen::Success) throw SectorError("the modes of the sector were not found");
-  const NumberVector at_contact = basis_.row(sector_.contact()).transpose().cast<Number>();
+  NumberMatrix observed(1 + sector_.outputs(), size());  // of each vector at the contact and the outputs
+  for (Index i = 0; i < size(); ++i) observed.col(i) = sector_.observed(basis_.col(i).cast<Number>());
   const Real two_pi = 2 * std::numbers::pi_v<Real>;
-  std::vector<Mode> modes;
-  for (Index k = size(); k-- > 0;) {
-    const Real theta = solver.eigenvalues()(k);  // 1/(lambda - shift)
-    const NumberVector shape = solver.eigenvectors().col(k) / (std::sqrt(theta) * two_pi);
-    const Number contact_part = at_contact.conjugate().dot(shape);
-    const Number load_part = shape.dot(load_);
+  SectorModes found;
+  found.output_by_contact.resize(sector_.outputs(), size());
+  found.output_by_load.resize(sector_.outputs(), size());
+  for (Index k = 0; k < size(); ++k) {
+    const Index place = size() - 1 - k;
+    const Real theta = solver.eigenvalues()(place);  // 1/(lambda - shift)
+    const NumberVector shape = solver.eigenvectors().col(place) / (std::sqrt(theta) * two_pi);
+    const NumberVector motion = observed * shape;
+    const Number by_load = shape.dot(load_);
     const Real square = std::max(shift + 1 / theta, Real(0));
-    modes.push_back({static_cast<double>(std::sqrt(square) / two_pi),
-                     static_cast<double>(std::norm(contact_part)), Complex(contact_part * load_part)});
+    found.modes.push_back({static_cast<double>(std::sqrt(square) / two_pi),
+                           static_cast<double>(std::norm(motion(0))), Complex(motion(0) * by_load)});
+    const NumberVector outputs = motion.tail(sector_.outputs());
+    found.output_by_contact.col(k) = (outputs * std::conj(motion(0))).cast<Complex>();
+    found.output_by_load.col(k) = (outputs * by_load).cast<Complex>();
   }
-  return modes;
+  return found;
 }
 
 }  // namespace arcslip

@@ -85,8 +85,34 @@ double relative(Complex value, Complex reference) {
   return size > 0 ? std::abs(value - reference) / size : std::abs(value);
 }
 
-double difference(const ContactResponse& a, const ContactResponse& b) {
-  return std::max(relative(a.compliance, b.compliance), relative(a.free, b.free));
+/// Motions under a unit force on the contact (column 0) and under the load (column 1), of the contact (row 0) and
+/// the outputs.
+ComplexMatrix response(const SectorModes& found, const Loss& loss, double eta) {
+  const Index outputs = found.output_by_contact.rows();
+  ComplexMatrix motion = ComplexMatrix::Zero(1 + outputs, 2);
+  for (std::size_t k = 0; k < found.modes.size(); ++k) {
+    const Mode& mode = found.modes[k];
+    const Complex inverse = 1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta),
+                                          loss.part(eta, mode.frequency));
+    const auto column = static_cast<Index>(k);
+    motion(0, 0) += mode.residue * inverse;
+    motion(0, 1) += mode.load_residue * inverse;
+    motion.col(0).tail(outputs) += inverse * found.output_by_contact.col(column);
+    motion.col(1).tail(outputs) += inverse * found.output_by_load.col(column);
+  }
+  return motion;
+}
+
+/// Largest relative difference, where outputs are measured by the largest of them.
+double difference(const ComplexMatrix& motion, const ComplexMatrix& reference) {
+  double worst = 0;
+  for (Index column = 0; column < 2; ++column) {
+    worst = std::max(worst, relative(motion(0, column), reference(0, column)));
+    const double size = reference.col(column).cwiseAbs().maxCoeff();
+    if (size > 0)
+      worst = std::max(worst, (motion - reference).col(column).cwiseAbs().maxCoeff() / size);
+  }
+  return worst;
 }
 
 /// The ends of the window, the modes in it that respond, and the middles between all of these.
@@ -104,27 +130,28 @@ std::vector<double> places(const std::vector<Mode>& modes, const ModesRequest& r
   return etas;
 }
 
-double change(const std::vector<Mode>& modes, const std::vector<Mode>& before, const ModesRequest& request) {
-  const ModalModel now(modes, request.loss);
-  const ModalModel then(before, request.loss);
+double change(const SectorModes& now, const SectorModes& before, const ModesRequest& request) {
   double worst = 0;
-  for (const double eta : places(modes, request)) worst = std::max(worst, difference(then.at(eta), now.at(eta)));
+  for (const double eta : places(now.modes, request)) {
+    worst = std::max(worst,
+                     difference(response(before, request.loss, eta), response(now, request.loss, eta)));
+  }
   return worst;
 }
 
-std::vector<Mode> all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double below) {
+SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double below) {
   RitzSpace space(sector, wave);
   space.add(ComplexMatrix::Identity(dofs, dofs));
   return space.modes(below);
 }
 
-std::vector<Mode> lanczos_modes(const FiniteSector& sector, const SectorWave& wave,
-                                const ModesRequest& request, double below, SectorModes& result) {
+SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+                          double below) {
   constexpr double growth = 1.15;  // of the space between two looks at its modes
   constexpr int calm = 2;          // looks in a row without a change
   Krylov krylov(sector, wave, below);
   RitzSpace space(sector, wave);
-  std::vector<Mode> modes;
+  SectorModes modes;
   double next_look = 6;
   for (int unchanged = 0; unchanged < calm;) {
     const ComplexMatrix& block = krylov.next();
@@ -132,25 +159,28 @@ std::vector<Mode> lanczos_modes(const FiniteSector& sector, const SectorWave& wa
     const bool exhausted = block.cols() == 0;
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
     next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
-    std::vector<Mode> found = space.modes(below);
-    const bool same = !modes.empty() && change(found, modes, request) <= request.tolerance;
+    SectorModes found = space.modes(below);
+    const bool same = !modes.modes.empty() && change(found, modes, request) <= request.tolerance;
     unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
     modes = std::move(found);
   }
-  result.factorisations += krylov.factorisations();
+  modes.factorisations = krylov.factorisations();
   return modes;
 }
 
-/// The full response c and y_0 by sparse LU, refined with residuals in long double.
+/// The full response by sparse LU, refined with residuals in long double.
 class FullResponse {
  public:
   FullResponse(const FiniteSector& sector, const SectorWave& wave, const Loss& loss)
-      : extended_(sector, wave), reduction_(sector), matrix_(reduction_.stiffness()), factors_(matrix_),
+      : extended_(sector, wave),
+        reduction_(sector),
+        matrix_(reduction_.stiffness()),
+        factors_(matrix_),
         loss_(loss) {
     reduction_.set_forward(wave.forward());
   }
 
-  ContactResponse at(double eta) {
+  ComplexMatrix at(double eta) {
     const double w = two_pi * eta;
     const Complex k(1, loss_.at(eta));
     const Complex m(-w * w, two_pi * loss_.mass * w);
@@ -158,9 +188,13 @@ class FullResponse {
     matrix_ *= k;
     for (Index i = 0; i < matrix_.nonZeros(); ++i)
       matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
-    if (!factors_.factor(matrix_)) throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
+    if (!factors_.factor(matrix_))
+      throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
     const auto contact = ExtendedSector::NumberVector::Unit(extended_.size(), extended_.contact());
-    return {solve(contact, k, eta), {}, solve(extended_.load(), k, eta), {}};
+    ComplexMatrix motion(1 + extended_.outputs(), 2);
+    motion.col(0) = solve(contact, k, eta);
+    motion.col(1) = solve(extended_.load(), k, eta);
+    return motion;
   }
 
   int factorisations() const { return factors_.full() + factors_.quick(); }
@@ -169,8 +203,8 @@ class FullResponse {
   using Number = ExtendedSector::Number;
   using NumberVector = ExtendedSector::NumberVector;
 
-  /// The motion of the contact under a force.
-  Complex solve(const NumberVector& force, const Complex& k, double eta) {
+  /// The motions of contact and outputs under a force.
+  ComplexVector solve(const NumberVector& force, const Complex& k, double eta) {
     constexpr int most = 10;
     constexpr double rounding = 1e-15;
     const long double w = 2 * std::numbers::pi_v<long double> * eta;
@@ -185,7 +219,7 @@ class FullResponse {
       residual = force - Number(k) * extended_.stiffness_times(unfolded) - m * extended_.mass_times(unfolded);
       if (static_cast<long double>(step.norm()) <= rounding * motion.norm()) break;
     }
-    return Complex(motion(extended_.contact()));
+    return extended_.observed(motion).cast<Complex>();
   }
 
   ExtendedSector extended_;
@@ -209,10 +243,9 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
   Loss loss = request.loss;
   loss.structural += loss.modal;
   loss.modal = 0;
-  const ModalModel model(result.modes, loss);
   FullResponse full(sector, wave, loss);
   for (const double eta : etas) {
-    const double error = difference(model.at(eta), full.at(eta));
+    const double error = difference(response(result, loss, eta), full.at(eta));
     if (!(error <= result.error)) {
       result.error = error;
       result.error_eta = eta;
@@ -229,14 +262,14 @@ Complex SectorWave::forward() const {
 }
 
 SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
-  SectorModes result;
   SectorReduction reduction(sector);
   reduction.set_forward(wave.forward());
   check_mass(sector, reduction);
-  result.dofs = sector_map(sector).size;
   const double below = -square(0.1 * two_pi * request.eta_low);
-  result.modes = result.dofs <= request.all_modes ? all_modes(sector, wave, result.dofs, below)
-                                                  : lanczos_modes(sector, wave, request, below, result);
+  const Index dofs = reduction.size();
+  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, dofs, below)
+                                                 : lanczos_modes(sector, wave, request, below);
+  result.dofs = dofs;
   compare(sector, wave, request, result);
   if (!(result.error <= std::max(worst_error, 1e3 * request.tolerance))) {
     throw SectorError(fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g}", result.error,

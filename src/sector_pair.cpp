@@ -78,27 +78,51 @@ SectorUse sector_use(const SystemParameters& parameters) {
   return {{parameters.wave_number, parameters.elements}, parameters.eta_low, parameters.eta_high};
 }
 
+namespace {
+
+/// The outputs of a part, whose contact feels `sign` times the base's force.
+void add_outputs(const SectorPart& part, const SectorModes& found, const Loss& loss, const char* letter,
+                 Complex sign, double force, std::vector<ContactOutput>& outputs) {
+  for (Index i = 0; i < found.output_by_load.rows(); ++i) {
+    std::vector<Mode> by_load = found.modes;
+    std::vector<Mode> by_contact = found.modes;
+    for (std::size_t k = 0; k < found.modes.size(); ++k) {
+      by_load[k].load_residue = force * found.output_by_load(i, static_cast<Index>(k));
+      by_contact[k].load_residue = sign * found.output_by_contact(i, static_cast<Index>(k));
+    }
+    const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
+    outputs.push_back({std::string(letter) + "_" + std::to_string(dof),
+                       {std::move(by_load), loss},
+                       {std::move(by_contact), loss}});
+  }
+}
+
+}  // namespace
+
 FrictionSystem build_sector_system(const SystemParameters& parameters) {
   const SectorPair& sectors = *parameters.sectors;
   const SectorUse use = sector_use(parameters);
-  const auto loss = [](const SectorPart& part, double zeta) {
-    return part.fixed + zeta * part.loss_per_zeta();
-  };
-  std::vector<Mode> base = sectors.base_modes(use, parameters.base_damping).modes;
-  for (Mode& mode : base) mode.load_residue *= parameters.force;
-  ModalModel damper;
-  if (sectors.damper() != nullptr) {
-    std::vector<Mode> modes = sectors.damper_modes(use, parameters.damper_damping).modes;
-    damper = ModalModel(std::move(modes), loss(*sectors.damper(), parameters.damper_damping));
-  }
   const double k = parameters.interface_stiffness / static_cast<double>(parameters.elements);
-  return {.base = ModalModel(std::move(base), loss(sectors.base(), parameters.base_damping)),
-          .damper = damper,
-          .contact_stiffness = k,
-          .slip_per_preload = parameters.limit_per_preload / k,
-          .base_loss_per_zeta = sectors.base().loss_per_zeta(),
-          .preload_growth = parameters.preload_growth,
-          .base_loss_fixed = sectors.base().fixed};
+  const SectorPart& base = sectors.base();
+  const Loss base_loss = base.fixed + parameters.base_damping * base.loss_per_zeta();
+  const SectorModes& base_modes = sectors.base_modes(use, parameters.base_damping);
+  std::vector<Mode> loaded = base_modes.modes;
+  for (Mode& mode : loaded) mode.load_residue *= parameters.force;
+  FrictionSystem system{.base = ModalModel(std::move(loaded), base_loss),
+                        .damper = {},
+                        .contact_stiffness = k,
+                        .slip_per_preload = parameters.limit_per_preload / k,
+                        .base_loss_per_zeta = base.loss_per_zeta(),
+                        .preload_growth = parameters.preload_growth,
+                        .base_loss_fixed = base.fixed};
+  add_outputs(base, base_modes, base_loss, "Y", 1, parameters.force, system.outputs);
+  if (sectors.damper() == nullptr) return system;
+  const SectorPart& damper = *sectors.damper();
+  const Loss loss = damper.fixed + parameters.damper_damping * damper.loss_per_zeta();
+  const SectorModes& modes = sectors.damper_modes(use, parameters.damper_damping);
+  system.damper = ModalModel(modes.modes, loss);
+  add_outputs(damper, modes, loss, "U", -1, 0, system.outputs);
+  return system;
 }
 
 Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness) {
@@ -123,8 +147,7 @@ Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, co
       normal.fullPivLu().solve(Eigen::Vector2d(m.cwiseProduct(c).sum(), k.cwiseProduct(c).sum()));
   const SparseMatrix rest = c - factors(0) * m - factors(1) * k;
   if (rest.norm() > rounding * c.norm()) {
-    throw SectorError(
-        "the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");
+    throw SectorError("the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");
   }
   constexpr double two_pi = 2 * std::numbers::pi;
   return {.viscous = two_pi * factors(1) / k_size, .mass = factors(0) / m_size / two_pi};

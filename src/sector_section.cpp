@@ -25,9 +25,10 @@ class PartSection {
         section_(document, path),
         folder_(std::filesystem::path(document.path()).parent_path()),
         loaded_(loaded) {
-    std::vector<std::string> keys = {"mass",     "stiffness", "damping",      "left",
-                                     "right",    "interior",  "contact",      "damping_kind",
-                                     "reference_frequency",   "mass_factor"};
+    std::vector<std::string> keys = {
+        "mass",         "stiffness",           "damping",    "left", "right", "interior", "contact",
+        "damping_kind", "reference_frequency", "mass_factor"};
+    keys.emplace_back("output");
     if (loaded) keys.emplace_back("load");
     section_.allow_only(keys);
   }
@@ -43,7 +44,9 @@ class PartSection {
     sector.right = dofs("right");
     if (section_.has("interior")) sector.interior = dofs("interior");
     sector.contacts = dofs("contact");
-    if (sector.contacts.size() != 1) section_.fail("contact", "expected one dof, got " + count(sector.contacts));
+    if (sector.contacts.size() != 1)
+      section_.fail("contact", "expected one dof, got " + count(sector.contacts));
+    if (section_.has("output")) sector.outputs = dofs("output");
     sector.load = loaded_ ? load() : ComplexVector::Zero(size_);
     if (loaded_ && sector.load.isZero(0)) section_.fail("load", "expected a force that is not 0");
     try {
@@ -106,9 +109,8 @@ class PartSection {
 
   SparseMatrix matrix(std::string_view key) {
     section_.require(key, "a Matrix Market file");
-    return parsed(key, [](const std::string& text, const std::string& path) {
-      return read_matrix_market(text, path);
-    });
+    return parsed(
+        key, [](const std::string& text, const std::string& path) { return read_matrix_market(text, path); });
   }
 
   std::vector<Index> dofs(std::string_view key) {
@@ -124,9 +126,9 @@ class PartSection {
   }
 
   std::vector<Index> listed(const TomlSection& section, std::string_view key) const {
-    const NumberRule rule{[&](double dof) { return dof >= 1 && dof <= static_cast<double>(size_) &&
-                                                   dof == std::floor(dof); },
-                          fmt::format(" that is a dof from 1 to {}", size_)};
+    const NumberRule rule{
+        [&](double dof) { return dof >= 1 && dof <= static_cast<double>(size_) && dof == std::floor(dof); },
+        fmt::format(" that is a dof from 1 to {}", size_)};
     std::vector<Index> dofs;
     for (const double dof : section.numbers(key, rule)) dofs.push_back(static_cast<Index>(dof) - 1);
     return dofs;

@@ -14,7 +14,8 @@ bool is_sector(const TomlDocument& document);
 
 std::vector<std::string> sector_keys();
 
-/// What [system.base] and [system.damper] say, with their files read; null of other models. Throws InputError.
+/// What [system.base] and [system.damper] say, with their files read; null of other models. Throws
+/// InputError.
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document);
 
 /// Reads [system] but for its damping. Throws InputError.

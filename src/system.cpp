@@ -64,6 +64,7 @@ FrictionSystem build_system(const SystemParameters& parameters) {
           base_loss_per_zeta(parameters),
           parameters.cubic_stiffness * parameters.stiffness_ratio() / elements,
           parameters.preload_growth,
+          {},
           {}};
 }
 

@@ -38,8 +38,19 @@ double read_interface_stiffness(const TomlSection& section, StructureModel model
   return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
 }
 
+/// What a damping ratio may be. That of a sector with damping of another kind may be 0.
+NumberRule ratio_rule(bool may_be_negative, const SectorPart* part) {
+  if (part == nullptr || !part->is_damped()) return may_be_negative ? damping_rule() : inside(0, 1);
+  if (may_be_negative) return {[](double zeta) { return std::abs(zeta) < 1; }, " > -1 and < 1"};
+  return {[](double zeta) { return zeta >= 0 && zeta < 1; }, " >= 0 and < 1"};
+}
+
 void read_damping(const TomlDocument& document, const TomlSection& section, bool passive,
                   SystemParameters& system) {
+  const SectorPart* base_part = system.sectors ? &system.sectors->base() : nullptr;
+  const SectorPart* damper_part = system.sectors ? system.sectors->damper() : nullptr;
+  if (base_part != nullptr && base_part->is_damped()) system.base_damping = 0;
+  if (damper_part != nullptr && damper_part->is_damped()) system.damper_damping = 0;
   if (!section.has("damping")) return;
   const toml::table* table = section.require("damping", "a table").as_table();
   if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
@@ -54,9 +65,10 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
     }
     const bool base = key.str() == "base";
     if (!base && key.str() != "damper")
-      document.fail(&node, name, system.sectors ? "unknown key; expected base or damper"
-                                                : "unknown key; expected base, damper or kind");
-    const NumberRule rule = base && !passive ? damping_rule() : inside(0, 1);
+      document.fail(&node, name,
+                    system.sectors ? "unknown key; expected base or damper"
+                                   : "unknown key; expected base, damper or kind");
+    const NumberRule rule = ratio_rule(base && !passive, base ? base_part : damper_part);
     const double value = node.value<double>().value_or(0);
     if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
     (base ? system.base_damping : system.damper_damping) = value;

@@ -76,4 +76,18 @@ inline FiniteSector bladed_disk() {
   return sector;
 }
 
+/// A ring of one dof a sector.
+inline FiniteSector lumped_ring() {
+  FiniteSector sector;
+  sector.mass = sparse(Matrix(Eigen::Vector2d(0.1, 0).asDiagonal()));
+  Matrix stiffness(2, 2);
+  stiffness << 4e5, -4e5, -4e5, 4e5;
+  sector.stiffness = sparse(stiffness);
+  sector.left = {0};
+  sector.right = {1};
+  sector.contacts = {0};
+  sector.load = ComplexVector::Zero(2);
+  return sector;
+}
+
 }  // namespace arcslip::testing

@@ -80,7 +80,7 @@ std::vector<std::string> complaints(const StudyRun& run, std::size_t rows) {
 
 }  // namespace
 
-TEST_CASE("Studies of random systems hold all peaks that the dense scan finds", "[.][random]") {
+TEST_CASE("Studies of random systems hold all peaks that the dense scan finds", "[random]") {
   RandomStudies draw(20240607);
   for (int i = 0; i < 30; ++i) {
     const StudyRun run = draw.run();

@@ -9,9 +9,12 @@
 
 #include "arcslip/case_file.hpp"
 #include "catch.hpp"
-#include "temporary_folder.hpp"
+#include "sector_files.hpp"
 
+using arcslip::testing::bladed_disk;
+using arcslip::testing::lumped_ring;
 using arcslip::testing::read;
+using arcslip::testing::write_sector;
 
 namespace {
 
@@ -58,16 +61,20 @@ TEST_CASE("The README's C++ is that of the project which the tests build against
   }
 }
 
-TEST_CASE("The README's cases are problems/figure_8.toml and parts of others") {
+TEST_CASE("The README's cases are problems/figure_8.toml, a sector and parts of others") {
   const auto shown = blocks(read(source + "/README.md"), "toml");
-  REQUIRE(shown.size() == 4);
+  REQUIRE(shown.size() == 5);
   const arcslip::testing::TemporaryFolder folder;
   const arcslip::Case first = arcslip::read_case(folder.write("case.toml", shown[0]));
   const arcslip::Case figure_8 = arcslip::read_case(source + "/problems/figure_8.toml");
   CHECK(first.resolved == figure_8.resolved);
+  write_sector(folder, "rotor", bladed_disk(), "");
+  write_sector(folder, "ring", lumped_ring(), "");
+  const std::string range = "[branch]\nparameter = \"eta\"\nfrom = 100.0\nto = 200.0\n";
+  CHECK_NOTHROW(arcslip::read_case(folder.write("sector.toml", shown[2] + range)));
   CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[1]));
-  CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(shown[2]));
-  CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[3]));
+  CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(shown[3]));
+  CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[4]));
 }
 
 TEST_CASE("Every case file stands in the README's table") {

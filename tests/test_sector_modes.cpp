@@ -29,8 +29,8 @@ FiniteSector one_contact(const Element& element, Index count, Index wave_number,
   return checked(std::move(sector));
 }
 
-/// The modes of the same matrices in fifty digits. The dofs are those of the left boundary, inside, and of the
-/// right.
+/// The modes of the same matrices in fifty digits. The dofs are those of the left boundary, inside, and of
+/// the right.
 ModalModel precise_modes(const FiniteSector& sector, const SectorWave& wave, const Loss& loss) {
   const PreciseReal a = propagation_constant(wave.wave_number, wave.sectors);
   const PreciseComplex forward{cos(a), -sin(a)};
@@ -51,8 +51,7 @@ TEST_CASE("The modes of rods and beams are those of the given matrices, to round
   const Index count = GENERATE(1, 6);
   const Loss loss{.viscous = 5e-5};
   const SectorWave wave{1, 30 / count};
-  const FiniteSector sector =
-      one_contact((beams ? beam_element : rod_element)(5, 80, 1, 30), count, 1, 30);
+  const FiniteSector sector = one_contact((beams ? beam_element : rod_element)(5, 80, 1, 30), count, 1, 30);
   const ModalModel expected = precise_modes(sector, wave, loss);
   const SectorModes found = sector_modes(sector, wave, {0.5, 120, 1e-10, loss});
   REQUIRE(found.modes.size() == expected.modes().size());
@@ -70,8 +69,7 @@ TEST_CASE("Lanczos finds modes that give the response to the tolerance asked for
   const double tolerance = GENERATE(1e-5, 1e-9);
   const Loss loss{.structural = 1e-2};
   // A hundred elements a sector, of which the window holds a few modes.
-  const FiniteSector sector =
-      one_contact((beams ? beam_element : rod_element)(1, 1, 3, 600), 100, 3, 600);
+  const FiniteSector sector = one_contact((beams ? beam_element : rod_element)(1, 1, 3, 600), 100, 3, 600);
   const SectorWave wave{3, 6};
   const double high = beams ? 500 : 30;
   const SectorModes all = sector_modes(sector, wave, {1, high, 1e-10, loss, 1000});

@@ -157,8 +157,8 @@ TEST_CASE(
     const auto check_wave = [&](const ComplexVector& value, Complex amplitude) {
       const double error = (value - amplitude * wave).norm() / (std::abs(amplitude) * wave.norm());
       CAPTURE(beams, n, eta, error);
-      // Of three sectors the wave n = 2 is the wave -1 as well, which resonates at 4 and takes up what rounding
-      // leaves of entries that cancel to 1/500; 7e-9 was measured, against 1e-10 anywhere else.
+      // Of three sectors the wave n = 2 is the wave -1 as well, which resonates at 4 and takes up what
+      // rounding leaves of entries that cancel to 1/500; 7e-9 was measured, against 1e-10 anywhere else.
       CHECK(error < (beams && n == 2 && std::abs(eta - 4) < 0.1 ? 1e-8 : 1e-10));
     };
     check_wave(response.compliance * wave, expected.compliance);

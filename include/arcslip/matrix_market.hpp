@@ -38,8 +38,8 @@ SparseMatrix read_matrix_market(std::string_view text, const std::string& file);
 /// in the result; what follows % or # on a line is a comment. Throws MatrixTextError.
 std::vector<Index> read_dofs(std::string_view text, const std::string& file, Index size);
 
-/// The force on each of `size` dofs that `text` gives in lines "dof value [imaginary part]", dofs and comments as
-/// above; forces on one dof are summed. Throws MatrixTextError.
+/// The force on each of `size` dofs that `text` gives in lines "dof value [imaginary part]", dofs and
+/// comments as above; forces on one dof are summed. Throws MatrixTextError.
 ComplexVector read_load(std::string_view text, const std::string& file, Index size);
 
 enum class MatrixSymmetry { general, symmetric };

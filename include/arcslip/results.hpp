@@ -29,8 +29,8 @@ nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBran
 std::string describe_groups(const ProblemRequest& problem);
 std::string describe_units(const ProblemRequest& problem);
 
-/// The modes that stand for each finite-element sector, and how far their response is from that of the matrices:
-/// one line for each, and the same as JSON.
+/// The modes that stand for each finite-element sector, and how far their response is from that of the
+/// matrices: one line for each, and the same as JSON.
 std::string describe_modes(const SystemParameters& system);
 nlohmann::ordered_json modes_to_json(const SystemParameters& system);
 

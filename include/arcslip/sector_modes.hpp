@@ -4,15 +4,15 @@
 //
 //   V^H K(a) V x = lambda V^H M(a) V x,   v_k = V x_k,   eta_k = sqrt(lambda_k)/(2 pi)
 //
-// Small sectors have V = I. Of larger ones V spans the responses to forces on the contact and to the load at one
-// shift, x_1 = (K - sigma M)^{-1} [e F], and what shift-invert Lanczos makes of them, (K - sigma M)^{-1} M x_1
-// and so on [Ericsson and Ruhe, Math. Comp. 35 (1980) 1251], with full
-// reorthogonalisation in M, until the response no longer changes. The shift is sigma = 0, so that the static
-// response is exact, or a little below where K(a) is singular. One factorisation serves all of them.
+// Small sectors have V = I. Of larger ones V spans the responses to forces on the contact and to the load at
+// one shift, x_1 = (K - sigma M)^{-1} [e F], and what shift-invert Lanczos makes of them, (K - sigma M)^{-1}
+// M x_1 and so on [Ericsson and Ruhe, Math. Comp. 35 (1980) 1251], with full reorthogonalisation in M, until
+// the response no longer changes. The shift is sigma = 0, so that the static response is exact, or a little
+// below where K(a) is singular. One factorisation serves all of them.
 //
-// The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the error
-// of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the response is
-// compared with are refined in the same arithmetic.
+// The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the
+// error of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the
+// response is compared with are refined in the same arithmetic.
 
 #include <vector>
 
@@ -31,25 +31,27 @@ struct SectorWave {
 
 /// Where the modes must give the response, and how exactly.
 struct ModesRequest {
-  double eta_low = 0;       ///< > 0
-  double eta_high = 0;      ///< >= eta_low
-  double tolerance = 1e-10; ///< relative
-  Loss loss;                ///< with which the response is measured
-  Index all_modes = 100;    ///< most reduced dofs of a sector that keeps all its modes
+  double eta_low = 0;        ///< > 0
+  double eta_high = 0;       ///< >= eta_low
+  double tolerance = 1e-10;  ///< relative
+  Loss loss;                 ///< with which the response is measured
+  Index all_modes = 100;     ///< most reduced dofs of a sector that keeps all its modes
 };
 
 /// The modes, the residues for unit force on the contact and for the sector's load.
 struct SectorModes {
   std::vector<Mode> modes;
-  Index dofs = 0;                     ///< of the reduced sector
-  double error = 0;                   ///< largest relative difference of c and y_0 from the full solve
-  double error_eta = 0;               ///< where
-  std::vector<double> check_etas;     ///< where the two were compared, at modes and between them
-  int factorisations = 0;             ///< of the shift and of the comparison
+  ComplexMatrix output_by_contact;    ///< residues of each output (row) in each mode, per force on the contact
+  ComplexMatrix output_by_load;       ///< and for the load
+  Index dofs = 0;                  ///< of the reduced sector
+  double error = 0;                ///< largest relative difference of c, y_0 and outputs from the full solve
+  double error_eta = 0;            ///< where
+  std::vector<double> check_etas;  ///< where the two were compared, at modes and between them
+  int factorisations = 0;          ///< of the shift and of the comparison
 };
 
-/// `sector` is checked and has one contact. Throws SectorError where the reduced mass is not positive definite,
-/// where the stiffness is not positive semidefinite, and where the modes fail to give the response.
+/// `sector` is checked and has one contact. Throws SectorError where the reduced mass is not positive
+/// definite, where the stiffness is not positive semidefinite, and where the modes fail to give the response.
 SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request);
 
 }  // namespace arcslip

@@ -18,11 +18,14 @@ namespace arcslip {
 
 /// One of the two with its damping: zeta times that of a kind, and what is there besides.
 struct SectorPart {
-  FiniteSector sector;                               ///< checked, one contact, damping 0 x 0
+  FiniteSector sector;  ///< checked, one contact, damping 0 x 0
   DampingKind damping_kind = DampingKind::structural;
-  double reference_frequency = 1;                    ///< eta at which viscous damping has the loss 2 zeta
+  double reference_frequency = 1;  ///< eta at which viscous damping has the loss 2 zeta
   Loss fixed;
-  std::uint64_t fingerprint = 0;                     ///< of the files it was read from
+  std::uint64_t fingerprint = 0;  ///< of the files it was read from
+
+  /// Whether it is damped where zeta is 0.
+  bool is_damped() const { return fixed.viscous != 0 || fixed.mass != 0; }
 
   /// Loss over zeta.
   Loss loss_per_zeta() const;
@@ -43,8 +46,8 @@ class SectorPair {
   const SectorPart& base() const { return base_.part; }
   const SectorPart* damper() const { return damper_ ? &damper_->part : nullptr; }  ///< null: held
 
-  /// Modes, found at the first call for them and kept. May be called from several threads. Throws SectorError,
-  /// whose text names base or damper.
+  /// Modes, found at the first call for them and kept. May be called from several threads. Throws
+  /// SectorError, whose text names base or damper.
   const SectorModes& base_modes(const SectorUse& use, double zeta) const;
   const SectorModes& damper_modes(const SectorUse& use, double zeta) const;
 

@@ -31,8 +31,8 @@ struct SectorResponse {
 class SectorSolver {
  public:
   /// `sector` is checked, `forward` is e^{-ja}. `loss` is that of damping proportional to stiffness and mass,
-  /// beside the sector's own C; modal damping is no part of Z. Throws SectorError where the reduced mass is not
-  /// positive definite.
+  /// beside the sector's own C; modal damping is no part of Z. Throws SectorError where the reduced mass is
+  /// not positive definite.
   SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss);
   ~SectorSolver();
   SectorSolver(const SectorSolver&) = delete;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "arcslip/modal_model.hpp"
 
@@ -66,6 +67,13 @@ struct LogThreshold {
   double by_preload;  ///< d ln S/dP
 };
 
+/// A further dof of base or damper whose amplitude is wanted. Both models hold its motion as their free response.
+struct ContactOutput {
+  std::string name;
+  ModalModel by_load;
+  ModalModel by_contact;  ///< per force on the contact, of the damper against the base's
+};
+
 /// Base, damper and interface at one contact point, as the response equation needs them.
 struct FrictionSystem {
   ModalModel base;           ///< with the travelling load
@@ -77,6 +85,7 @@ struct FrictionSystem {
   double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
   double preload_growth = 0;     ///< P_2
   Loss base_loss_fixed = {};     ///< the rest of the base's loss
+  std::vector<ContactOutput> outputs = {};
 
   /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0.
   bool is_loaded(double eta, double preload) const {

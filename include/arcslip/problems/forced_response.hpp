@@ -27,6 +27,8 @@ class ForcedResponse : public ContactProblem {
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
 
+  /// Those of every contact problem, then the amplitudes of the system's outputs.
+  std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
   /// Y alone has a gradient.
   double observe(const Vector& u, const Vector& p, int regime, Index which,

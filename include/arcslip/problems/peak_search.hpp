@@ -48,6 +48,9 @@ class PeakSearch {
   void add_sections(const continuation::Branch& curve);
   void add_section(std::vector<PeakNode> nodes);
   PeakNode inside(const Meeting& meeting) const;
+  /// Where the curve that ends here has met something, or null. A stiff interface bends a ridge back within
+  /// R/S - 1 = 1e-9 of the border, where Y is that of the border to as many digits: the two count as met.
+  Meeting* meeting_at(const PeakNode& end);
   void snap(PeakNode& end);
   double log_ratio(const PeakNode& node) const;
   void add(PeakSite site, std::vector<PeakNode> nodes);
