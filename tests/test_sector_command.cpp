@@ -196,8 +196,11 @@ TEST_CASE("The rotor resonates as the base alone under a light preload, and join
     highest[branch] = std::stod(point.at("Y"));
     eta[branch] = std::stod(point.at("eta"));
   }
-  const FiniteSector base = annular_plate_sector(plate());
+  FiniteSector base = annular_plate_sector(plate());
+  FiniteSector damper = ring_sector(ring());
+  base.contacts.resize(1);
+  damper.contacts.resize(1);
   // Damping and the little friction move a peak by squares of a thousandth.
   CHECK_THAT(eta[0], WithinRel(lowest_frequency(base, 3, 24), 1e-5));
-  CHECK_THAT(eta[1], WithinRel(lowest_frequency(joined(base, ring_sector(ring()), 1e9), 3, 24), 1e-5));
+  CHECK_THAT(eta[1], WithinRel(lowest_frequency(joined(base, damper, 1e9), 3, 24), 1e-5));
 }
