@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "arcslip/reduced_pair.hpp"
+
 namespace arcslip {
 
 std::string to_string(StructureModel model) { return model == StructureModel::rods ? "rods" : "beams"; }

@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
 const std::set<std::string, std::less<>> mechanics{
-    "contact",     "contact_modes",  "dynamic_stiffness", "elements", "finite_sector",    "matrix_market",
-    "modal_model", "physical_scale", "precise",           "sector",   "sector_reduction", "system"};
+    "contact",     "contact_modes",  "dynamic_stiffness", "elements",     "finite_sector", "matrix_market",
+    "modal_model", "physical_scale", "precise",           "reduced_pair", "sector",        "sector_reduction",
+    "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",

@@ -14,9 +14,11 @@
 
 #include <vector>
 
-#include "arcslip/sector.hpp"
+#include "arcslip/types.hpp"
 
 namespace arcslip {
+
+struct ReducedStructure;
 
 /// Response at the contact dof for a given eta, with its derivatives in eta.
 struct ContactResponse {

@@ -83,14 +83,6 @@ struct FrictionSystem {
   }
 };
 
-/// Reduced base and damper of `parameters`, before they are turned into modes.
-struct ReducedPair {
-  ReducedStructure base;
-  ReducedStructure damper;
-};
-
-ReducedPair reduce(const SystemParameters& parameters);
-
 /// Damping factors beta of C = (beta/2 pi) K: 2 zeta_B/gamma and 2 zeta_D [paper, footnote 3].
 double base_damping_factor(const SystemParameters& parameters);
 double damper_damping_factor(const SystemParameters& parameters);
