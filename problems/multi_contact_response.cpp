@@ -41,11 +41,10 @@ MultiContactResponse::MultiContactResponse(ContactModes base, ContactModes dampe
   }
 }
 
-MultiContactResponse::Law MultiContactResponse::law(Complex r, Index contact, double preload,
-                                                    int regime) const {
+MultiContactResponse::Law MultiContactResponse::law(Complex r, Index contact, double load, int regime) const {
   const double k = contacts_[static_cast<std::size_t>(contact)].stiffness;
   if (!slips(regime, contact)) return {k, 0};
-  const HarmonicCoefficient phi = slip_coefficient(std::log(std::abs(r) / threshold(contact, preload)));
+  const HarmonicCoefficient phi = slip_coefficient(std::log(std::abs(r) / threshold(contact, load)));
   return {k * phi.phi, k * phi.phi_log};
 }
 
@@ -126,17 +125,17 @@ double MultiContactResponse::border(const Vector& u, const Vector& p, int regime
                                     continuation::Gradient* gradient) const {
   const double sign = slips(regime, border) ? -1 : 1;
   const Complex r(u(2 * border), u(2 * border + 1));
-  const double S = threshold(border, p(preload));
+  const double limit = threshold(border, p(preload));
   const double square = std::norm(r);
-  const double sum = square + S * S;
+  const double sum = square + limit * limit;
   if (gradient != nullptr) {
-    const double slope = sign * 4 * S * S / (sum * sum);  // over R^2/2
+    const double slope = sign * 4 * limit * limit / (sum * sum);  // over R^2/2
     gradient->unknowns.setZero();
     gradient->unknowns(2 * border) = slope * r.real();
     gradient->unknowns(2 * border + 1) = slope * r.imag();
     gradient->parameters << 0, -slope * square / p(preload);
   }
-  return sign * (square - S * S) / sum;
+  return sign * (square - limit * limit) / sum;
 }
 
 std::vector<continuation::Observable> MultiContactResponse::observables() const {

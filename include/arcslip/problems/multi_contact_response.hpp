@@ -68,9 +68,9 @@ class MultiContactResponse : public continuation::Problem {
     Complex spring;
     Complex spring_log;
   };
-  Law law(Complex r, Index contact, double preload, int regime) const;
-  double threshold(Index contact, double preload) const {
-    return contacts_[static_cast<std::size_t>(contact)].slip_per_preload * preload;
+  Law law(Complex r, Index contact, double load, int regime) const;
+  double threshold(Index contact, double load) const {
+    return contacts_[static_cast<std::size_t>(contact)].slip_per_preload * load;
   }
 
   ContactModes base_;
