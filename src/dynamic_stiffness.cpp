@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
+#include "arcslip/sector.hpp"
+
 namespace arcslip {
 namespace {
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/sector.hpp"
+
 namespace arcslip {
 namespace {
 

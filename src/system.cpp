@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "arcslip/reduced_pair.hpp"
 #include "arcslip/sector_pair.hpp"
 
 namespace arcslip {

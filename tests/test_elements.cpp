@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "arcslip/elements.hpp"
+#include "arcslip/reduced_pair.hpp"
 #include "arcslip/sector.hpp"
-#include "arcslip/system.hpp"
 #include "catch.hpp"
 
 using namespace arcslip;

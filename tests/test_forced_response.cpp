@@ -3,6 +3,7 @@
 
 #include "arcslip/contact.hpp"
 #include "arcslip/continuation/derivative_check.hpp"
+#include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/dynamic_stiffness.hpp"
+#include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
 #include "random_systems.hpp"

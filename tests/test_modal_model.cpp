@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "arcslip/dynamic_stiffness.hpp"
-#include "arcslip/system.hpp"
+#include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
 
 using namespace arcslip;

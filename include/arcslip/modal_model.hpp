@@ -17,9 +17,11 @@
 #include <utility>
 #include <vector>
 
-#include "arcslip/sector.hpp"
+#include "arcslip/types.hpp"
 
 namespace arcslip {
+
+struct ReducedStructure;
 
 /// Response at the contact dof for a given eta, with its derivatives in eta.
 struct ContactResponse {

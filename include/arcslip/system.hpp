@@ -67,7 +67,8 @@ struct LogThreshold {
   double by_preload;  ///< d ln S/dP
 };
 
-/// A further dof of base or damper whose amplitude is wanted. Both models hold its motion as their free response.
+/// A further dof of base or damper whose amplitude is wanted. Both models hold its motion as their free
+/// response.
 struct ContactOutput {
   std::string name;
   ModalModel by_load;
@@ -103,14 +104,6 @@ struct FrictionSystem {
     return {std::log(slip_threshold(eta, preload)), 2 * preload_growth * eta * by_preload, by_preload};
   }
 };
-
-/// Reduced base and damper of `parameters`, before they are turned into modes.
-struct ReducedPair {
-  ReducedStructure base;
-  ReducedStructure damper;
-};
-
-ReducedPair reduce(const SystemParameters& parameters);
 
 /// Damping factors beta of C = (beta/2 pi) K: 2 zeta_B/gamma and 2 zeta_D [paper, footnote 3].
 double base_damping_factor(const SystemParameters& parameters);

@@ -1,0 +1,60 @@
+#pragma once
+
+// A structure seen at several contact dofs, as a sum over its modes v_k:
+//
+//   C(eta) = E^T Z^{-1} E = sum_k s_k s_k^H/d_k,   y_0(eta) = E^T Z^{-1} F = sum_k s_k l_k/d_k,
+//   s_k = E^T v_k/(2 pi),   l_k = v_k^H F/(2 pi),   d_k = (eta_k - eta)(eta_k + eta) + j (beta eta + delta)
+//   eta_k^2
+//
+// E has a unit column for each contact. ModalModel is this for one contact.
+
+#include <vector>
+
+#include "arcslip/modal_model.hpp"
+
+namespace arcslip {
+
+/// Of a sector; vectors and matrices of contacts live on the stack.
+inline constexpr int most_contacts = 12;
+using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
+using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
+
+/// Response at m contacts for a given eta, with its derivatives in eta.
+struct ContactReceptance {
+  ContactMatrix compliance;  ///< C, m x m: motion of the contact of the row per force on that of the column
+  ContactMatrix compliance_eta;  ///< dC/deta
+  ContactVector free;            ///< y_0, m: the response without contact
+  ContactVector free_eta;        ///< dy_0/deta
+};
+
+struct ContactMode {
+  double frequency;     ///< eta_k
+  ContactVector shape;  ///< s_k, m
+  Complex load;         ///< l_k
+};
+
+class ContactModes {
+ public:
+  /// All shapes have `contacts` entries. Throws std::invalid_argument where they do not, or for more contacts
+  /// than `most_contacts`.
+  ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss);
+
+  /// O(m^2) operations for each mode.
+  ContactReceptance at(double eta) const;
+
+  Index contacts() const { return contacts_; }
+  const std::vector<ContactMode>& modes() const { return modes_; }
+
+ private:
+  Index contacts_;
+  std::vector<ContactMode> modes_;
+  Loss loss_;
+};
+
+/// The undamped frequencies of `structures` joined at their contacts through springs, of stiffness `springs`
+/// (m); of one structure, joined to ground. Relative to the first structure the others move backwards. In
+/// ascending order.
+std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& structures,
+                                       const Vector& springs);
+
+}  // namespace arcslip
