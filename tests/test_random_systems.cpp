@@ -223,8 +223,17 @@ std::vector<std::string> complaints(const Run& run) {
 SystemParameters system(StructureModel model, Index n, Index elements, double mass_ratio,
                         double frequency_ratio, double interface_stiffness, double base_damping,
                         double damper_damping, double preload) {
-  return {model,          n, elements, mass_ratio, frequency_ratio, interface_stiffness, base_damping,
-          damper_damping, 1, preload};
+  SystemParameters s;
+  s.model = model;
+  s.wave_number = n;
+  s.elements = elements;
+  s.mass_ratio = mass_ratio;
+  s.frequency_ratio = frequency_ratio;
+  s.interface_stiffness = interface_stiffness;
+  s.base_damping = base_damping;
+  s.damper_damping = damper_damping;
+  s.preload = preload;
+  return s;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "arcslip/contact.hpp"
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/results.hpp"
+#include "arcslip/sector.hpp"
 #include "arcslip/sector_solver.hpp"
 #include "arcslip/study_case.hpp"
 #include "case_runs.hpp"

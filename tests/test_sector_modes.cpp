@@ -1,3 +1,4 @@
+#include "arcslip/sector.hpp"
 #include "arcslip/sector_modes.hpp"
 
 #include <numbers>

@@ -3,6 +3,7 @@
 
 #include "arcslip/dynamic_stiffness.hpp"
 #include "arcslip/matrix_market.hpp"
+#include "arcslip/reduced_pair.hpp"
 #include "arcslip/sector_solver.hpp"
 #include "catch.hpp"
 #include "sector_examples.hpp"

@@ -3,8 +3,7 @@
 // A structure seen at several contact dofs, as a sum over its modes v_k:
 //
 //   C(eta) = E^T Z^{-1} E = sum_k s_k s_k^H/d_k,   y_0(eta) = E^T Z^{-1} F = sum_k s_k l_k/d_k,
-//   s_k = E^T v_k/(2 pi),   l_k = v_k^H F/(2 pi),   d_k = (eta_k - eta)(eta_k + eta) + j (beta eta + delta)
-//   eta_k^2
+//   s_k = E^T v_k/(2 pi),   l_k = v_k^H F/(2 pi),   d_k as in ModalModel
 //
 // E has a unit column for each contact. ModalModel is this for one contact.
 
