@@ -262,8 +262,7 @@ std::string describe_modes(const SystemParameters& system) {
         text.empty() ? "" : "\n  ", name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
         part["error"].get<double>(),
         part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
-        part["check_etas"].size(), part["error_eta"].get<double>(),
-        part["factorisations"].get<int>());
+        part["check_etas"].size(), part["error_eta"].get<double>(), part["factorisations"].get<int>());
   }
   return text;
 }

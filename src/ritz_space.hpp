@@ -17,8 +17,8 @@ class RitzSpace {
 
   Index size() const { return mass_.rows(); }
 
-  /// All modes in the space, with their residues. `below` < 0 is a shift in w*^2 that makes K - below M definite. Throws
-  /// SectorError.
+  /// All modes in the space, with their residues. `below` < 0 is a shift in w*^2 that makes K - below M
+  /// definite. Throws SectorError.
   SectorModes modes(double below) const;
 
  private:

@@ -40,7 +40,7 @@ class Krylov {
     return block_;
   }
 
-  int factorisations() const { return factors_.full() + factors_.quick(); }
+  int factorisations() const { return factors_.factorisations(); }
 
  private:
   void factor(double below) {
@@ -85,15 +85,15 @@ double relative(Complex value, Complex reference) {
   return size > 0 ? std::abs(value - reference) / size : std::abs(value);
 }
 
-/// Motions under a unit force on the contact (column 0) and under the load (column 1), of the contact (row 0) and
-/// the outputs.
+/// Motions under a unit force on the contact (column 0) and under the load (column 1), of the contact (row 0)
+/// and the outputs.
 ComplexMatrix response(const SectorModes& found, const Loss& loss, double eta) {
   const Index outputs = found.output_by_contact.rows();
   ComplexMatrix motion = ComplexMatrix::Zero(1 + outputs, 2);
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
     const Mode& mode = found.modes[k];
-    const Complex inverse = 1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta),
-                                          loss.part(eta, mode.frequency));
+    const Complex inverse =
+        1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta), loss.part(eta, mode.frequency));
     const auto column = static_cast<Index>(k);
     motion(0, 0) += mode.residue * inverse;
     motion(0, 1) += mode.load_residue * inverse;
@@ -109,8 +109,7 @@ double difference(const ComplexMatrix& motion, const ComplexMatrix& reference) {
   for (Index column = 0; column < 2; ++column) {
     worst = std::max(worst, relative(motion(0, column), reference(0, column)));
     const double size = reference.col(column).cwiseAbs().maxCoeff();
-    if (size > 0)
-      worst = std::max(worst, (motion - reference).col(column).cwiseAbs().maxCoeff() / size);
+    if (size > 0) worst = std::max(worst, (motion - reference).col(column).cwiseAbs().maxCoeff() / size);
   }
   return worst;
 }
@@ -133,8 +132,8 @@ std::vector<double> places(const std::vector<Mode>& modes, const ModesRequest& r
 double change(const SectorModes& now, const SectorModes& before, const ModesRequest& request) {
   double worst = 0;
   for (const double eta : places(now.modes, request)) {
-    worst = std::max(worst,
-                     difference(response(before, request.loss, eta), response(now, request.loss, eta)));
+    worst =
+        std::max(worst, difference(response(before, request.loss, eta), response(now, request.loss, eta)));
   }
   return worst;
 }
@@ -197,7 +196,7 @@ class FullResponse {
     return motion;
   }
 
-  int factorisations() const { return factors_.full() + factors_.quick(); }
+  int factorisations() const { return factors_.factorisations(); }
 
  private:
   using Number = ExtendedSector::Number;

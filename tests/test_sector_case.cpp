@@ -324,14 +324,16 @@ TEST_CASE("Proportional and modal damping of sectors act as their closed forms s
   const TemporaryFolder folder;
   const SparseMatrix c = 3.0 * rubbed.disk.mass + 2e-6 * rubbed.disk.stiffness;
   folder.write("c.mtx", write_matrix_market(c, MatrixSymmetry::symmetric));
-  const std::string text = rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
+  const std::string text =
+      rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
   const auto system = [&](const std::string& more, const std::string& damping) {
     const std::string with = replaced(text, "output = [2, 3, 4]", more);
     const std::string damped = replaced(with, "damping = { base = 1e-3, damper = 1e-3 }", damping);
     return build_system(read_case(folder.write("case.toml", damped)).branches.front().problem.system);
   };
   const FrictionSystem plain = system("", "damping = { base = 1e-3 }");
-  const auto check = [&](const FrictionSystem& damped, double imaginary) {  // Im d of the first mode at eta = 200
+  const auto check = [&](const FrictionSystem& damped,
+                         double imaginary) {  // Im d of the first mode at eta = 200
     const double frequency = damped.base.modes()[0].frequency;
     CHECK(frequency == plain.base.modes()[0].frequency);
     CHECK_THAT(damped.base.loss().part(200, frequency), WithinRel(imaginary, 1e-9));
@@ -354,7 +356,8 @@ TEST_CASE("A damping matrix that modes do not diagonalise is refused, and where 
   SparseMatrix c = rubbed.disk.stiffness;
   c.coeffRef(1, 1) *= 2;
   folder.write("c.mtx", write_matrix_market(c, MatrixSymmetry::symmetric));
-  const std::string text = rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
+  const std::string text =
+      rubbed.system(folder, 3, 24) + "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n";
   const std::string path =
       folder.write("case.toml", replaced(text, "output = [2, 3, 4]", "damping = \"c.mtx\""));
   CHECK_THAT(error_of([&] { read_case(path); }),

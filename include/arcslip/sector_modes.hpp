@@ -41,13 +41,13 @@ struct ModesRequest {
 /// The modes, the residues for unit force on the contact and for the sector's load.
 struct SectorModes {
   std::vector<Mode> modes;
-  ComplexMatrix output_by_contact;    ///< residues of each output (row) in each mode, per force on the contact
-  ComplexMatrix output_by_load;       ///< and for the load
-  Index dofs = 0;                  ///< of the reduced sector
-  double error = 0;                ///< largest relative difference of c, y_0 and outputs from the full solve
-  double error_eta = 0;            ///< where
-  std::vector<double> check_etas;  ///< where the two were compared, at modes and between them
-  int factorisations = 0;          ///< of the shift and of the comparison
+  ComplexMatrix output_by_contact;  ///< residues of each output (row) in each mode, per force on the contact
+  ComplexMatrix output_by_load;     ///< and for the load
+  Index dofs = 0;                   ///< of the reduced sector
+  double error = 0;                 ///< largest relative difference of c, y_0 and outputs from the full solve
+  double error_eta = 0;             ///< where
+  std::vector<double> check_etas;   ///< where the two were compared, at modes and between them
+  int factorisations = 0;           ///< of the shift and of the comparison
 };
 
 /// `sector` is checked and has one contact. Throws SectorError where the reduced mass is not positive
