@@ -1,10 +1,9 @@
 #pragma once
 
-// Sparse LU factorisation of complex matrices that share one pattern of entries: KLU of SuiteSparse [Davis
-// and Natarajan, ACM Trans. Math. Softw. 37 (2010) 36], whose order of elimination serves them all, and whose
-// pivots serve the next matrix as long as they are good.
+// Sparse LU factorisation of complex matrices that share one pattern of entries: UMFPACK of SuiteSparse
+// [Davis, ACM Trans. Math. Softw. 30 (2004) 196], whose symbolic analysis serves them all.
 
-#include <klu.h>
+#include <array>
 
 #include "arcslip/sector_reduction.hpp"
 
@@ -13,37 +12,31 @@ namespace arcslip {
 class ComplexFactors {
  public:
   /// Analyses the pattern. Throws std::bad_alloc and std::length_error.
-  explicit ComplexFactors(ComplexSparseMatrix& pattern);
+  explicit ComplexFactors(const ComplexSparseMatrix& pattern);
   ~ComplexFactors();
   ComplexFactors(const ComplexFactors&) = delete;
   ComplexFactors& operator=(const ComplexFactors&) = delete;
 
-  /// False where the matrix is singular to rounding of its pivots.
-  bool factor(ComplexSparseMatrix& matrix);
+  /// False where the matrix, of this pattern, is singular. Throws std::bad_alloc.
+  bool factor(const ComplexSparseMatrix& matrix);
 
   /// Smallest over largest pivot, of rows that are scaled.
-  double pivot_ratio() const { return common_.rcond; }
+  double pivot_ratio() const { return pivot_ratio_; }
 
   void solve(ComplexMatrix& columns);             ///< A^{-1} columns, in place
   void solve_transposed(ComplexMatrix& columns);  ///< A^{-T} columns, in place
 
-  /// Factorisations with new pivots, and with those of the one before.
-  int full() const { return full_; }
-  int quick() const { return quick_; }
+  int factorisations() const { return factorisations_; }
 
  private:
-  bool factor_with_old_pivots(ComplexSparseMatrix& matrix);
-  bool factor_with_new_pivots(ComplexSparseMatrix& matrix);
-  bool regular();
-  double growth(ComplexSparseMatrix& matrix);
-  void check_memory() const;
+  void solve(int system, ComplexMatrix& columns);
 
-  klu_common common_{};
-  klu_symbolic* symbolic_ = nullptr;
-  klu_numeric* numeric_ = nullptr;
-  double chosen_growth_ = 1;
-  int full_ = 0;
-  int quick_ = 0;
+  std::array<double, 20> control_{};
+  void* symbolic_ = nullptr;
+  void* numeric_ = nullptr;
+  double pivot_ratio_ = 0;
+  int factorisations_ = 0;
+  ComplexVector right_;
 };
 
 }  // namespace arcslip

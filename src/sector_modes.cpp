@@ -40,7 +40,7 @@ class Krylov {
     return block_;
   }
 
-  int factorisations() const { return factors_.full() + factors_.quick(); }
+  int factorisations() const { return factors_.factorisations(); }
 
  private:
   void factor(double below) {
@@ -196,7 +196,7 @@ class FullResponse {
     return motion;
   }
 
-  int factorisations() const { return factors_.full() + factors_.quick(); }
+  int factorisations() const { return factors_.factorisations(); }
 
  private:
   using Number = ExtendedSector::Number;

@@ -28,8 +28,7 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
 
 SectorSolver::~SectorSolver() = default;
 
-int SectorSolver::full_factorisations() const { return factors_->full(); }
-int SectorSolver::quick_factorisations() const { return factors_->quick(); }
+int SectorSolver::factorisations() const { return factors_->factorisations(); }
 
 void SectorSolver::assemble(double eta) {
   const double two_pi = 2 * std::numbers::pi;

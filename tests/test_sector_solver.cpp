@@ -189,13 +189,7 @@ TEST_CASE("The lumped bladed disk vibrates at the published frequencies of 0 to 
   }
 }
 
-TEST_CASE("One symbolic analysis and its pivots serve a whole sweep, and are given up where they are bad") {
-  SectorSolver sweep(checked(bladed_disk()), forward(3, 24), {0, 1e-3});
-  for (int i = 0; i < 200; ++i) sweep.at(10.0 + i);
-  CHECK(sweep.full_factorisations() == 1);
-  CHECK(sweep.quick_factorisations() == 199);
-
-  // The pivots that serve at eta = 0, on the diagonal, both all but vanish at w* = 1.
+TEST_CASE("One symbolic analysis serves a whole sweep, also where the pivots of another eta all but vanish") {
   Matrix stiffness = Matrix::Zero(3, 3);
   stiffness.topLeftCorner<2, 2>() << 1 + 1e-12, 0.5, 0.5, 1 + 1e-12;
   FiniteSector pair;
@@ -206,12 +200,12 @@ TEST_CASE("One symbolic analysis and its pivots serve a whole sweep, and are giv
   pair.contacts = {0};
   pair.load = ComplexVector::Ones(3);
   SectorSolver solver(checked(pair), 1, {});
-  const double eta = 0.5 / std::numbers::pi;
   solver.at(0);
-  const Complex c = solver.at(eta).compliance(0, 0);
-  CHECK(solver.full_factorisations() == 2);
-  // Z = [1e-12 1/2; 1/2 1e-12]: c = 1e-12/(1e-24 - 1/4), to the rounding of the difference 1 - w*^2.
+  // The diagonal vanishes at w* = 1: Z = [1e-12 1/2; 1/2 1e-12] and c = 1e-12/(1e-24 - 1/4), to the rounding
+  // of the difference 1 - w*^2.
+  const Complex c = solver.at(0.5 / std::numbers::pi).compliance(0, 0);
   CHECK(std::abs(c + 4e-12) < 2e-15);
+  CHECK(solver.factorisations() == 2);
 }
 
 TEST_CASE("An undamped sector at its own frequency has no response") {

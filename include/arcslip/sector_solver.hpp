@@ -6,8 +6,8 @@
 //   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
 //   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
 //
-// E has a unit column for each contact. The sparse LU factorisation of Z keeps its order of elimination for
-// every eta and wave, and its pivots as long as they are good.
+// E has a unit column for each contact. One symbolic analysis serves the sparse LU factorisations of Z
+// at every eta.
 
 #include <memory>
 
@@ -43,9 +43,7 @@ class SectorSolver {
 
   const SectorReduction& reduction() const { return reduction_; }
 
-  /// Factorisations since the start: with new pivots, and with those of the one before.
-  int full_factorisations() const;
-  int quick_factorisations() const;
+  int factorisations() const;  ///< since the start, all with one symbolic analysis
 
  private:
   void assemble(double eta);

@@ -45,7 +45,7 @@ struct SystemParameters {
 
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k, and no ratio,
   /// cubic stiffness or fixed damper counts.
-  std::shared_ptr<const SectorPair> sectors;
+  std::shared_ptr<const SectorPair> sectors = {};
   double limit_per_preload = 1;  ///< L
   double eta_low = 0;            ///< window of eta in which the modes give the response
   double eta_high = 0;
