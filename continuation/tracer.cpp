@@ -203,11 +203,9 @@ void Tracer::take() {
 
 void Tracer::take_events(const Signs& before, int sign_beyond) {
   const auto is_border = [](const Event& event) { return event.kind == Event::Kind::border; };
-  const auto borders = std::count_if(events_.begin(), events_.end(), is_border);
+  const auto border = std::find_if(events_.begin(), events_.end(), is_border);
   for (const Event& event : events_) take_event(event, before, sign_beyond);
-  if (borders > 0) {
-    cross(static_cast<int>(std::find_if(events_.begin(), events_.end(), is_border)->index), borders > 1);
-  }
+  if (border != events_.end()) cross(static_cast<int>(border->index), on_several_borders());
   if (stopped_) return;
   if (const Target* target = targets_.at(value(), same_value * parameter_scale());
       target != nullptr && state_.arclength > 0) {
@@ -262,6 +260,17 @@ void Tracer::take_target(const Target& target) {
       store(PointType::end);
       return stop(Stop::left_range, "the branch came back to its first value");
   }
+}
+
+/// Whether other borders are reached together with the one that was located, but for rounding.
+bool Tracer::on_several_borders() const {
+  const CurvePoint& here = stepper_.here();
+  int reached = 0;
+  for (int border = 0; border < problem_.border_count(here.regime); ++border) {
+    const double value = problem_.border(here.unknowns, here.parameters, here.regime, border, nullptr);
+    reached += static_cast<int>(std::abs(value) <= same_border);
+  }
+  return reached > 1;
 }
 
 Correction Tracer::leave(int border, bool several) {

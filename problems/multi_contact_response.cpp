@@ -30,19 +30,17 @@ ContactVector complex_of(const Vector& u) {
 
 }  // namespace
 
-MultiContactResponse::MultiContactResponse(ContactModes base, ContactModes damper,
-                                           std::vector<SectorContact> contacts)
-    : base_(std::move(base)), damper_(std::move(damper)), contacts_(std::move(contacts)) {
-  if (base_.contacts() != this->contacts() || damper_.contacts() != this->contacts())
+MultiContactResponse::MultiContactResponse(ContactSystem system) : system_(std::move(system)) {
+  if (system_.base.contacts() != contacts() || system_.damper.contacts() != contacts())
     throw std::invalid_argument("MultiContactResponse: base, damper and contacts must be as many");
-  for (const SectorContact& contact : contacts_) {
+  for (const SectorContact& contact : system_.contacts) {
     if (!(contact.stiffness > 0 && contact.slip_per_preload > 0))
       throw std::invalid_argument("MultiContactResponse: stiffness and slip threshold must be positive");
   }
 }
 
 MultiContactResponse::Law MultiContactResponse::law(Complex r, Index contact, double load, int regime) const {
-  const double k = contacts_[static_cast<std::size_t>(contact)].stiffness;
+  const double k = system_.contacts[static_cast<std::size_t>(contact)].stiffness;
   if (!slips(regime, contact)) return {k, 0};
   const HarmonicCoefficient phi = slip_coefficient(std::log(std::abs(r) / threshold(contact, load)));
   return {k * phi.phi, k * phi.phi_log};
@@ -61,8 +59,8 @@ bool MultiContactResponse::evaluate(const Vector& u, const Vector& p, int regime
     springs(i) = at.spring;
     springs_log(i) = at.spring_log;
   }
-  const ContactReceptance base = base_.at(p(eta));
-  const ContactReceptance damper = damper_.at(p(eta));
+  const ContactReceptance base = system_.base.at(p(eta));
+  const ContactReceptance damper = system_.damper.at(p(eta));
   const ContactMatrix c = base.compliance + damper.compliance;
   ContactMatrix closed = c * springs.asDiagonal();
   closed.diagonal().array() += 1.0;
@@ -143,8 +141,9 @@ std::vector<continuation::Observable> MultiContactResponse::observables() const 
                                                {"beta"}, {"alpha"}, {"psi"},      {"dissipated"}};
   for (Index i = 1; i < contacts(); ++i) {
     for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
-      all.push_back({fmt::format("{}_{}", name, i + 1)});
+      all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
   }
+  for (const ContactsOutput& output : system_.outputs) all.push_back({output.name});
   return all;
 }
 
@@ -153,9 +152,15 @@ void MultiContactResponse::observe(const Vector& u, const Vector& p, int regime,
   const ContactVector r = complex_of(u);
   ContactVector f(m);
   for (Index i = 0; i < m; ++i) f(i) = law(r(i), i, p(preload), regime).spring * r(i);
-  const ContactVector damper = -(damper_.at(p(eta)).compliance * f);
+  const ContactVector damper = -(system_.damper.at(p(eta)).compliance * f);
   const ContactVector base = damper - r;
-  values.resize(9 + 5 * (m - 1));
+  values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs));
+  for (Index i = 0; i < std::ssize(system_.outputs); ++i) {
+    const ContactsOutput& output = system_.outputs[static_cast<std::size_t>(i)];
+    const ContactReceptance at = output.modes.at(p(eta));
+    const Complex by_contacts = (at.compliance.row(m).head(m) * f).value();
+    values(9 + 5 * (m - 1) + i) = std::abs(at.free(m) + output.force_sign * by_contacts);
+  }
   values(S) = threshold(0, p(preload));
   values(beta) = lag(base(0));
   values(alpha) = lag(damper(0));
@@ -178,7 +183,7 @@ void MultiContactResponse::observe(const Vector& u, const Vector& p, int regime,
 
 double MultiContactResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
                                      continuation::Gradient& gradient) const {
-  const ContactReceptance damper = damper_.at(p(eta));
+  const ContactReceptance damper = system_.damper.at(p(eta));
   const ContactVector r = complex_of(u);
   std::array<Law, most_contacts> laws;
   Complex y = -r(0);
@@ -206,10 +211,10 @@ double MultiContactResponse::observe(const Vector& u, const Vector& p, int regim
 std::vector<double> MultiContactResponse::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
   Vector springs(contacts());
-  for (Index i = 0; i < contacts(); ++i) springs(i) = contacts_[static_cast<std::size_t>(i)].stiffness;
-  std::vector<double> values = joined_frequencies({&base_, &damper_}, springs);
-  for (const double value : joined_frequencies({&damper_}, springs)) values.push_back(value);
-  for (const ContactModes* structure : {&base_, &damper_}) {
+  for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[static_cast<std::size_t>(i)].stiffness;
+  std::vector<double> values = joined_frequencies({&system_.base, &system_.damper}, springs);
+  for (const double value : joined_frequencies({&system_.damper}, springs)) values.push_back(value);
+  for (const ContactModes* structure : {&system_.base, &system_.damper}) {
     for (const ContactMode& mode : structure->modes()) values.push_back(mode.frequency);
   }
   std::erase_if(values, [&](double value) { return !(value > from && value < to); });
@@ -220,9 +225,9 @@ continuation::Guess MultiContactResponse::guess(double eta_value, double preload
   if (!(eta_value > 0 && preload_value > 0))
     throw std::invalid_argument("MultiContactResponse: eta and the preload must be positive");
   const Index m = contacts();
-  const ContactReceptance base = base_.at(eta_value);
-  ContactMatrix stuck = base.compliance + damper_.at(eta_value).compliance;
-  for (Index j = 0; j < m; ++j) stuck.col(j) *= contacts_[static_cast<std::size_t>(j)].stiffness;
+  const ContactReceptance base = system_.base.at(eta_value);
+  ContactMatrix stuck = base.compliance + system_.damper.at(eta_value).compliance;
+  for (Index j = 0; j < m; ++j) stuck.col(j) *= system_.contacts[static_cast<std::size_t>(j)].stiffness;
   stuck.diagonal().array() += 1;
   const ContactVector r = -(stuck.partialPivLu().solve(base.free));
   continuation::Guess guess{Vector(2 * m), Vector(2), 0};

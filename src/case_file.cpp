@@ -215,6 +215,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   if (model == nullptr) check_fixed(section, for_each, common, parameter);
   if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
   SystemUse use{model, parameter, false, model == nullptr ? read_sectors(document) : nullptr};
+  use.several_contacts = common.problem.response == Response::forced;
   if (use.sectors) std::tie(use.eta_low, use.eta_high) = eta_range(document, for_each, common, parameter);
   for (std::size_t i = 0; i < for_each.count(); ++i) {
     const auto [values, replacements, made] = for_each.at(i);

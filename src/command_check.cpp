@@ -18,11 +18,20 @@ namespace arcslip {
 namespace {
 
 std::string describe_sector(const SystemParameters& system) {
-  const double k = system.interface_stiffness / static_cast<double>(system.elements);
+  std::vector<double> k = {system.interface_stiffness / static_cast<double>(system.elements)};
+  std::vector<double> limits = {system.limit_per_preload};
+  if (!system.contacts.empty()) {
+    k.clear();
+    limits.clear();
+  }
+  for (const SectorContact& contact : system.contacts) {
+    k.push_back(contact.stiffness);
+    limits.push_back(contact.slip_per_preload * contact.stiffness);
+  }
   std::string text =
       fmt::format("sector, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})",
-                  system.wave_number, system.elements, k, system.limit_per_preload, system.force,
-                  system.base_damping, to_string(system.sectors->base().damping_kind));
+                  system.wave_number, system.elements, fmt::join(k, ", "), fmt::join(limits, ", "),
+                  system.force, system.base_damping, to_string(system.sectors->base().damping_kind));
   if (system.sectors->damper() != nullptr)
     text += fmt::format(", {:g} (damper, {})", system.damper_damping,
                         to_string(system.sectors->damper()->damping_kind));

@@ -52,17 +52,17 @@ ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector&
   return fold(product(sector_.stiffness, unfolded));
 }
 
-Index ExtendedSector::contact() const {
-  return map_.reduced[static_cast<std::size_t>(sector_.contacts.front())];
+Index ExtendedSector::reduced_contact(Index contact) const {
+  return map_.reduced[static_cast<std::size_t>(sector_.contacts[static_cast<std::size_t>(contact)])];
 }
 
 ExtendedSector::NumberVector ExtendedSector::observed(const NumberVector& reduced) const {
-  NumberVector values(1 + outputs());
-  values(0) = reduced(contact());
+  NumberVector values(contacts() + outputs());
+  for (Index i = 0; i < contacts(); ++i) values(i) = reduced(reduced_contact(i));
   for (Index i = 0; i < outputs(); ++i) {
     const auto dof = static_cast<std::size_t>(sector_.outputs[static_cast<std::size_t>(i)]);
     const Number value = reduced(map_.reduced[dof]);
-    values(1 + i) = map_.is_right[dof] ? forward_ * value : value;
+    values(contacts() + i) = map_.is_right[dof] ? forward_ * value : value;
   }
   return values;
 }

@@ -28,10 +28,11 @@ class ExtendedSector {
 
   const NumberVector& load() const { return load_; }  ///< T^H F
   Index size() const { return map_.size; }
-  /// Reduced dof of the contact.
-  Index contact() const;
+  Index contacts() const { return std::ssize(sector_.contacts); }
+  /// Reduced dof of a contact.
+  Index reduced_contact(Index contact) const;
   Index outputs() const { return std::ssize(sector_.outputs); }
-  /// The contact and the outputs of a reduced vector.
+  /// The contacts and then the outputs of a reduced vector.
   NumberVector observed(const NumberVector& reduced) const;
 
  private:

@@ -57,7 +57,7 @@ class Decision {
   Decision(const ResultTable& table, const ordered_json& summary)
       : table_(table), system_(summary.at("case").at("system")), branch_(summary.at("case").at("branch")) {
     const std::string model = system_.at("model").get<std::string>();
-    is_friction_ = model == "rods" || model == "beams";
+    is_friction_ = model == "rods" || model == "beams" || model == "sector";
     is_requested_ = !summary.at("case").at("continuation").at("stop_at").empty();
     colours_ = colours_of(summary.at("branches"), is_friction_);
   }

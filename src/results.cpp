@@ -272,7 +272,7 @@ ordered_json modes_to_json(const SystemParameters& system) {
   const SectorUse use = sector_use(system);
   const auto add = [&](const char* name, const SectorModes& modes) {
     parts[name] = {{"dofs", modes.dofs},
-                   {"modes", modes.modes.size()},
+                   {"modes", modes.frequencies.size()},
                    {"error", modes.error},
                    {"error_eta", modes.error_eta},
                    {"check_etas", modes.check_etas},

@@ -43,24 +43,20 @@ SectorModes RitzSpace::modes(double below) const {
     throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
   const Eigen::GeneralizedSelfAdjointEigenSolver<NumberMatrix> solver(mass_, shifted);
   if (solver.info() != Eigen::Success) throw SectorError("the modes of the sector were not found");
-  NumberMatrix observed(1 + sector_.outputs(), size());  // of each vector at the contact and the outputs
+  NumberMatrix observed(sector_.contacts() + sector_.outputs(), size());  // what is seen of each vector
   for (Index i = 0; i < size(); ++i) observed.col(i) = sector_.observed(basis_.col(i).cast<Number>());
   const Real two_pi = 2 * std::numbers::pi_v<Real>;
   SectorModes found;
-  found.output_by_contact.resize(sector_.outputs(), size());
-  found.output_by_load.resize(sector_.outputs(), size());
+  found.shapes.resize(observed.rows(), size());
+  found.loads.resize(size());
   for (Index k = 0; k < size(); ++k) {
     const Index place = size() - 1 - k;
     const Real theta = solver.eigenvalues()(place);  // 1/(lambda - shift)
     const NumberVector shape = solver.eigenvectors().col(place) / (std::sqrt(theta) * two_pi);
-    const NumberVector motion = observed * shape;
-    const Number by_load = shape.dot(load_);
     const Real square = std::max(shift + 1 / theta, Real(0));
-    found.modes.push_back({static_cast<double>(std::sqrt(square) / two_pi),
-                           static_cast<double>(std::norm(motion(0))), Complex(motion(0) * by_load)});
-    const NumberVector outputs = motion.tail(sector_.outputs());
-    found.output_by_contact.col(k) = (outputs * std::conj(motion(0))).cast<Complex>();
-    found.output_by_load.col(k) = (outputs * by_load).cast<Complex>();
+    found.frequencies.push_back(static_cast<double>(std::sqrt(square) / two_pi));
+    found.shapes.col(k) = (observed * shape).cast<Complex>();
+    found.loads(k) = Complex(shape.dot(load_));
   }
   return found;
 }

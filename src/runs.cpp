@@ -12,7 +12,9 @@
 #include "arcslip/problems/cubic_response.hpp"
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/problems/limit_cycle.hpp"
+#include "arcslip/problems/multi_contact_response.hpp"
 #include "arcslip/problems/one_way_response.hpp"
+#include "arcslip/sector_pair.hpp"
 
 namespace arcslip {
 namespace {
@@ -44,9 +46,20 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
   return guessed(problem, [&] { return request.model->guess(*problem, settings); });
 }
 
+/// The problem of a system with friction: of the type, which has the system's number of contacts.
+template <class Type>
+std::shared_ptr<Type> build_problem(const SystemParameters& system) {
+  if constexpr (std::is_same_v<Type, problems::MultiContactResponse>) {
+    return std::make_shared<Type>(build_contact_system(system));
+  } else {
+    return std::make_shared<Type>(build_system(system));
+  }
+}
+
 /// Calls `use` with the type of the problem of a system with friction.
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
+  if (!request.system.contacts.empty()) return use(std::type_identity<problems::MultiContactResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
   if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
   if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
@@ -58,7 +71,7 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
     return name == parameter ? value : fixed_value(request, name);
   };
   return with_type(request, [&]<class Type>(std::type_identity<Type>) {
-    const auto problem = std::make_shared<Type>(build_system(request.system));
+    const auto problem = build_problem<Type>(request.system);
     return guessed(problem, [&] {
       return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
     });
@@ -170,13 +183,12 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
 }  // namespace
 
 std::vector<std::string> tracked_observables(const ProblemRequest& request) {
-  std::unique_ptr<const continuation::Problem> problem;
+  std::shared_ptr<const continuation::Problem> problem;
   if (request.model != nullptr) {
     problem = request.model->build(request.settings);
   } else {
-    with_type(request, [&]<class Type>(std::type_identity<Type>) {
-      problem = std::make_unique<Type>(build_system(request.system));
-    });
+    with_type(request,
+              [&]<class Type>(std::type_identity<Type>) { problem = build_problem<Type>(request.system); });
   }
   std::vector<std::string> names;
   for (const continuation::Observable& observable : problem->observables()) {

@@ -80,10 +80,11 @@ std::string case_text(const SectorCase& input) {
   text += section("base", input.base, input.base_damping) + "load = \"base_load.txt\"\n";
   text += section("damper", input.damper, input.damper_damping);
   text += fmt::format(
-      "\n[branch]\nparameter = \"eta\"\nfrom = {0}\nto = {1}\nfor_each = {{ preload = [{2}, {3}, {4}] }}\n"
-      "\n[study]\nparameter = \"P\"\nfrom = {2}\nto = {4}\neta = [{0}, {1}]\n",
+      "\n[branch]\nparameter = \"eta\"\nfrom = {}\nto = {}\nfor_each = {{ preload = [{}, {}, {}] }}\n",
       input.eta_from, input.eta_to, input.preload / 100, input.preload, input.preload * 100);
-  return text;
+  if (input.base.contacts.size() > 1) return text;  // a study takes one contact
+  return text + fmt::format("\n[study]\nparameter = \"P\"\nfrom = {}\nto = {}\neta = [{}, {}]\n",
+                            input.preload / 100, input.preload * 100, input.eta_from, input.eta_to);
 }
 
 }  // namespace

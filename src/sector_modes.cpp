@@ -25,9 +25,11 @@ class Krylov {
       : reduction_(sector), shifted_(reduction_.stiffness()), factors_(shifted_) {
     reduction_.set_forward(wave.forward());
     factor(below);
-    block_ = ComplexMatrix::Zero(reduction_.size(), 2);
-    block_(reduction_.reduced_dof(sector.contacts.front()), 0) = 1;
-    block_.col(1) = reduction_.load();
+    const Index contacts = std::ssize(sector.contacts);
+    block_ = ComplexMatrix::Zero(reduction_.size(), contacts + 1);
+    for (Index i = 0; i < contacts; ++i)
+      block_(reduction_.reduced_dof(sector.contacts[static_cast<std::size_t>(i)]), i) = 1;
+    block_.col(contacts) = reduction_.load();
     basis_.resize(reduction_.size(), 0);
   }
 
@@ -80,47 +82,41 @@ class Krylov {
   ComplexMatrix block_;
 };
 
-double relative(Complex value, Complex reference) {
-  const double size = std::abs(reference);
-  return size > 0 ? std::abs(value - reference) / size : std::abs(value);
-}
-
-/// Motions under a unit force on the contact (column 0) and under the load (column 1), of the contact (row 0)
-/// and the outputs.
-ComplexMatrix response(const SectorModes& found, const Loss& loss, double eta) {
-  const Index outputs = found.output_by_contact.rows();
-  ComplexMatrix motion = ComplexMatrix::Zero(1 + outputs, 2);
-  for (std::size_t k = 0; k < found.modes.size(); ++k) {
-    const Mode& mode = found.modes[k];
-    const Complex inverse =
-        1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta), loss.part(eta, mode.frequency));
-    const auto column = static_cast<Index>(k);
-    motion(0, 0) += mode.residue * inverse;
-    motion(0, 1) += mode.load_residue * inverse;
-    motion.col(0).tail(outputs) += inverse * found.output_by_contact.col(column);
-    motion.col(1).tail(outputs) += inverse * found.output_by_load.col(column);
+/// Motions of contacts and outputs (rows) under a unit force on each of `contacts` contacts and under the
+/// load (columns).
+ComplexMatrix response(const SectorModes& found, Index contacts, const Loss& loss, double eta) {
+  ComplexMatrix drive(static_cast<Index>(found.frequencies.size()), contacts + 1);  // of each mode
+  drive << found.shapes.topRows(contacts).adjoint(), found.loads;
+  for (Index k = 0; k < drive.rows(); ++k) {
+    const double frequency = found.frequencies[static_cast<std::size_t>(k)];
+    drive.row(k) /= Complex((frequency - eta) * (frequency + eta), loss.part(eta, frequency));
   }
-  return motion;
+  return found.shapes * drive;
 }
 
-/// Largest relative difference, where outputs are measured by the largest of them.
+/// Largest relative difference; off the diagonal of the compliance motions are measured by the largest of
+/// their column.
 double difference(const ComplexMatrix& motion, const ComplexMatrix& reference) {
   double worst = 0;
-  for (Index column = 0; column < 2; ++column) {
-    worst = std::max(worst, relative(motion(0, column), reference(0, column)));
+  for (Index column = 0; column < reference.cols(); ++column) {
     const double size = reference.col(column).cwiseAbs().maxCoeff();
-    if (size > 0) worst = std::max(worst, (motion - reference).col(column).cwiseAbs().maxCoeff() / size);
+    for (Index row = 0; row < reference.rows(); ++row) {
+      const bool own = row == column || (reference.cols() == 2 && row == 0);
+      const double unit = own ? std::abs(reference(row, column)) : size;
+      const double error = std::abs(motion(row, column) - reference(row, column));
+      worst = std::max(worst, unit > 0 ? error / unit : error);
+    }
   }
   return worst;
 }
 
 /// The ends of the window, the modes in it that respond, and the middles between all of these.
-std::vector<double> places(const std::vector<Mode>& modes, const ModesRequest& request) {
+std::vector<double> places(const SectorModes& modes, const ModesRequest& request) {
   std::vector<double> etas = {request.eta_low};
-  for (const Mode& mode : modes) {
-    const bool responds = mode.residue > 0 || std::abs(mode.load_residue) > 0;
-    if (responds && mode.frequency > request.eta_low && mode.frequency < request.eta_high)
-      etas.push_back(mode.frequency);
+  for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
+    const double frequency = modes.frequencies[k];
+    const bool responds = !modes.shapes.col(static_cast<Index>(k)).isZero(0);
+    if (responds && frequency > request.eta_low && frequency < request.eta_high) etas.push_back(frequency);
   }
   if (request.eta_high > request.eta_low) etas.push_back(request.eta_high);
   const std::size_t count = etas.size();
@@ -129,11 +125,12 @@ std::vector<double> places(const std::vector<Mode>& modes, const ModesRequest& r
   return etas;
 }
 
-double change(const SectorModes& now, const SectorModes& before, const ModesRequest& request) {
+double change(const SectorModes& now, const SectorModes& before, Index contacts,
+              const ModesRequest& request) {
   double worst = 0;
-  for (const double eta : places(now.modes, request)) {
-    worst =
-        std::max(worst, difference(response(before, request.loss, eta), response(now, request.loss, eta)));
+  for (const double eta : places(now, request)) {
+    worst = std::max(worst, difference(response(before, contacts, request.loss, eta),
+                                       response(now, contacts, request.loss, eta)));
   }
   return worst;
 }
@@ -159,7 +156,8 @@ SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, co
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
     next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
     SectorModes found = space.modes(below);
-    const bool same = !modes.modes.empty() && change(found, modes, request) <= request.tolerance;
+    const bool same = !modes.frequencies.empty() &&
+                      change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance;
     unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
     modes = std::move(found);
   }
@@ -189,10 +187,11 @@ class FullResponse {
       matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
     if (!factors_.factor(matrix_))
       throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
-    const auto contact = ExtendedSector::NumberVector::Unit(extended_.size(), extended_.contact());
-    ComplexMatrix motion(1 + extended_.outputs(), 2);
-    motion.col(0) = solve(contact, k, eta);
-    motion.col(1) = solve(extended_.load(), k, eta);
+    const Index contacts = extended_.contacts();
+    ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
+    for (Index i = 0; i < contacts; ++i)
+      motion.col(i) = solve(NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), k, eta);
+    motion.col(contacts) = solve(extended_.load(), k, eta);
     return motion;
   }
 
@@ -231,8 +230,8 @@ class FullResponse {
 /// Compares the modes with the full solve at some places, evenly among all.
 void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
              SectorModes& result) {
-  std::vector<double> etas = places(result.modes, request);
-  const std::size_t most = 4 + result.modes.size() / 10;
+  std::vector<double> etas = places(result, request);
+  const std::size_t most = 4 + result.frequencies.size() / 10;
   if (etas.size() > most) {
     std::vector<double> some;
     for (std::size_t i = 0; i < most; ++i) some.push_back(etas[i * (etas.size() - 1) / (most - 1)]);
@@ -244,7 +243,7 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
   loss.modal = 0;
   FullResponse full(sector, wave, loss);
   for (const double eta : etas) {
-    const double error = difference(response(result, loss, eta), full.at(eta));
+    const double error = difference(response(result, std::ssize(sector.contacts), loss, eta), full.at(eta));
     if (!(error <= result.error)) {
       result.error = error;
       result.error_eta = eta;
@@ -258,6 +257,15 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
 
 Complex SectorWave::forward() const {
   return std::polar(1.0, -two_pi * static_cast<double>(wave_number) / static_cast<double>(sectors));
+}
+
+ModalModel modal_model(const SectorModes& found, Index row, const ComplexVector& sources, const Loss& loss) {
+  std::vector<Mode> modes;
+  for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
+    const Complex shape = found.shapes(row, static_cast<Index>(k));
+    modes.push_back({found.frequencies[k], std::norm(shape), shape * sources(static_cast<Index>(k))});
+  }
+  return {std::move(modes), loss};
 }
 
 SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {

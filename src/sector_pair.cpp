@@ -1,5 +1,7 @@
 #include "arcslip/sector_pair.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
@@ -80,48 +82,104 @@ SectorUse sector_use(const SystemParameters& parameters) {
 
 namespace {
 
-/// The outputs of a part, whose contact feels `sign` times the base's force.
-void add_outputs(const SectorPart& part, const SectorModes& found, const Loss& loss, const char* letter,
-                 Complex sign, double force, std::vector<ContactOutput>& outputs) {
-  for (Index i = 0; i < found.output_by_load.rows(); ++i) {
-    std::vector<Mode> by_load = found.modes;
-    std::vector<Mode> by_contact = found.modes;
-    for (std::size_t k = 0; k < found.modes.size(); ++k) {
-      by_load[k].load_residue = force * found.output_by_load(i, static_cast<Index>(k));
-      by_contact[k].load_residue = sign * found.output_by_contact(i, static_cast<Index>(k));
+std::string output_name(const char* letter, const SectorPart& part, Index output) {
+  return fmt::format("{}_{}", letter, part.sector.outputs[static_cast<std::size_t>(output)] + 1);
+}
+
+/// One of the two with its modes.
+struct Part {
+  const SectorPart& part;
+  const SectorModes& modes;
+  Loss loss;
+  double force;       ///< factor of the load
+  double force_sign;  ///< of the force that its contacts feel, against the base's
+  const char* letter;
+
+  ModalModel contact() const { return modal_model(modes, 0, force * modes.loads, loss); }
+
+  void add_outputs(std::vector<ContactOutput>& outputs) const {
+    const ComplexVector by_contact = force_sign * modes.shapes.row(0).adjoint();
+    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
+      outputs.push_back({output_name(letter, part, i), modal_model(modes, 1 + i, force * modes.loads, loss),
+                         modal_model(modes, 1 + i, by_contact, loss)});
     }
-    const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
-    outputs.push_back({std::string(letter) + "_" + std::to_string(dof),
-                       {std::move(by_load), loss},
-                       {std::move(by_contact), loss}});
   }
+
+  /// The contacts and, if one is asked for, an output after them.
+  ContactModes contacts(std::optional<Index> output = {}) const {
+    const Index count = std::ssize(part.sector.contacts);
+    std::vector<ContactMode> list;
+    for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
+      const auto column = static_cast<Index>(k);
+      ContactMode mode{modes.frequencies[k], modes.shapes.col(column).head(count),
+                       force * modes.loads(column)};
+      if (output) {
+        mode.shape.conservativeResize(count + 1);
+        mode.shape(count) = modes.shapes(count + *output, column);
+      }
+      list.push_back(std::move(mode));
+    }
+    return {count + (output ? 1 : 0), std::move(list), loss};
+  }
+
+  void add_outputs(std::vector<ContactsOutput>& outputs) const {
+    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i)
+      outputs.push_back({output_name(letter, part, i), contacts(i), force_sign});
+  }
+};
+
+Part base_part(const SystemParameters& parameters) {
+  const SectorPart& part = parameters.sectors->base();
+  const double zeta = parameters.base_damping;
+  return {part,
+          parameters.sectors->base_modes(sector_use(parameters), zeta),
+          part.fixed + zeta * part.loss_per_zeta(),
+          parameters.force,
+          1,
+          "Y"};
+}
+
+std::optional<Part> damper_part(const SystemParameters& parameters) {
+  const SectorPart* part = parameters.sectors->damper();
+  if (part == nullptr) return std::nullopt;
+  const double zeta = parameters.damper_damping;
+  return Part{*part,
+              parameters.sectors->damper_modes(sector_use(parameters), zeta),
+              part->fixed + zeta * part->loss_per_zeta(),
+              0,
+              -1,
+              "U"};
 }
 
 }  // namespace
 
 FrictionSystem build_sector_system(const SystemParameters& parameters) {
-  const SectorPair& sectors = *parameters.sectors;
-  const SectorUse use = sector_use(parameters);
+  if (!parameters.contacts.empty())
+    throw SectorError("several contacts of a sector are no system with one contact");
   const double k = parameters.interface_stiffness / static_cast<double>(parameters.elements);
-  const SectorPart& base = sectors.base();
-  const Loss base_loss = base.fixed + parameters.base_damping * base.loss_per_zeta();
-  const SectorModes& base_modes = sectors.base_modes(use, parameters.base_damping);
-  std::vector<Mode> loaded = base_modes.modes;
-  for (Mode& mode : loaded) mode.load_residue *= parameters.force;
-  FrictionSystem system{.base = ModalModel(std::move(loaded), base_loss),
+  const Part base = base_part(parameters);
+  FrictionSystem system{.base = base.contact(),
                         .damper = {},
                         .contact_stiffness = k,
                         .slip_per_preload = parameters.limit_per_preload / k,
-                        .base_loss_per_zeta = base.loss_per_zeta(),
+                        .base_loss_per_zeta = base.part.loss_per_zeta(),
                         .preload_growth = parameters.preload_growth,
-                        .base_loss_fixed = base.fixed};
-  add_outputs(base, base_modes, base_loss, "Y", 1, parameters.force, system.outputs);
-  if (sectors.damper() == nullptr) return system;
-  const SectorPart& damper = *sectors.damper();
-  const Loss loss = damper.fixed + parameters.damper_damping * damper.loss_per_zeta();
-  const SectorModes& modes = sectors.damper_modes(use, parameters.damper_damping);
-  system.damper = ModalModel(modes.modes, loss);
-  add_outputs(damper, modes, loss, "U", -1, 0, system.outputs);
+                        .base_loss_fixed = base.part.fixed};
+  base.add_outputs(system.outputs);
+  if (const std::optional<Part> damper = damper_part(parameters)) {
+    system.damper = damper->contact();
+    damper->add_outputs(system.outputs);
+  }
+  return system;
+}
+
+ContactSystem build_contact_system(const SystemParameters& parameters) {
+  const Part base = base_part(parameters);
+  const std::optional<Part> damper = damper_part(parameters);
+  const ContactModes held(std::ssize(parameters.contacts), {}, {});
+  ContactSystem system{base.contacts(), damper ? damper->contacts() : held, parameters.contacts};
+  base.add_outputs(system.outputs);
+  if (damper) damper->add_outputs(system.outputs);
   return system;
 }
 

@@ -44,8 +44,9 @@ class PartSection {
     sector.right = dofs("right");
     if (section_.has("interior")) sector.interior = dofs("interior");
     sector.contacts = dofs("contact");
-    if (sector.contacts.size() != 1)
-      section_.fail("contact", "expected one dof, got " + count(sector.contacts));
+    if (sector.contacts.empty() || std::ssize(sector.contacts) >= most_contacts)
+      section_.fail("contact", fmt::format("expected from 1 to {} dofs, got {}", most_contacts - 1,
+                                           sector.contacts.size()));
     if (section_.has("output")) sector.outputs = dofs("output");
     sector.load = loaded_ ? load() : ComplexVector::Zero(size_);
     if (loaded_ && sector.load.isZero(0)) section_.fail("load", "expected a force that is not 0");
@@ -64,8 +65,6 @@ class PartSection {
   }
 
  private:
-  static std::string count(const std::vector<Index>& list) { return fmt::format("{}", list.size()); }
-
   void read_damping(SectorPart& part) const {
     if (section_.has("damping_kind")) {
       const std::string kind = section_.text("damping_kind", {"viscous", "structural", "modal"});
@@ -187,6 +186,34 @@ void read_window(const TomlSection& section, const SystemUse& use, SystemParamet
   system.eta_high = window[1];
 }
 
+/// A number for all contacts, or a list with one for each.
+std::vector<double> for_contacts(const TomlSection& section, std::string_view key, std::size_t count,
+                                 std::optional<double> standard) {
+  const toml::table* table = section.table();
+  if (table == nullptr || !(*table)[key].is_array())
+    return std::vector<double>(
+        count, standard ? section.number(key, positive(), *standard) : section.number(key, positive()));
+  const std::vector<double> values = section.numbers(key, positive());
+  if (values.size() != count)
+    section.fail(key, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
+                                  values.size()));
+  return values;
+}
+
+void read_contacts(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
+                   SystemParameters& system) {
+  const std::size_t count = use.sectors->base().sector.contacts.size();
+  if (count > 1 && !use.several_contacts)
+    TomlSection(document, "system.base")
+        .fail("contact",
+              fmt::format("expected one dof for a study, limit cycles and one-way responses, got {}", count));
+  const std::vector<double> k = for_contacts(section, "contact_stiffness", count, {});
+  const std::vector<double> limit = for_contacts(section, "limit_per_preload", count, 1);
+  system.interface_stiffness = k.front() * static_cast<double>(system.elements);
+  system.limit_per_preload = limit.front();
+  for (std::size_t i = 0; count > 1 && i < count; ++i) system.contacts.push_back({k[i], limit[i] / k[i]});
+}
+
 }  // namespace
 
 bool is_sector(const TomlDocument& document) {
@@ -209,8 +236,13 @@ std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
   const double tolerance = section.number("reduction_tolerance", rule, default_tolerance);
   std::optional<SectorPart> damper;
   if (section.has("damper")) damper = PartSection(document, "system.damper", false).read();
-  return std::make_shared<const SectorPair>(PartSection(document, "system.base", true).read(),
-                                            std::move(damper), tolerance);
+  SectorPart base = PartSection(document, "system.base", true).read();
+  const std::size_t contacts = base.sector.contacts.size();
+  if (damper && damper->sector.contacts.size() != contacts)
+    TomlSection(document, "system.damper")
+        .fail("contact", fmt::format("expected {} dofs, as many as of the base, got {}", contacts,
+                                     damper->sector.contacts.size()));
+  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), tolerance);
 }
 
 void read_sector_system(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
@@ -222,9 +254,7 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
   system.wave_number =
       section.integer("wave_number", 0, system.elements / 2,
                       fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2));
-  const double k = section.number("contact_stiffness", positive());
-  system.interface_stiffness = k * static_cast<double>(system.elements);
-  system.limit_per_preload = section.number("limit_per_preload", positive(), 1);
+  read_contacts(document, section, use, system);
   system.force = section.number("force", positive(), 1);
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
   system.fixed_damper = !has_damper(document);

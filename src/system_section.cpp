@@ -114,7 +114,9 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, use, problem);
   }
   read_damping(document, section, use.linear_passive, problem.system);
-  problem.system.preload_growth = section.number("preload_growth", any_number(), 0);
+  const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts"};
+  problem.system.preload_growth =
+      section.number("preload_growth", problem.system.contacts.empty() ? any_number() : none, 0);
 }
 
 void read_settings(const TomlSection& section, const SystemUse& use,

@@ -12,7 +12,6 @@ using continuation::BranchPoint;
 using continuation::PointType;
 using problems::ForcedResponse;
 using problems::MultiContactResponse;
-using problems::SectorContact;
 
 namespace {
 
@@ -40,17 +39,18 @@ SectorContact contact_of(const FrictionSystem& system) {
 }
 
 MultiContactResponse one_contact(const FrictionSystem& system) {
-  return {spread(system.base, 1, {0}), spread(system.damper, 1, {0}), {contact_of(system)}};
+  return MultiContactResponse(
+      {spread(system.base, 1, {0}), spread(system.damper, 1, {0}), {contact_of(system)}});
 }
 
 /// The contact of `system` as two, at one place: `share` of the stiffness with the threshold `low` times that
 /// of the whole, the rest with `high` times.
 MultiContactResponse halved(const FrictionSystem& system, double share, double low, double high) {
   const SectorContact whole = contact_of(system);
-  return {spread(system.base, 2, {0, 1}),
-          spread(system.damper, 2, {0, 1}),
-          {{share * whole.stiffness, low * whole.slip_per_preload},
-           {(1 - share) * whole.stiffness, high * whole.slip_per_preload}}};
+  return MultiContactResponse({spread(system.base, 2, {0, 1}),
+                               spread(system.damper, 2, {0, 1}),
+                               {{share * whole.stiffness, low * whole.slip_per_preload},
+                                {(1 - share) * whole.stiffness, high * whole.slip_per_preload}}});
 }
 
 double observed(const continuation::Problem& problem, const BranchPoint& point, Index which) {
@@ -166,15 +166,15 @@ TEST_CASE("Two contacts of structures that do not touch slip as each does alone"
   const Loss base{1e-4, 0};
   const Loss damper{2e-4, 0};
   const MultiContactResponse problem(
-      side_by_side(spread(first.base, 2, {0}), spread(second.base, 2, {1}), base),
-      side_by_side(spread(first.damper, 2, {0}), spread(second.damper, 2, {1}), damper),
-      {contact_of(first), contact_of(second)});
+      {side_by_side(spread(first.base, 2, {0}), spread(second.base, 2, {1}), base),
+       side_by_side(spread(first.damper, 2, {0}), spread(second.damper, 2, {1}), damper),
+       {contact_of(first), contact_of(second)}});
   // the same losses for each alone
   const auto alone = [&](const FrictionSystem& system) {
     const auto with = [](const ModalModel& model, const Loss& loss) {
       return ContactModes(1, spread(model, 1, {0}).modes(), loss);
     };
-    return MultiContactResponse(with(system.base, base), with(system.damper, damper), {contact_of(system)});
+    return MultiContactResponse({with(system.base, base), with(system.damper, damper), {contact_of(system)}});
   };
   const MultiContactResponse one = alone(first);
   const MultiContactResponse two = alone(second);
@@ -221,7 +221,7 @@ TEST_CASE("The force's power is what dampers and sliders take", "[contacts]") {
     const std::vector<ContactMode> damper = modes(false);
     std::vector<SectorContact> contacts;
     for (int k = 0; k < 3; ++k) contacts.push_back({draw.log_uniform(0.1, 100), draw.log_uniform(0.1, 10)});
-    const MultiContactResponse problem({3, base, loss}, {3, damper, loss}, contacts);
+    const MultiContactResponse problem({{3, base, loss}, {3, damper, loss}, contacts});
     const double preload = draw.log_uniform(1e-3, 1);
     const Branch branch = response(problem, preload, 0.4, 10);
     CAPTURE(i, branch.explanation);
@@ -271,7 +271,7 @@ TEST_CASE("All derivatives with several contacts are exact", "[contacts]") {
       modes.push_back(mode);
     }
     const ContactModes structure(3, modes, {0.02, 0.01});
-    const MultiContactResponse problem(structure, structure, {{1, 1}, {2, 0.5}, {0.3, 2}});
+    const MultiContactResponse problem({structure, structure, {{1, 1}, {2, 0.5}, {0.3, 2}}});
     Vector u(6);
     for (Index k = 0; k < 3; ++k) {
       const double S = 0.7 * (k == 0 ? 1 : k == 1 ? 0.5 : 2);
@@ -294,10 +294,10 @@ TEST_CASE("Systems of contacts that do not fit are refused", "[contacts]") {
   const FrictionSystem system = build_system(figure_8(1));
   const ContactModes one = spread(system.base, 1, {0});
   const ContactModes two = spread(system.base, 2, {0, 1});
-  CHECK_THROWS_AS(MultiContactResponse(one, two, {{1, 1}}), std::invalid_argument);
-  CHECK_THROWS_AS(MultiContactResponse(two, two, {{1, 1}}), std::invalid_argument);
-  CHECK_THROWS_AS(MultiContactResponse(one, one, {{0, 1}}), std::invalid_argument);
-  CHECK_THROWS_AS(ContactModes(13, {}, {}), std::invalid_argument);
+  CHECK_THROWS_AS(MultiContactResponse({one, two, {{1, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(MultiContactResponse({two, two, {{1, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(MultiContactResponse({one, one, {{0, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(ContactModes(14, {}, {}), std::invalid_argument);
   CHECK_THROWS_AS(ContactModes(2, one.modes(), {}), std::invalid_argument);
   CHECK_THROWS_AS(one_contact(system).guess(1, 0), std::invalid_argument);
 }

@@ -7,14 +7,15 @@
 //
 // E has a unit column for each contact. ModalModel is this for one contact.
 
+#include <string>
 #include <vector>
 
 #include "arcslip/modal_model.hpp"
 
 namespace arcslip {
 
-/// Of a sector; vectors and matrices of contacts live on the stack.
-inline constexpr int most_contacts = 12;
+/// Of a sector, one of them perhaps an output; vectors and matrices of contacts live on the stack.
+inline constexpr int most_contacts = 13;
 using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
 using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
 
@@ -48,6 +49,28 @@ class ContactModes {
   Index contacts_;
   std::vector<ContactMode> modes_;
   Loss loss_;
+};
+
+/// One contact dof of each sector.
+struct SectorContact {
+  double stiffness = 1;         ///< k > 0
+  double slip_per_preload = 1;  ///< S/P > 0
+};
+
+/// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
+/// others.
+struct ContactsOutput {
+  std::string name;
+  ContactModes modes;
+  double force_sign;  ///< of the contacts' forces: 1 on the base, -1 on the damper
+};
+
+/// Base, damper and the interface between their contacts.
+struct ContactSystem {
+  ContactModes base;    ///< with the travelling load
+  ContactModes damper;  ///< without load
+  std::vector<SectorContact> contacts;
+  std::vector<ContactsOutput> outputs = {};
 };
 
 /// The undamped frequencies of `structures` joined at their contacts through springs, of stiffness `springs`

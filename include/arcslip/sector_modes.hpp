@@ -4,7 +4,7 @@
 //
 //   V^H K(a) V x = lambda V^H M(a) V x,   v_k = V x_k,   eta_k = sqrt(lambda_k)/(2 pi)
 //
-// Small sectors have V = I. Of larger ones V spans the responses to forces on the contact and to the load at
+// Small sectors have V = I. Of larger ones V spans the responses to forces on the contacts and to the load at
 // one shift, x_1 = (K - sigma M)^{-1} [e F], and what shift-invert Lanczos makes of them, (K - sigma M)^{-1}
 // M x_1 and so on [Ericsson and Ruhe, Math. Comp. 35 (1980) 1251], with full reorthogonalisation in M, until
 // the response no longer changes. The shift is sigma = 0, so that the static response is exact, or a little
@@ -38,11 +38,11 @@ struct ModesRequest {
   Index all_modes = 100;     ///< most reduced dofs of a sector that keeps all its modes
 };
 
-/// The modes, the residues for unit force on the contact and for the sector's load.
+/// The modes v_k as contacts, outputs and load see them.
 struct SectorModes {
-  std::vector<Mode> modes;
-  ComplexMatrix output_by_contact;  ///< residues of each output (row) in each mode, per force on the contact
-  ComplexMatrix output_by_load;     ///< and for the load
+  std::vector<double> frequencies;  ///< eta_k, ascending
+  ComplexMatrix shapes;             ///< v_k/(2 pi), a column each, at the contacts and then at the outputs
+  ComplexVector loads;              ///< v_k^H F/(2 pi)
   Index dofs = 0;                   ///< of the reduced sector
   double error = 0;                 ///< largest relative difference of c, y_0 and outputs from the full solve
   double error_eta = 0;             ///< where
@@ -50,7 +50,10 @@ struct SectorModes {
   int factorisations = 0;           ///< of the shift and of the comparison
 };
 
-/// `sector` is checked and has one contact. Throws SectorError where the reduced mass is not positive
+/// The modes as a row of the shapes sees them; `sources` (one for each mode) drive them in the load's place.
+ModalModel modal_model(const SectorModes& found, Index row, const ComplexVector& sources, const Loss& loss);
+
+/// `sector` is checked and has a contact. Throws SectorError where the reduced mass is not positive
 /// definite, where the stiffness is not positive semidefinite, and where the modes fail to give the response.
 SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request);
 

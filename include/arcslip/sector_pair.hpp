@@ -18,7 +18,7 @@ namespace arcslip {
 
 /// One of the two with its damping: zeta times that of a kind, and what is there besides.
 struct SectorPart {
-  FiniteSector sector;  ///< checked, one contact, damping 0 x 0
+  FiniteSector sector;  ///< checked, with a contact, damping 0 x 0
   DampingKind damping_kind = DampingKind::structural;
   double reference_frequency = 1;  ///< eta at which viscous damping has the loss 2 zeta
   Loss fixed;
@@ -75,8 +75,11 @@ class SectorPair {
   mutable std::mutex mutex_;
 };
 
-/// The model of `parameters`, whose `sectors` are given. Throws SectorError.
+/// The model of `parameters`, whose `sectors` are given and have one contact. Throws SectorError.
 FrictionSystem build_sector_system(const SystemParameters& parameters);
+
+/// The same of sectors with several contacts. Throws SectorError.
+ContactSystem build_contact_system(const SystemParameters& parameters);
 
 /// The use that `parameters` make of their sectors.
 SectorUse sector_use(const SystemParameters& parameters);

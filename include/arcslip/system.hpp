@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "arcslip/modal_model.hpp"
+#include "arcslip/contact_modes.hpp"
 
 namespace arcslip {
 
@@ -46,8 +46,9 @@ struct SystemParameters {
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k, and no ratio,
   /// cubic stiffness or fixed damper counts.
   std::shared_ptr<const SectorPair> sectors = {};
-  double limit_per_preload = 1;  ///< L
-  double eta_low = 0;            ///< window of eta in which the modes give the response
+  double limit_per_preload = 1;              ///< L
+  std::vector<SectorContact> contacts = {};  ///< where there are several, in place of K_FD and L
+  double eta_low = 0;                        ///< window of eta in which the modes give the response
   double eta_high = 0;
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*

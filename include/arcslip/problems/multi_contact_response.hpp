@@ -18,21 +18,16 @@
 
 namespace arcslip::problems {
 
-/// One contact dof of each sector.
-struct SectorContact {
-  double stiffness;         ///< k > 0
-  double slip_per_preload;  ///< S/P > 0
-};
-
 class MultiContactResponse : public continuation::Problem {
  public:
   enum Parameter : Index { eta, preload };
-  /// Observables in this order, those of the first contact; then for each further contact R_2, R_over_S_2,
-  /// Y_2, U_2, dissipated_2.
+  /// Observables in this order, those of the first contact; then for each further contact R_contact_2,
+  /// R_over_S_contact_2, Y_contact_2, U_contact_2, dissipated_contact_2; then the amplitudes of the system's
+  /// outputs.
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
 
   /// Throws std::invalid_argument where the three differ in the number of contacts or have no load.
-  MultiContactResponse(ContactModes base, ContactModes damper, std::vector<SectorContact> contacts);
+  explicit MultiContactResponse(ContactSystem system);
 
   Index size() const override { return 2 * contacts(); }
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
@@ -60,7 +55,7 @@ class MultiContactResponse : public continuation::Problem {
   /// Throws std::invalid_argument where that cannot be traced.
   continuation::Guess guess(double eta_value, double preload_value) const;
 
-  Index contacts() const { return static_cast<Index>(contacts_.size()); }
+  Index contacts() const { return std::ssize(system_.contacts); }
 
  private:
   /// k phi of a contact, and its derivative in ln R.
@@ -70,12 +65,10 @@ class MultiContactResponse : public continuation::Problem {
   };
   Law law(Complex r, Index contact, double load, int regime) const;
   double threshold(Index contact, double load) const {
-    return contacts_[static_cast<std::size_t>(contact)].slip_per_preload * load;
+    return system_.contacts[static_cast<std::size_t>(contact)].slip_per_preload * load;
   }
 
-  ContactModes base_;
-  ContactModes damper_;
-  std::vector<SectorContact> contacts_;
+  ContactSystem system_;
 };
 
 }  // namespace arcslip::problems
