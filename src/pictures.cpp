@@ -57,7 +57,8 @@ class Decision {
   Decision(const ResultTable& table, const ordered_json& summary)
       : table_(table), system_(summary.at("case").at("system")), branch_(summary.at("case").at("branch")) {
     const std::string model = system_.at("model").get<std::string>();
-    is_friction_ = model == "rods" || model == "beams" || model == "sector";
+    is_sector_ = model == "sector";
+    is_friction_ = model == "rods" || model == "beams" || is_sector_;
     is_requested_ = !summary.at("case").at("continuation").at("stop_at").empty();
     colours_ = colours_of(summary.at("branches"), is_friction_);
   }
@@ -125,7 +126,7 @@ class Decision {
   /// See plots/style.gp.
   Names settings(const std::string& parameter, const std::string& style, const std::string& names) const {
     const std::string title =
-        parameter == "eta" && is_friction_
+        parameter == "eta" && is_friction_ && !is_sector_  // whose eta has the unit of its matrices
             ? axis_title(parameter, true) + fmt::format("{}={}{{/:Italic ω}}/{{/:Italic Ω}}_D", blank, blank)
             : axis_title(parameter, is_friction_);
     return {fmt::format("{} {} branch", parameter, style), colours_.labels, colours_.groups,
@@ -151,6 +152,7 @@ class Decision {
   const ordered_json& system_;
   const ordered_json& branch_;
   bool is_friction_ = false;
+  bool is_sector_ = false;
   bool is_requested_ = false;
   Colours colours_;
 };

@@ -11,8 +11,8 @@
 #include "case_runs.hpp"
 #include "mistakes.hpp"
 #include "paper_cases.hpp"
+#include "paper_sectors.hpp"
 #include "program.hpp"
-#include "sector_files.hpp"
 #include "study_run.hpp"
 
 using namespace arcslip;
@@ -21,47 +21,6 @@ using namespace arcslip::testing;
 namespace {
 
 const Loss paper_loss{2 * 1e-4 / 4, 0};  // of the base; of the damper 2e-4
-
-struct PaperSectors {
-  FiniteSector base;
-  FiniteSector damper;
-};
-
-/// The paper's base (M* = 5, gamma = 4, F = 1) and damper, one sector each of `count` elements of 30.
-PaperSectors paper_sectors(bool beams, Index count) {
-  const auto element = beams ? beam_element : rod_element;
-  PaperSectors sectors{chain(element(5, 80, 1, 30), count, forward(1, 30)),
-                       chain(element(1, 1, 1, 30), count, forward(1, 30))};
-  sectors.base.load *= 80;
-  sectors.damper.load.setZero();
-  for (FiniteSector* sector : {&sectors.base, &sectors.damper}) sector->contacts = {0};
-  return sectors;
-}
-
-double interface_stiffness(bool beams) { return beams ? shear_interface_stiffness(33.3, 0.3) : 1000; }
-
-std::string paper_system(const TemporaryFolder& folder, bool beams, Index count) {
-  const PaperSectors sectors = paper_sectors(beams, count);
-  return fmt::format(
-             "[system]\nmodel = \"sector\"\nwave_number = 1\nsectors = {}\ncontact_stiffness = {:.17g}\n"
-             "limit_per_preload = {:.17g}\npreload = 1.0\n",
-             30 / count, interface_stiffness(beams) / 30, 80.0 / 30) +
-         write_sector(folder, "base", sectors.base, "damping_kind = \"viscous\"\nreference_frequency = 4.0") +
-         write_sector(folder, "damper", sectors.damper,
-                      "damping_kind = \"viscous\"\nreference_frequency = 1.0");
-}
-
-/// Columns of branches.csv by name, with numbers for numbers.
-std::vector<std::vector<std::string>> branches_csv(const Case& input) {
-  std::vector<TracedBranch> traced;
-  for (const CaseBranch& request : input.branches) {
-    for (TracedBranch& one : trace(request)) traced.push_back(std::move(one));
-  }
-  const TemporaryFolder folder;
-  std::string text;
-  write_branches(traced, [&](std::string_view piece) { text += piece; });
-  return read_csv(folder.write("branches.csv", text));
-}
 
 /// Largest relative difference of two tables' numbers, of angles and of zeros the absolute one. The
 /// residuals, which are rounding, and the iterations that they take do not count.
@@ -87,8 +46,6 @@ double difference(const std::vector<std::vector<std::string>>& a,
   return worst;
 }
 
-const std::string over_all_eta = "[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 120.0\n";
-
 }  // namespace
 
 TEST_CASE("The paper's rods and beams, one element a sector, give the built-in models' branches") {
@@ -103,76 +60,6 @@ TEST_CASE("The paper's rods and beams, one element a sector, give the built-in m
           over_all_eta);
   const double worst = difference(branches_csv(read_case(sector_case)), branches_csv(read_case(built_in)));
   CHECK(worst < 1e-10);
-}
-
-TEST_CASE("Ten elements a sector, each with its contact, vibrate as the paper's rods and beams") {
-  const bool beams = GENERATE(false, true);
-  const TemporaryFolder folder;
-  const std::string branch =
-      "[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 120.0\nfor_each = { preload = [1.0, 10.0] }\n"
-      "[continuation]\nstop_at = [3.45, 3.5, 3.7, 3.8, 3.9, 60.0]\n";
-  std::string text = paper_system(folder, beams, 10);
-  const std::string contacts =
-      beams ? "contact = [1, 3, 5, 7, 9, 11, 13, 15, 17, 19]" : "contact = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]";
-  for (std::size_t at = text.find("contact = [1]"); at != std::string::npos; at = text.find("contact = [1]"))
-    text.replace(at, 13, contacts);
-  const auto rows = branches_csv(read_case(folder.write("sector.toml", text + branch)));
-  const auto expected = branches_csv(read_case(folder.write(
-      "case.toml", fmt::format("[system]\nmodel = \"{}\"\nwave_number = 1\nelements = 30\nmass_ratio = 5.0\n"
-                               "frequency_ratio = 4.0\ninterface_stiffness = {:.17g}\nforce = 1.0\n",
-                               beams ? "beams" : "rods", interface_stiffness(beams)) +
-                       branch)));
-  const auto of_type = [](const std::vector<std::vector<std::string>>& table, const std::string& type) {
-    std::vector<std::vector<std::string>> kept;
-    std::copy_if(table.begin(), table.end(), std::back_inserter(kept),
-                 [&](const auto& row) { return row[2] == type; });
-    return kept;
-  };
-  const auto column = [&](const std::string& name, const std::vector<std::string>& row) {
-    const auto found = std::find(rows.front().begin(), rows.front().end(), name);
-    return std::stod(row[static_cast<std::size_t>(found - rows.front().begin())]);
-  };
-  for (const std::string type : {"user", "peak", "trough"}) {
-    const auto found = of_type(rows, type);
-    const auto right = of_type(expected, type);
-    REQUIRE(found.size() == right.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      CAPTURE(type, i);
-      CHECK(found[i][3] == right[i][3]);
-      CHECK_THAT(column("eta", found[i]), WithinRel(std::stod(right[i][4]), 1e-10));
-      for (std::size_t k = 6; k < 15 && type == "user"; ++k) {  // R to dissipated
-        CAPTURE(rows.front()[k]);
-        CHECK_THAT(std::stod(found[i][k]), WithinRel(std::stod(right[i][k]), 1e-10));
-      }
-      for (const char* name : {"R", "Y", "U"}) {  // the same at all contacts of the wave
-        for (const char* other : {"_contact_2", "_contact_10"})
-          CHECK_THAT(column(name + std::string(other), found[i]), WithinRel(column(name, found[i]), 1e-9));
-      }
-    }
-  }
-}
-
-TEST_CASE("Several contacts are refused where a study or another response has one") {
-  const TemporaryFolder folder;
-  std::string text = paper_system(folder, false, 3);
-  for (std::size_t at = text.find("contact = [1]"); at != std::string::npos; at = text.find("contact = [1]"))
-    text.replace(at, 13, "contact = [1, 2]");
-  const std::string study = "[study]\nparameter = \"P\"\nfrom = 0.1\nto = 10.0\neta = [0.5, 6.0]\n";
-  CHECK_THROWS_WITH(read_study(folder.write("study.toml", text + study)),
-                    ContainsSubstring("system.base.contact: expected one dof"));
-  const auto wrong = [&](const std::string& change) {
-    std::string changed = text;
-    changed.insert(changed.find("preload = 1.0"), change);
-    return folder.write("case.toml", changed + over_all_eta);
-  };
-  CHECK_THROWS_WITH(read_case(wrong("preload_growth = 1.0\n")), ContainsSubstring("system.preload_growth"));
-  CHECK_THROWS_WITH(read_case(folder.write("cycle.toml", text + over_all_eta + "response = \"one_way\"\n")),
-                    ContainsSubstring("system.base.contact: expected one dof"));
-  std::string listed = text;
-  const std::size_t at = listed.find("contact_stiffness = ") + 20;
-  listed.replace(at, listed.find('\n', at) - at, "[1.0, 2.0, 3.0]");
-  CHECK_THROWS_WITH(read_case(folder.write("list.toml", listed + over_all_eta)),
-                    ContainsSubstring("expected a number, or 2 of them as there are contacts, got 3"));
 }
 
 TEST_CASE("Ten elements a sector with dofs inside give the branches of a fifty-digit reduction") {
