@@ -1,0 +1,29 @@
+#pragma once
+
+// Base, damper and their contacts in several odd harmonics. Under the travelling wave node i repeats node 1
+// with the delay (i - 1) a/w, so that harmonic h travels with the propagation constant h a at the frequency
+// h eta, and each has its own compliance, whatever N is:
+//
+//   r_h + C_h k f_h(r) = -y_0 delta_h1,   C_h(eta) = C_B(h eta; h a) + C_D(h eta; h a).
+
+#include <vector>
+
+#include "arcslip/contact_modes.hpp"
+
+namespace arcslip {
+
+struct SystemParameters;
+
+struct HarmonicSystem {
+  std::vector<int> orders;           ///< h, odd and ascending from 1
+  std::vector<ContactModes> base;    ///< of each order, the first with the travelling load
+  std::vector<ContactModes> damper;  ///< of each order, without load
+  std::vector<SectorContact> contacts;
+  double preload_growth = 0;                 ///< P_2 of the preload P + P_2 eta^2
+  std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
+};
+
+/// The model of `parameters` in the harmonics 1, 3, ..., `highest`, which is odd. Throws SectorError.
+HarmonicSystem build_harmonic_system(const SystemParameters& parameters, int highest);
+
+}  // namespace arcslip

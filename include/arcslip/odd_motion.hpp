@@ -1,0 +1,62 @@
+#pragma once
+
+// A periodic motion of odd harmonics as it passes in time, theta = w t:
+//
+//   r(theta) = Re sum_h r_h e^{jh theta},   h = 1, 3, 5, ...,   r(theta + pi) = -r(theta).
+
+#include <array>
+#include <span>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip {
+
+/// The highest harmonic is at most 2 most_harmonics - 1; vectors of harmonics live on the stack.
+inline constexpr int most_harmonics = 128;
+using HarmonicVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_harmonics, 1>;
+
+/// Angles in ascending order.
+struct Angles {
+  std::array<double, 2 * most_harmonics> values;
+  int count = 0;
+
+  double operator[](int i) const { return values[static_cast<std::size_t>(i)]; }
+  void push(double angle) { values[static_cast<std::size_t>(count++)] = angle; }
+};
+
+class OddMotion {
+ public:
+  /// `orders` are the h, odd and ascending, with one coefficient each. Both must outlive the motion.
+  OddMotion(std::span<const int> orders, const HarmonicVector& coefficients);
+
+  std::span<const int> orders() const { return orders_; }
+  const HarmonicVector& coefficients() const { return coefficients_; }
+
+  double value(double theta) const;
+
+  struct Slopes {
+    double first;   ///< dr/dtheta
+    double second;  ///< d2r/dtheta2
+  };
+  Slopes slopes(double theta) const;
+
+  /// r(theta) - r(from) to the rounding of the difference, however close the two are.
+  double difference(double theta, double from) const;
+
+  /// Where the motion turns back, within half a period: all zeros of dr/dtheta but pairs of them closer than
+  /// 1e-8. Bounds on derivatives, not samples, tell that none is left. None of a motion that is zero.
+  Angles turning_points() const;
+
+  struct Maximum {
+    double angle;
+    double value;
+  };
+  /// max r, which is max |r|; 0 of a motion that is zero.
+  Maximum maximum() const;
+
+ private:
+  std::span<const int> orders_;
+  const HarmonicVector& coefficients_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,85 @@
+#pragma once
+
+// Forced response of base and damper in m contact dofs of a sector and several odd harmonics. Each contact
+// has a spring k_i and its own slider, which yields at S_i; its force k_i f(r_i) follows exactly from the
+// motion r_i(t) by HysteresisLoop:
+//
+//   r_h + C_h(eta) K f_h(r) = -y_0 delta_h1,   C_h = C_B + C_D at (h eta, h a),   K = diag(k_i).
+//
+// Solved is each row relative to |r| and to sqrt(1 + |C_h K|^2). Then u_h = -C_D,h K f_h, y_h = u_h - r_h.
+//
+// Unknowns: Re r_1, Im r_1, Re r_3, ... of the first contact, then of the next. Parameters: eta, P. Regimes:
+// which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i, for which
+// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
+// less, is no border: the engine crosses such a corner as it finds it.
+
+#include "arcslip/continuation/problem.hpp"
+#include "arcslip/continuation/trace.hpp"
+#include "arcslip/harmonic_system.hpp"
+#include "arcslip/odd_motion.hpp"
+
+namespace arcslip::problems {
+
+class HarmonicResponse : public continuation::Problem {
+ public:
+  enum Parameter : Index { eta, preload };
+  /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
+  /// is the energy of all, over k S^2; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
+  /// dissipated_contact_2 of each further contact; the amplitudes of the outputs; then, of the first contact,
+  /// the greatest values in time R_peak, Y_peak, U_peak and the amplitudes R_h3, Y_h3, U_h3, R_h5, ...
+  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
+
+  /// Throws std::invalid_argument where base, damper and contacts differ in number.
+  explicit HarmonicResponse(HarmonicSystem system);
+
+  Index size() const override { return 2 * contacts() * harmonics(); }
+  std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
+
+  /// "stick", "slip", or "slip 1 3" where only these contacts slip.
+  std::vector<std::string> regime_names() const override;
+  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
+  double border(const Vector& u, const Vector& p, int regime, int border,
+                continuation::Gradient* gradient) const override;
+  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+
+  /// Of them Y has a gradient.
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 continuation::Gradient& gradient) const override;
+
+  /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
+  std::vector<double> landmarks(Index parameter, double from, double to) const override;
+
+  /// The solution at (eta, P) on the branch that begins where all contacts stick, under a high preload.
+  /// Throws std::invalid_argument where that cannot be traced.
+  continuation::Guess guess(double eta_value, double preload_value) const;
+
+  Index contacts() const { return std::ssize(system_.contacts); }
+  Index harmonics() const { return std::ssize(system_.orders); }
+  const HarmonicSystem& system() const { return system_; }
+
+  /// r_h of a contact, of the unknowns.
+  HarmonicVector motion(const Vector& u, Index contact) const;
+
+ private:
+  /// What a contact's spring does, with its derivatives.
+  struct Force {
+    HarmonicVector harmonics;         // k f_h
+    HarmonicVector by_log_threshold;  // k df_h/d ln S
+    ComplexMatrix linear;             // k G
+    ComplexMatrix conjugate;          // k Q
+    double energy;                    // lost per cycle over k S^2
+  };
+  /// Of each contact; valid until the thread's next call, whose work space it is.
+  const std::vector<Force>& forces(const Vector& u, const Vector& p, int regime, bool derivatives) const;
+  double load(const Vector& p) const;  // P + P_2 eta^2
+  double threshold(Index contact, const Vector& p) const;
+
+  HarmonicSystem system_;
+};
+
+}  // namespace arcslip::problems

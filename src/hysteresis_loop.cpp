@@ -1,0 +1,134 @@
+#include "arcslip/hysteresis_loop.hpp"
+
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace arcslip {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr Complex j{0, 1};
+
+/// I_m = int e^{jm theta} dtheta over an arc for m >= 0, to the rounding of each however short the arc is;
+/// I_{-m} is its conjugate.
+class ArcIntegrals {
+ public:
+  ArcIntegrals(double begin, double end, int highest) {
+    const double half = 0.5 * (end - begin);
+    const Complex turn = std::polar(1.0, begin + half);
+    Complex power = 1;
+    values_[0] = 2 * half;
+    for (int m = 1; m <= highest; ++m) {
+      power *= turn;
+      values_[static_cast<std::size_t>(m)] = power * (2 * std::sin(m * half) / m);
+    }
+  }
+
+  Complex operator[](int m) const {
+    return m < 0 ? std::conj(values_[static_cast<std::size_t>(-m)]) : values_[static_cast<std::size_t>(m)];
+  }
+
+ private:
+  std::array<Complex, 4 * most_harmonics> values_;
+};
+
+}  // namespace
+
+HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
+    : motion_(motion), slip_threshold_(slip_threshold) {
+  march();
+}
+
+double HysteresisLoop::slip_onset(double from, double to, double room) const {
+  const double curvature = std::abs(motion_.slopes(from).second);
+  const double guess = from + std::sqrt(2 * std::abs(room) / curvature);
+  std::uintmax_t most = 100;
+  return boost::math::tools::newton_raphson_iterate(
+      [&](double theta) {
+        return std::pair(motion_.difference(theta, from) - room, motion_.slopes(theta).first);
+      },
+      guess > from && guess < to ? guess : 0.5 * (from + to), from, to, 52, most);
+}
+
+void HysteresisLoop::march() {
+  const Angles found = motion_.turning_points();
+  int first = 0;
+  for (int i = 0; i < found.count; ++i) {
+    const double here = std::abs(motion_.value(found[i]));
+    if (here > amplitude_) std::tie(amplitude_, first) = std::pair(here, i);
+  }
+  const double lead = motion_.value(found[first]) > 0 ? 0 : pi;  // shifts the largest to a maximum
+  const auto turn = [&](int i) {
+    const int place = first + i;
+    return place < found.count ? found[place] + lead : found[place - found.count] + pi + lead;
+  };
+  begin_ = turn(0);
+
+  double force = slip_threshold_;
+  double anchor = begin_;
+  bool sticking = true;
+  for (int i = 0; i < found.count; ++i) {
+    const double change = motion_.difference(turn(i + 1), turn(i));
+    const double sign = change > 0 ? 1 : -1;
+    const double room = sign * slip_threshold_ - force;
+    sticking = std::abs(change) <= std::abs(room);
+    if (sticking) {
+      force += change;
+      continue;
+    }
+    stick_[sticks_++] = {anchor, slip_onset(turn(i), turn(i + 1), room)};
+    slipped_ += std::abs(change) - std::abs(room);
+    ++slips_;
+    force = sign * slip_threshold_;
+    anchor = turn(i + 1);
+  }
+  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi};
+  mismatch_ = force + slip_threshold_;
+}
+
+void HysteresisLoop::force(HarmonicVector& harmonics) const {
+  const std::span<const int> orders = motion_.orders();
+  const HarmonicVector& r = motion_.coefficients();
+  const Index count = r.size();
+  harmonics.resize(count);
+  for (Index a = 0; a < count; ++a)
+    harmonics(a) = mismatch_ * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * begin_);
+  for (std::size_t arc = 0; arc < sticks_; ++arc) {
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].end, 2 * orders.back());
+    for (Index b = 0; b < count; ++b) {
+      const int l = orders[static_cast<std::size_t>(b)];
+      const Complex velocity = 0.5 * l * j * r(b);
+      for (Index a = 0; a < count; ++a) {
+        const int h = orders[static_cast<std::size_t>(a)];
+        harmonics(a) += velocity * integral[l - h] + std::conj(velocity * integral[l + h]);
+      }
+    }
+  }
+  for (Index a = 0; a < count; ++a)
+    harmonics(a) *= -j * (2 / (pi * orders[static_cast<std::size_t>(a)]));
+}
+
+void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate) const {
+  const std::span<const int> orders = motion_.orders();
+  const Index count = motion_.coefficients().size();
+  linear.setZero(count, count);
+  conjugate.setZero(count, count);
+  for (std::size_t arc = 0; arc < sticks_; ++arc) {
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].end, 2 * orders.back());
+    for (Index b = 0; b < count; ++b) {
+      const int l = orders[static_cast<std::size_t>(b)];
+      const Complex turn = std::polar(1.0, l * stick_[arc].begin);
+      for (Index a = 0; a < count; ++a) {
+        const int h = orders[static_cast<std::size_t>(a)];
+        linear(a, b) += integral[l - h] - turn * integral[-h];
+        conjugate(a, b) += std::conj(integral[l + h] - turn * integral[h]);
+      }
+    }
+  }
+  linear *= 1 / pi;
+  conjugate *= 1 / pi;
+}
+
+}  // namespace arcslip

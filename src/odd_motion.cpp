@@ -1,0 +1,122 @@
+#include "arcslip/odd_motion.hpp"
+
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace arcslip {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Calls `use` with each h, its coefficient and e^{jh theta}.
+template <class Use>
+void each_harmonic(std::span<const int> orders, const HarmonicVector& coefficients, double theta,
+                   const Use& use) {
+  const Complex turn = std::polar(1.0, theta);
+  const Complex two_turns = turn * turn;
+  Complex power = turn;
+  int reached = 1;
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    for (; reached < orders[a]; reached += 2) power *= two_turns;
+    use(static_cast<double>(orders[a]), coefficients(static_cast<Index>(a)), power);
+  }
+}
+
+}  // namespace
+
+OddMotion::OddMotion(std::span<const int> orders, const HarmonicVector& coefficients)
+    : orders_(orders), coefficients_(coefficients) {}
+
+double OddMotion::value(double theta) const {
+  double sum = 0;
+  each_harmonic(orders_, coefficients_, theta,
+                [&](double /*h*/, Complex r, Complex power) { sum += std::real(r * power); });
+  return sum;
+}
+
+OddMotion::Slopes OddMotion::slopes(double theta) const {
+  Slopes sum{0, 0};
+  each_harmonic(orders_, coefficients_, theta, [&](double h, Complex r, Complex power) {
+    const Complex part = r * power;
+    sum.first -= h * part.imag();
+    sum.second -= h * h * part.real();
+  });
+  return sum;
+}
+
+double OddMotion::difference(double theta, double from) const {
+  const double half = 0.5 * (theta - from);
+  double sum = 0;
+  each_harmonic(orders_, coefficients_, from + half, [&](double h, Complex r, Complex power) {
+    sum -= 2 * std::sin(h * half) * std::imag(r * power);
+  });
+  return sum;
+}
+
+Angles OddMotion::turning_points() const {
+  double third = 0;  // bound of |d3r/dtheta3|
+  for (std::size_t a = 0; a < orders_.size(); ++a)
+    third += std::pow(orders_[a], 3) * std::abs(coefficients_(static_cast<Index>(a)));
+  Angles found;
+  if (!(third > 0)) return found;
+
+  // A beginning where the motion does not turn, so that no turning point is counted at both ends.
+  constexpr int candidates = 8;
+  double begin = 0;
+  double steepest = -1;
+  for (int i = 0; i < candidates; ++i) {
+    const double slope = std::abs(slopes(i * pi / candidates).first);
+    if (slope > steepest) std::tie(begin, steepest) = std::pair(i * pi / candidates, slope);
+  }
+  const auto root = [&](double low, double high) {
+    std::uintmax_t most = 100;
+    return boost::math::tools::newton_raphson_iterate(
+        [&](double theta) {
+          const Slopes at = slopes(theta);
+          return std::pair(at.first, at.second);
+        },
+        0.5 * (low + high), low, high, 52, most);
+  };
+  struct Cell {
+    double low;
+    double high;
+  };
+  constexpr int parts = 4;
+  constexpr double narrow = 1e-8;
+  std::array<Cell, 64> open;  // what is not searched, the leftmost last: halving 1 down to 1e-8 leaves 27
+  std::size_t count = 0;
+  for (int i = parts; i-- > 0;) open[count++] = {begin + i * pi / parts, begin + (i + 1) * pi / parts};
+  while (count > 0) {
+    const Cell cell = open[--count];
+    const double middle = 0.5 * (cell.low + cell.high);
+    const double width = 0.5 * (cell.high - cell.low);
+    const Slopes at = slopes(middle);
+    if (std::abs(at.first) > (std::abs(at.second) + 0.5 * third * width) * width) continue;
+    if (std::abs(at.second) > third * width || width < narrow) {  // one zero at most
+      const double low = slopes(cell.low).first;
+      if (low == 0) {
+        found.push(cell.low);
+      } else if (low * slopes(cell.high).first < 0) {
+        found.push(root(cell.low, cell.high));
+      }
+      continue;
+    }
+    open[count++] = {middle, cell.high};
+    open[count++] = {cell.low, middle};
+  }
+  return found;
+}
+
+OddMotion::Maximum OddMotion::maximum() const {
+  Maximum best{0, 0};
+  const Angles turns = turning_points();
+  for (int i = 0; i < turns.count; ++i) {
+    const double here = value(turns[i]);
+    if (std::abs(here) > best.value) best = {here > 0 ? turns[i] : turns[i] + pi, std::abs(here)};
+  }
+  return best;
+}
+
+}  // namespace arcslip
