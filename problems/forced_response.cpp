@@ -34,9 +34,13 @@ std::vector<continuation::Observable> ForcedResponse::observables() const {
   return all;
 }
 
+Complex ForcedResponse::motion(const State& at) {
+  return -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
+}
+
 void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   const State at = state(u(0), p, regime);
-  const Complex r = -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
+  const Complex r = motion(at);
   observe_motion(at, u(0), r, p, regime, values);
   const auto count = values.size();
   values.conservativeResize(count + std::ssize(system_.outputs));

@@ -7,31 +7,17 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "arcslip/hysteresis_loop.hpp"
 #include "arcslip/problems/contact_problem.hpp"
+#include "arcslip/problems/slip_regimes.hpp"
 
 namespace arcslip::problems {
 namespace {
-
-bool slips(int regime, Index contact) { return (regime >> contact & 1) != 0; }
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) {
-  if (harmonics() < 1 || harmonics() > most_harmonics || std::ssize(system_.base) != harmonics() ||
-      std::ssize(system_.damper) != harmonics())
-    throw std::invalid_argument("HarmonicResponse: base and damper must be given in every harmonic");
-  for (Index a = 0; a < harmonics(); ++a) {
-    if (system_.base[at(a)].contacts() != contacts() || system_.damper[at(a)].contacts() != contacts())
-      throw std::invalid_argument("HarmonicResponse: base, damper and contacts must be as many");
-  }
-  for (const SectorContact& contact : system_.contacts) {
-    if (!(contact.stiffness > 0 && contact.slip_per_preload > 0))
-      throw std::invalid_argument("HarmonicResponse: stiffness and slip threshold must be positive");
-  }
-}
+HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
 
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index contact) const {
   HarmonicVector r(harmonics());
@@ -50,102 +36,101 @@ double HarmonicResponse::threshold(Index contact, const Vector& p) const {
   return system_.contacts[at(contact)].slip_per_preload * load(p);
 }
 
-const std::vector<HarmonicResponse::Force>& HarmonicResponse::forces(const Vector& u, const Vector& p,
-                                                                     int regime, bool derivatives) const {
-  thread_local std::vector<Force> all;
+const std::vector<ContactForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
+                                                          bool derivatives) const {
+  thread_local std::vector<ContactForce> all;
   all.resize(at(contacts()));
   for (Index i = 0; i < contacts(); ++i) {
-    Force& force = all[at(i)];
-    const double k = system_.contacts[at(i)].stiffness;
-    const HarmonicVector r = motion(u, i);
-    if (!slips(regime, i)) {
-      force.harmonics = k * r;
-      force.energy = 0;
-      if (!derivatives) continue;
-      force.linear.setZero(harmonics(), harmonics());
-      force.linear.diagonal().setConstant(k);
-      force.conjugate.setZero(harmonics(), harmonics());
-      force.by_log_threshold.setZero(harmonics());
-      continue;
-    }
-    const double limit = threshold(i, p);
-    const OddMotion motion(system_.orders, r);
-    const HysteresisLoop loop(motion, limit);
-    loop.force(force.harmonics);
-    force.harmonics *= k;
-    force.energy = loop.energy() / (limit * limit);
-    if (!derivatives) continue;
-    loop.derivative(force.linear, force.conjugate);
-    force.linear *= k;
-    force.conjugate *= k;
-    force.by_log_threshold = force.harmonics;
-    force.by_log_threshold.noalias() -= force.linear * r;
-    force.by_log_threshold.noalias() -= force.conjugate * r.conjugate();
+    all[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness, threshold(i, p),
+                   slips(regime, i), derivatives);
   }
   return all;
 }
 
+HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vector& p, int regime) const {
+  const std::vector<ContactForce>& of_contacts = forces(u, p, regime, false);
+  Friction sum{std::vector<ContactVector>(at(harmonics()), ContactVector(contacts())), 0};
+  for (Index i = 0; i < contacts(); ++i) {
+    for (Index a = 0; a < harmonics(); ++a) sum.forces[at(a)](i) = of_contacts[at(i)].harmonics(a);
+    sum.energy +=
+        of_contacts[at(i)].energy * system_.contacts[at(i)].stiffness * std::pow(threshold(i, p), 2);
+  }
+  return sum;
+}
+
+HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value) const {
+  const double h = system_.orders[at(which)];
+  ContactReceptance base = system_.base[at(which)].at(h * eta_value);
+  const ContactReceptance damper = system_.damper[at(which)].at(h * eta_value);
+  Order order{which,
+              base.compliance + damper.compliance,
+              h * (base.compliance_eta + damper.compliance_eta),
+              base.free,
+              h * base.free_eta,
+              1,
+              0};
+  for (Index j = 0; j < contacts(); ++j) {
+    const double square = std::pow(system_.contacts[at(j)].stiffness, 2);
+    order.norm += square * order.compliance.col(j).squaredNorm();
+    order.norm_eta += 2 * square * std::real(order.compliance.col(j).dot(order.compliance_eta.col(j)));
+  }
+  return order;
+}
+
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
                                 const continuation::Evaluation& out) const {
-  const double size = u.norm();
-  if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && size > 0)) return false;
+  if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
   for (Index i = 0; i < contacts(); ++i) {
     if (slips(regime, i) && motion(u, i).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
-  const std::vector<Force>& friction = forces(u, p, regime, derivatives);
-  const double by_eta = 2 * system_.preload_growth * p(eta) / load(p);  // d ln S/deta
-  const Index m = contacts();
-  const Index n = harmonics();
-  for (Index a = 0; a < n; ++a) {
-    const double h = system_.orders[at(a)];
-    const ContactReceptance base = system_.base[at(a)].at(h * p(eta));
-    const ContactReceptance damper = system_.damper[at(a)].at(h * p(eta));
-    const ContactMatrix c = base.compliance + damper.compliance;
-    const ContactMatrix c_eta = h * (base.compliance_eta + damper.compliance_eta);
-    double norm = 1;
-    double norm_eta = 0;
-    for (Index j = 0; j < m; ++j) {
-      const double k = system_.contacts[at(j)].stiffness;
-      norm += k * k * c.col(j).squaredNorm();
-      norm_eta += 2 * k * k * std::real(c.col(j).dot(c_eta.col(j)));
-    }
-    const double weight = 1 / (std::sqrt(norm) * size);
-    for (Index i = 0; i < m; ++i) {
-      const Index row = 2 * (i * n + a);
-      Complex residual = Complex(u(row), u(row + 1)) + (a == 0 ? base.free(i) : 0.0);
-      Complex slope = a == 0 ? base.free_eta(i) : 0.0;
-      Complex by_log_S = 0;
-      for (Index j = 0; j < m; ++j) {
-        residual += c(i, j) * friction[at(j)].harmonics(a);
-        slope += c_eta(i, j) * friction[at(j)].harmonics(a);
-        if (derivatives) by_log_S += c(i, j) * friction[at(j)].by_log_threshold(a);
-      }
-      const auto store = [&](Complex value, auto&& column) {
-        column(row) = value.real();
-        column(row + 1) = value.imag();
-      };
-      if (out.residual != nullptr) store(weight * residual, *out.residual);
-      if (out.parameter_jacobian != nullptr) {
-        store(weight * (slope + by_log_S * by_eta - residual * (0.5 * norm_eta / norm)),
-              out.parameter_jacobian->col(eta));
-        store(weight / load(p) * by_log_S, out.parameter_jacobian->col(preload));
-      }
-      if (out.jacobian == nullptr) continue;
-      for (Index j = 0; j < m; ++j) {
-        for (Index b = 0; b < n; ++b) {
-          const Index column = 2 * (j * n + b);
-          const Complex linear = c(i, j) * friction[at(j)].linear(a, b) + (row == column ? 1.0 : 0.0);
-          const Complex conjugate = c(i, j) * friction[at(j)].conjugate(a, b);
-          const Complex shrink = residual / (size * size);
-          store(weight * (linear + conjugate - shrink * u(column)), out.jacobian->col(column));
-          store(weight * (Complex(0, 1) * (linear - conjugate) - shrink * u(column + 1)),
-                out.jacobian->col(column + 1));
-        }
-      }
-    }
+  const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
+  for (Index a = 0; a < harmonics(); ++a) {
+    const Order at_order = order(a, p(eta));
+    for (Index i = 0; i < contacts(); ++i) fill_row(at_order, i, friction, u, p, out);
   }
   return true;
+}
+
+void HarmonicResponse::fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction,
+                                const Vector& u, const Vector& p, const continuation::Evaluation& out) const {
+  const Index n = harmonics();
+  const Index row = 2 * (contact * n + order.which);
+  const auto store = [row](Complex value, auto&& column) {
+    column(row) = value.real();
+    column(row + 1) = value.imag();
+  };
+  const double size = u.norm();
+  const double weight = 1 / (std::sqrt(order.norm) * size);
+  Complex residual = Complex(u(row), u(row + 1)) + order.free(contact);
+  for (Index j = 0; j < contacts(); ++j)
+    residual += order.compliance(contact, j) * friction[at(j)].harmonics(order.which);
+  if (out.residual != nullptr) store(weight * residual, *out.residual);
+
+  if (out.parameter_jacobian != nullptr) {
+    Complex by_eta = order.free_eta(contact) - residual * (0.5 * order.norm_eta / order.norm);
+    Complex by_log_S = 0;
+    for (Index j = 0; j < contacts(); ++j) {
+      by_eta += order.compliance_eta(contact, j) * friction[at(j)].harmonics(order.which);
+      by_log_S += order.compliance(contact, j) * friction[at(j)].by_log_threshold(order.which);
+    }
+    const double log_S_by_eta = 2 * system_.preload_growth * p(eta) / load(p);
+    store(weight * (by_eta + by_log_S * log_S_by_eta), out.parameter_jacobian->col(eta));
+    store(weight / load(p) * by_log_S, out.parameter_jacobian->col(preload));
+  }
+  if (out.jacobian == nullptr) return;
+  const Complex shrink = residual / (size * size);
+  for (Index j = 0; j < contacts(); ++j) {
+    for (Index b = 0; b < n; ++b) {
+      const Index column = 2 * (j * n + b);
+      const Complex c = order.compliance(contact, j);
+      const Complex linear = c * friction[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
+      const Complex conjugate = c * friction[at(j)].conjugate(order.which, b);
+      store(weight * (linear + conjugate - shrink * u(column)), out.jacobian->col(column));
+      store(weight * (Complex(0, 1) * (linear - conjugate) - shrink * u(column + 1)),
+            out.jacobian->col(column + 1));
+    }
+  }
 }
 
 void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -153,40 +138,21 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
   parameters = p;
 }
 
-std::vector<std::string> HarmonicResponse::regime_names() const {
-  std::vector<std::string> names = {"stick"};
-  const int all = 1 << contacts();
-  for (int regime = 1; regime < all; ++regime) {
-    std::string name = "slip";
-    for (Index i = 0; regime < all - 1 && i < contacts(); ++i) {
-      if (slips(regime, i)) name += fmt::format(" {}", i + 1);
-    }
-    names.push_back(name);
-  }
-  return names;
-}
-
 double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
                                 continuation::Gradient* gradient) const {
-  const double sign = slips(regime, border) ? -1 : 1;
-  const double limit = threshold(border, p);
-  const HarmonicVector r = motion(u, border);
-  const OddMotion::Maximum top = OddMotion(system_.orders, r).maximum();
-  const double square = top.value * top.value;
-  const double sum = square + limit * limit;
+  const SlipBorder at_border =
+      slip_border(system_.orders, motion(u, border), threshold(border, p), slips(regime, border));
   if (gradient != nullptr) {
-    const double slope = sign * 4 * limit * limit / (sum * sum);  // over A^2/2
     gradient->unknowns.setZero();
     for (Index a = 0; a < harmonics(); ++a) {
-      const Complex turn = std::polar(slope * top.value, system_.orders[at(a)] * top.angle);
       const Index place = 2 * (border * harmonics() + a);
-      gradient->unknowns(place) = turn.real();
-      gradient->unknowns(place + 1) = -turn.imag();
+      gradient->unknowns(place) = at_border.by_motion(a).real();
+      gradient->unknowns(place + 1) = at_border.by_motion(a).imag();
     }
-    const double by_load = -slope * square / load(p);
+    const double by_load = at_border.by_log_threshold / load(p);
     gradient->parameters << 2 * system_.preload_growth * p(eta) * by_load, by_load;
   }
-  return sign * (square - limit * limit) / sum;
+  return at_border.value;
 }
 
 std::vector<continuation::Observable> HarmonicResponse::observables() const {
@@ -197,6 +163,7 @@ std::vector<continuation::Observable> HarmonicResponse::observables() const {
       all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
   }
   for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
+  if (harmonics() == 1) return all;
   for (const char* name : {"R_peak", "Y_peak", "U_peak"}) all.push_back({name});
   for (Index a = 1; a < harmonics(); ++a) {
     for (const char* name : {"R", "Y", "U"})
@@ -208,7 +175,7 @@ std::vector<continuation::Observable> HarmonicResponse::observables() const {
 void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   const Index m = contacts();
   const Index n = harmonics();
-  const std::vector<Force>& friction = forces(u, p, regime, false);
+  const std::vector<ContactForce>& friction = forces(u, p, regime, false);
   values.resize(std::ssize(observables()));
   Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
   HarmonicVector base(n);  // of the first contact
@@ -230,7 +197,8 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
       const double ratio = amplitude / threshold(i, p);
       const double energy = friction[at(i)].energy;
       if (i > 0) {
-        values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)), energy;
+        values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)),
+            energy;
       } else {
         values.head<9>() << amplitude, threshold(0, p), ratio, std::abs(base(0)), std::abs(damper(0)),
             lag(base(0)), lag(damper(0)), lag(r), energy;
@@ -239,13 +207,16 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
     for (std::size_t i = 0; i < system_.outputs.size(); ++i)
       values(9 + 5 * (m - 1) + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), f);
   }
-  const auto peak = [&](const HarmonicVector& motion) { return OddMotion(system_.orders, motion).maximum().value; };
+  if (n == 1) return;
+  const auto peak = [&](const HarmonicVector& motion) {
+    return OddMotion(system_.orders, motion).maximum().value;
+  };
   values.segment<3>(9 + 5 * (m - 1) + std::ssize(system_.outputs)) << peak(first), peak(base), peak(damper);
 }
 
 double HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
                                  continuation::Gradient& gradient) const {
-  const std::vector<Force>& friction = forces(u, p, regime, true);
+  const std::vector<ContactForce>& friction = forces(u, p, regime, true);
   const ContactReceptance damper = system_.damper[0].at(p(eta));
   Complex y = -Complex(u(0), u(1));
   Complex by_eta = 0;
@@ -268,7 +239,8 @@ double HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, I
     }
   }
   const double by_load = std::real(direction * by_log_S) / load(p);
-  gradient.parameters << std::real(direction * by_eta) + 2 * system_.preload_growth * p(eta) * by_load, by_load;
+  gradient.parameters << std::real(direction * by_eta) + 2 * system_.preload_growth * p(eta) * by_load,
+      by_load;
   return amplitude;
 }
 
@@ -280,8 +252,9 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
   for (Index a = 0; a < harmonics(); ++a) {
     const ContactModes* base = &system_.base[at(a)];
     const ContactModes* damper = &system_.damper[at(a)];
-    std::vector<double> found = joined_frequencies({base, damper}, springs);
-    for (const double value : joined_frequencies({damper}, springs)) found.push_back(value);
+    std::vector<double> found;
+    for (const JoinedMode& mode : joined_modes({base, damper}, springs)) found.push_back(mode.frequency);
+    for (const JoinedMode& mode : joined_modes({damper}, springs)) found.push_back(mode.frequency);
     for (const ContactModes* structure : {base, damper}) {
       for (const ContactMode& mode : structure->modes()) found.push_back(mode.frequency);
     }

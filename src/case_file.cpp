@@ -33,14 +33,16 @@ const LibraryModel* read_model(const TomlDocument& document) {
 }
 
 /// The parameters that may be continued.
-std::vector<std::string> parameters_of(const LibraryModel* model, bool limit_cycle) {
+std::vector<std::string> parameters_of(const LibraryModel* model, Response response) {
   if (model != nullptr) return model->build(problems::defaults(*model))->parameter_names();
-  return limit_cycle ? std::vector<std::string>{"zeta_B", "P"} : std::vector<std::string>{"eta", "P"};
+  if (response == Response::nonlinear_mode) return {"R"};
+  return {response == Response::limit_cycle ? "zeta_B" : "eta", "P"};
 }
 
 Response read_response(const TomlSection& section) {
-  const std::string name = section.text("response", {"forced", "one_way", "limit_cycle"});
+  const std::string name = section.text("response", {"forced", "one_way", "limit_cycle", "nonlinear_mode"});
   if (name == "one_way") return Response::one_way;
+  if (name == "nonlinear_mode") return Response::nonlinear_mode;
   return name == "forced" ? Response::forced : Response::limit_cycle;
 }
 
@@ -57,7 +59,7 @@ class BranchSection {
       if (model_ != nullptr) section_.fail("response", "only for systems with friction");
       branch.problem.response = read_response(section_);
     }
-    names_ = parameters_of(model_, branch.problem.is_limit_cycle());
+    names_ = parameters_of(model_, branch.problem.response);
     if (section_.has("curve")) {
       read_curve(branch);
     } else {
@@ -115,7 +117,7 @@ class BranchSection {
     if (section_.has("extrema_of")) {
       branch.options.extrema_of = section_.texts("extrema_of", {}, "an array of observables");
     } else if (model_ == nullptr && !branch.problem.is_limit_cycle()) {
-      branch.options.extrema_of = {"Y"};
+      branch.options.extrema_of = {branch.problem.is_mode() ? "zeta" : "Y"};
     }
     if (!branch.curve) return;
     const char* expected = "the one observable whose extrema the curve is made of";
@@ -167,7 +169,7 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
     if (parameter == "P" && for_each.sets(key))
       branch.fail("for_each", fmt::format("{} cannot be listed where P is the continuation parameter", key));
   }
-  if (parameter != "P" && (branch.has("eta") || for_each.sets("eta"))) {
+  if (parameter == "eta" && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
   }
 }
@@ -175,7 +177,7 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
 /// The eta that the branches pass; 0 where they are unknown beforehand.
 std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
                                     const CaseBranch& common, const std::string& parameter) {
-  if (common.problem.is_limit_cycle()) return {0, 0};
+  if (common.problem.is_free()) return {0, 0};
   if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
   if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
@@ -215,7 +217,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
   if (model == nullptr) check_fixed(section, for_each, common, parameter);
   if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
   SystemUse use{model, parameter, false, model == nullptr ? read_sectors(document) : nullptr};
-  use.several_contacts = common.problem.response == Response::forced;
+  use.balanced = common.problem.response == Response::forced || common.problem.is_mode();
   if (use.sectors) std::tie(use.eta_low, use.eta_high) = eta_range(document, for_each, common, parameter);
   for (std::size_t i = 0; i < for_each.count(); ++i) {
     const auto [values, replacements, made] = for_each.at(i);
@@ -225,7 +227,10 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
     if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
       TomlSection(document, "system", &replacements)
           .fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
-    if (model == nullptr && parameter == "P" && !branch.problem.is_limit_cycle())
+    if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
+      TomlSection(document, "system", &replacements)
+          .fail("harmonics", "\"auto\" is only for the forced response");
+    if (model == nullptr && parameter != "eta" && !branch.problem.is_limit_cycle())
       branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());
     if (branch.curve) {
       branch.curve->seed = fixed_value(branch.problem, branch.options.parameter);

@@ -72,6 +72,7 @@ std::string describe(const CaseBranch& branch) {
   std::string text =
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
   if (branch.problem.is_limit_cycle()) text += ", limit cycle";
+  if (branch.problem.is_mode()) text += fmt::format(", nonlinear mode near eta = {:g}", branch.problem.eta);
   if (branch.problem.response == Response::one_way) text += ", base as if alone";
   if (branch.start) text += fmt::format(", both ways from {:g}", *branch.start);
   if (branch.all_solutions) text += ", through every solution found there";

@@ -38,6 +38,22 @@ ContactReceptance ContactModes::at(double eta) const {
   return response;
 }
 
+DampedReceptance ContactModes::damped(double eta, double mass) const {
+  DampedReceptance response;
+  for (ContactMatrix* matrix : {&response.compliance, &response.compliance_eta, &response.compliance_mass})
+    matrix->setZero(contacts_, contacts_);
+  const Loss loss = loss_ + Loss{.mass = mass};
+  for (const ContactMode& mode : modes_) {
+    const ModalDenominator d(eta, mode.frequency, loss);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const ContactMatrix shape = mode.shape * mode.shape.adjoint();
+    response.compliance += inverse * shape;
+    response.compliance_eta -= (inverse * inverse * d.by_eta) * shape;
+    response.compliance_mass -= (inverse * inverse * Complex(0, eta)) * shape;
+  }
+  return response;
+}
+
 double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
   const Index m = forces.size();
   const ContactReceptance at = modes.at(eta);
@@ -45,8 +61,8 @@ double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
   return std::abs(at.free(m) + force_sign * by_contacts);
 }
 
-std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& structures,
-                                       const Vector& springs) {
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs) {
   Index count = 0;
   for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
   // In modal coordinates: diag(eta_k^2) + B^H diag(springs) B, where B gives the relative motions.
@@ -62,11 +78,20 @@ std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& s
   }
   ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
   stiffness.diagonal() += squares;
-  const Vector found =
-      Eigen::SelfAdjointEigenSolver<ComplexMatrix>(stiffness, Eigen::EigenvaluesOnly).eigenvalues();
-  std::vector<double> frequencies;
-  for (const double square : found) frequencies.push_back(std::sqrt(std::max(0.0, square)));
-  return frequencies;
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> found(stiffness);
+  std::vector<JoinedMode> modes;
+  for (Index k = 0; k < count; ++k) {
+    const double frequency = std::sqrt(std::max(0.0, found.eigenvalues()(k)));
+    const auto motion = found.eigenvectors().col(k);
+    double losses = 0;  // sum |x|^2 Im d
+    Index row = 0;
+    for (const ContactModes* structure : structures) {
+      for (const ContactMode& mode : structure->modes())
+        losses += std::norm(motion(row++)) * structure->loss().part(frequency, mode.frequency);
+    }
+    modes.push_back({frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion});
+  }
+  return modes;
 }
 
 }  // namespace arcslip

@@ -1,7 +1,10 @@
 #include "arcslip/harmonic_system.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
+#include "arcslip/odd_motion.hpp"
 #include "arcslip/sector_pair.hpp"
 #include "arcslip/system.hpp"
 
@@ -29,23 +32,47 @@ ContactSystem contact_system(const SystemParameters& parameters) {
 
 }  // namespace
 
-HarmonicSystem build_harmonic_system(const SystemParameters& parameters, int highest) {
+void check(const HarmonicSystem& system) {
+  const auto refuse = [](const char* why) {
+    throw std::invalid_argument(std::string("HarmonicSystem: ") + why);
+  };
+  const std::size_t count = system.orders.size();
+  if (count < 1 || count > most_harmonics || system.base.size() != count || system.damper.size() != count)
+    refuse("base and damper must be given in every harmonic");
+  const Index contacts = std::ssize(system.contacts);
+  for (std::size_t a = 0; a < count; ++a) {
+    if (system.base[a].contacts() != contacts || system.damper[a].contacts() != contacts)
+      refuse("base, damper and contacts must be as many");
+  }
+  for (const SectorContact& contact : system.contacts) {
+    if (!(contact.stiffness > 0 && contact.slip_per_preload > 0))
+      refuse("stiffness and slip threshold must be positive");
+  }
+}
+
+HarmonicSystem one_harmonic(ContactSystem system) {
+  return {{1}, {std::move(system.base)}, {std::move(system.damper)}, std::move(system.contacts),
+          0,   std::move(system.outputs)};
+}
+
+HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   HarmonicSystem system;
-  system.preload_growth = parameters.preload_growth;
-  for (int h = 1; h <= highest; h += 2) {
+  for (const int h : parameters.harmonics) {
     SystemParameters wave = parameters;
     wave.wave_number = h * parameters.wave_number % parameters.elements;
     wave.eta_low = h * parameters.eta_low;
     wave.eta_high = h * parameters.eta_high;
-    if (h > 1) wave.force = 0;
+    if (h == 1) {
+      system = one_harmonic(contact_system(parameters));
+      continue;
+    }
+    wave.force = 0;
     ContactSystem of_order = contact_system(wave);
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));
-    if (h > 1) continue;
-    system.contacts = std::move(of_order.contacts);
-    system.outputs = std::move(of_order.outputs);
   }
+  system.preload_growth = parameters.preload_growth;
   return system;
 }
 

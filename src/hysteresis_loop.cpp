@@ -15,8 +15,8 @@ constexpr Complex j{0, 1};
 /// I_{-m} is its conjugate.
 class ArcIntegrals {
  public:
-  ArcIntegrals(double begin, double end, int highest) {
-    const double half = 0.5 * (end - begin);
+  ArcIntegrals(double begin, double width, int highest) {
+    const double half = 0.5 * width;
     const Complex turn = std::polar(1.0, begin + half);
     Complex power = 1;
     values_[0] = 2 * half;
@@ -41,15 +41,15 @@ HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
   march();
 }
 
-double HysteresisLoop::slip_onset(double from, double to, double room) const {
-  const double curvature = std::abs(motion_.slopes(from).second);
-  const double guess = from + std::sqrt(2 * std::abs(room) / curvature);
+/// How far beyond a turning point the motion has changed by `room`.
+double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
+  const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
   std::uintmax_t most = 100;
   return boost::math::tools::newton_raphson_iterate(
-      [&](double theta) {
-        return std::pair(motion_.difference(theta, from) - room, motion_.slopes(theta).first);
+      [&](double step) {
+        return std::pair(motion_.change(from, step) - room, motion_.slopes(from + step).first);
       },
-      guess > from && guess < to ? guess : 0.5 * (from + to), from, to, 52, most);
+      guess < longest ? guess : 0.5 * longest, 0.0, longest, 52, most);
 }
 
 void HysteresisLoop::march() {
@@ -70,7 +70,8 @@ void HysteresisLoop::march() {
   double anchor = begin_;
   bool sticking = true;
   for (int i = 0; i < found.count; ++i) {
-    const double change = motion_.difference(turn(i + 1), turn(i));
+    const double longest = turn(i + 1) - turn(i);
+    const double change = motion_.change(turn(i), longest);
     const double sign = change > 0 ? 1 : -1;
     const double room = sign * slip_threshold_ - force;
     sticking = std::abs(change) <= std::abs(room);
@@ -78,13 +79,13 @@ void HysteresisLoop::march() {
       force += change;
       continue;
     }
-    stick_[sticks_++] = {anchor, slip_onset(turn(i), turn(i + 1), room)};
+    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room)};
     slipped_ += std::abs(change) - std::abs(room);
     ++slips_;
     force = sign * slip_threshold_;
     anchor = turn(i + 1);
   }
-  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi};
+  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi - anchor};
   mismatch_ = force + slip_threshold_;
 }
 
@@ -96,7 +97,7 @@ void HysteresisLoop::force(HarmonicVector& harmonics) const {
   for (Index a = 0; a < count; ++a)
     harmonics(a) = mismatch_ * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * begin_);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
-    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].end, 2 * orders.back());
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
     for (Index b = 0; b < count; ++b) {
       const int l = orders[static_cast<std::size_t>(b)];
       const Complex velocity = 0.5 * l * j * r(b);
@@ -106,8 +107,7 @@ void HysteresisLoop::force(HarmonicVector& harmonics) const {
       }
     }
   }
-  for (Index a = 0; a < count; ++a)
-    harmonics(a) *= -j * (2 / (pi * orders[static_cast<std::size_t>(a)]));
+  for (Index a = 0; a < count; ++a) harmonics(a) *= -j * (2 / (pi * orders[static_cast<std::size_t>(a)]));
 }
 
 void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate) const {
@@ -116,7 +116,7 @@ void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate)
   linear.setZero(count, count);
   conjugate.setZero(count, count);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
-    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].end, 2 * orders.back());
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
     for (Index b = 0; b < count; ++b) {
       const int l = orders[static_cast<std::size_t>(b)];
       const Complex turn = std::polar(1.0, l * stick_[arc].begin);

@@ -50,6 +50,8 @@ A case file; what follows "optional" need not be given:
   preload_growth = 0.0       # P_2 of the preload P + P_2 eta^2
   cubic_stiffness = 0.0      # of springs between base and ground
   fixed_damper = false       # true: friction against a rigid ring
+  harmonics = 1              # highest odd harmonic of the friction force, a list [1, 3, 9], or "auto"
+  harmonics_tolerance = 1e-4 # with "auto": the largest harmonic left out, relative to R
   [geometry]                 # in place of mass_ratio to preload, and of poisson_ratio: two rings in SI units
   circumference = 0.8        # or radius, the mean one
   friction_coefficient = 0.3
@@ -64,6 +66,8 @@ A case file; what follows "optional" need not be given:
   # optional
   response = "forced"        # "one_way": of a damper on a base that moves as if alone
                              # "limit_cycle": vibration without force, parameter = "zeta_B" or "P"
+                             # "nonlinear_mode": frequency and damping over the amplitude, parameter = "R",
+                             # of the mode near eta = ...
   start = 3.0                # trace both ways from here
   all_solutions = false      # true: trace through every solution at start that deflation finds
   switching = false          # true: follow all branches that meet this one; not beside start

@@ -46,10 +46,10 @@ OddMotion::Slopes OddMotion::slopes(double theta) const {
   return sum;
 }
 
-double OddMotion::difference(double theta, double from) const {
-  const double half = 0.5 * (theta - from);
+double OddMotion::change(double theta, double step) const {
+  const double half = 0.5 * step;
   double sum = 0;
-  each_harmonic(orders_, coefficients_, from + half, [&](double h, Complex r, Complex power) {
+  each_harmonic(orders_, coefficients_, theta + half, [&](double h, Complex r, Complex power) {
     sum -= 2 * std::sin(h * half) * std::imag(r * power);
   });
   return sum;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 
+#include "arcslip/problems/harmonic_response.hpp"
+#include "arcslip/problems/nonlinear_mode.hpp"
 #include "arcslip/sector_pair.hpp"
 
 namespace arcslip {
@@ -48,7 +51,7 @@ class Columns {
   /// Those that tables and summaries show of a special point.
   std::vector<Index> shown() const {
     std::vector<Index> indices;
-    for (const char* name : {"eta", "zeta_B", "P", "R_over_S", "Y"}) {
+    for (const char* name : {"eta", "zeta", "zeta_B", "P", "R_over_S", "Y"}) {
       if (const Index i = find(name); i >= 0) indices.push_back(i);
     }
     if (find("R_over_S") >= 0) return indices;
@@ -113,6 +116,14 @@ class PhysicalColumns {
   std::vector<std::string> names_;
 };
 
+/// The harmonics in which friction is balanced.
+std::vector<int> harmonics_of(const continuation::Problem& problem) {
+  if (const auto* several = dynamic_cast<const problems::HarmonicResponse*>(&problem))
+    return several->system().orders;
+  if (const auto* mode = dynamic_cast<const problems::NonlinearMode*>(&problem)) return mode->system().orders;
+  return {1};
+}
+
 /// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
 void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
   if (!problem.geometry) return;
@@ -170,6 +181,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   add_geometry(traced.request->problem, summary);
   if (traced.request->problem.system.sectors)
     summary["reduction"] = modes_to_json(traced.request->problem.system);
+  if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
@@ -179,6 +191,18 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                      {"rejected_steps", work.rejected_steps}};
   summary["seconds"] = traced.seconds;
   return summary;
+}
+
+/// The columns of all branches; those with more harmonics have more of them.
+std::vector<std::string> all_names(const std::vector<TracedBranch>& traced) {
+  std::vector<std::string> all;
+  for (const TracedBranch& one : traced) {
+    const Columns columns(one);
+    for (const std::string& name : columns.names()) {
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -193,8 +217,8 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
   const TracedBranch& first = traced.front();
   const bool equilibrium = first.base->is_equilibrium() && !first.curve;
   fmt::format_to(out, "branch,point,type,regime");
-  const Columns header(first);
-  for (const std::string& name : header.names()) fmt::format_to(out, ",{}", name);
+  const std::vector<std::string> header = all_names(traced);
+  for (const std::string& name : header) fmt::format_to(out, ",{}", name);
   fmt::format_to(out, "{},arclength,iterations,residual", equilibrium ? ",unstable" : "");
   const PhysicalColumns physical_header(first);
   for (const std::string& name : physical_header.names()) fmt::format_to(out, ",{}", name);
@@ -204,13 +228,16 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
     const TracedBranch& one = traced[number];
     Columns columns(one);
     const PhysicalColumns physical(one);
+    std::vector<Index> places;
+    for (const std::string& name : header) places.push_back(columns.find(name));
     const std::vector<std::string> regimes = one.base->regime_names();
     for (std::size_t i = 0; i < one.branch.points.size(); ++i) {
       const BranchPoint& point = one.branch.points[i];
       fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
                      regimes[static_cast<std::size_t>(point.regime)]);
       const std::vector<double>& values = columns.values(point);
-      for (const double value : values) fmt::format_to(out, ",{:.17g}", value);
+      for (const Index place : places)
+        fmt::format_to(out, ",{:.17g}", place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
       if (equilibrium) fmt::format_to(out, ",{}", point.unstable);
       fmt::format_to(out, ",{:.17g},{},{:.17g}", point.arclength, point.iterations, point.residual);
       for (const double value : physical.values(values)) fmt::format_to(out, ",{:.17g}", value);

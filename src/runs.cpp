@@ -11,10 +11,10 @@
 #include "arcslip/continuation/switching.hpp"
 #include "arcslip/problems/cubic_response.hpp"
 #include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/limit_cycle.hpp"
-#include "arcslip/problems/multi_contact_response.hpp"
+#include "arcslip/problems/nonlinear_mode.hpp"
 #include "arcslip/problems/one_way_response.hpp"
-#include "arcslip/sector_pair.hpp"
 
 namespace arcslip {
 namespace {
@@ -46,11 +46,11 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
   return guessed(problem, [&] { return request.model->guess(*problem, settings); });
 }
 
-/// The problem of a system with friction: of the type, which has the system's number of contacts.
+/// The problem of a system with friction: of the type, which has the system's contacts and harmonics.
 template <class Type>
 std::shared_ptr<Type> build_problem(const SystemParameters& system) {
-  if constexpr (std::is_same_v<Type, problems::MultiContactResponse>) {
-    return std::make_shared<Type>(build_contact_system(system));
+  if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
+    return std::make_shared<Type>(build_harmonic_system(system));
   } else {
     return std::make_shared<Type>(build_system(system));
   }
@@ -59,7 +59,10 @@ std::shared_ptr<Type> build_problem(const SystemParameters& system) {
 /// Calls `use` with the type of the problem of a system with friction.
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
-  if (request.system.contacts.size() > 1) return use(std::type_identity<problems::MultiContactResponse>{});
+  if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
+  if (request.system.contacts.size() > 1 || request.system.harmonics.size() > 1 ||
+      request.harmonics_tolerance)
+    return use(std::type_identity<problems::HarmonicResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
   if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
   if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
@@ -73,7 +76,11 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
   return with_type(request, [&]<class Type>(std::type_identity<Type>) {
     const auto problem = build_problem<Type>(request.system);
     return guessed(problem, [&] {
-      return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
+      if constexpr (std::is_same_v<Type, problems::NonlinearMode>) {
+        return problem->guess(request.eta, value, value_of("P"));
+      } else {
+        return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
+      }
     });
   });
 }
@@ -225,7 +232,9 @@ CaseBranch seed_branch(const CaseBranch& request) {
   return seeds;
 }
 
-std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
+namespace {
+
+std::vector<TracedBranch> trace_given(const CaseBranch& request, const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
   const CaseBranch first = request.curve ? seed_branch(request) : request;
   const Subject subject =
@@ -236,6 +245,70 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
   const std::chrono::duration<double> seconds = Clock::now() - begun;
   for (TracedBranch& branch : traced) branch.seconds = seconds.count() / static_cast<double>(traced.size());
   return traced;
+}
+
+/// The harmonics that `problem` leaves out although their force would move a contact by more than `tolerance`
+/// times R at some point of the branch. Looked for up to about twice its highest one.
+std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance) {
+  const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
+  SystemParameters wide = system;
+  wide.harmonics = odd_up_to(highest);
+  const problems::HarmonicResponse problem(build_harmonic_system(wide));
+  const Index contacts = problem.contacts();
+  const auto known = static_cast<Index>(system.harmonics.size());
+  Vector padded(problem.size());
+  Vector residual(problem.size());
+  Vector largest = Vector::Zero(problem.harmonics());
+  for (const BranchPoint& point : branch.points) {
+    padded.setZero();
+    for (Index i = 0; i < contacts; ++i) {
+      for (Index a = 0; a < known; ++a) {
+        const Index order = system.harmonics[static_cast<std::size_t>(a)] / 2;
+        padded.segment<2>(2 * (i * problem.harmonics() + order)) =
+            point.unknowns.segment<2>(2 * (i * known + a));
+      }
+    }
+    if (!problem.evaluate(padded, point.parameters, point.regime, {&residual})) continue;
+    for (Index row = 0; row < residual.size(); ++row) {
+      double& size = largest(row / 2 % problem.harmonics());
+      size = std::max(size, std::abs(residual(row)));
+    }
+  }
+  std::vector<int> missing;
+  for (const int h : wide.harmonics) {
+    if (largest(h / 2) > tolerance &&
+        !std::binary_search(system.harmonics.begin(), system.harmonics.end(), h))
+      missing.push_back(h);
+  }
+  return missing;
+}
+
+/// The branch with as many harmonics as its own points ask for.
+std::vector<TracedBranch> trace_balanced(const CaseBranch& request, const continuation::Observer& observer) {
+  CaseBranch widened = request;
+  std::vector<int>& orders = widened.problem.system.harmonics;
+  while (true) {
+    std::vector<TracedBranch> traced = trace_given(widened, observer);
+    std::vector<int> missing;
+    for (TracedBranch& one : traced) {
+      one.request = &request;
+      if (!one.branch.complete() || one.curve) continue;
+      const std::vector<int> more =
+          missing_orders(widened.problem.system, one.branch, *request.problem.harmonics_tolerance);
+      missing.insert(missing.end(), more.begin(), more.end());
+    }
+    if (missing.empty()) return traced;
+    orders.insert(orders.end(), missing.begin(), missing.end());
+    std::sort(orders.begin(), orders.end());
+    orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+  }
+}
+
+}  // namespace
+
+std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
+  return request.problem.harmonics_tolerance ? trace_balanced(request, observer)
+                                             : trace_given(request, observer);
 }
 
 }  // namespace arcslip

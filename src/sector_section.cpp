@@ -204,7 +204,7 @@ std::vector<double> for_contacts(const TomlSection& section, std::string_view ke
 void read_contacts(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
                    SystemParameters& system) {
   const std::size_t count = use.sectors->base().sector.contacts.size();
-  if (count > 1 && !use.several_contacts)
+  if (count > 1 && !use.balanced)
     TomlSection(document, "system.base")
         .fail("contact",
               fmt::format("expected one dof for a study, limit cycles and one-way responses, got {}", count));
@@ -222,9 +222,21 @@ bool is_sector(const TomlDocument& document) {
 }
 
 std::vector<std::string> sector_keys() {
-  return {"model",   "wave_number",    "sectors", "contact_stiffness",   "limit_per_preload", "force",
-          "preload", "preload_growth", "damping", "reduction_tolerance", "reduction_window",  "base",
-          "damper"};
+  return {"model",
+          "wave_number",
+          "sectors",
+          "contact_stiffness",
+          "limit_per_preload",
+          "force",
+          "preload",
+          "preload_growth",
+          "damping",
+          "reduction_tolerance",
+          "reduction_window",
+          "base",
+          "damper",
+          "harmonics",
+          "harmonics_tolerance"};
 }
 
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {

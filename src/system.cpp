@@ -17,6 +17,12 @@ std::string to_string(DampingKind kind) {
   return kind == DampingKind::viscous ? "viscous" : "structural";
 }
 
+std::vector<int> odd_up_to(int highest) {
+  std::vector<int> orders;
+  for (int h = 1; h <= highest; h += 2) orders.push_back(h);
+  return orders;
+}
+
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {
   return 12 * std::pow(slenderness, 4) / (1 + poisson_ratio);
 }

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "arcslip/odd_motion.hpp"
+#include "arcslip/sector_pair.hpp"
 #include "geometry_section.hpp"
 #include "sector_section.hpp"
 
@@ -15,10 +18,12 @@ namespace {
 using nlohmann::ordered_json;
 
 const std::vector<std::string> friction_keys = {
-    "model",           "wave_number",         "elements", "mass_ratio", "frequency_ratio", "slenderness",
-    "poisson_ratio",   "interface_stiffness", "damping",  "force",      "preload",         "preload_growth",
-    "cubic_stiffness", "fixed_damper"};
+    "model",           "wave_number",  "elements",      "mass_ratio",
+    "frequency_ratio", "slenderness",  "poisson_ratio", "interface_stiffness",
+    "damping",         "force",        "preload",       "preload_growth",
+    "cubic_stiffness", "fixed_damper", "harmonics",     "harmonics_tolerance"};
 constexpr double default_poisson_ratio = 0.3;
+constexpr double default_harmonics_tolerance = 1e-4;
 
 NumberRule damping_rule() {
   return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
@@ -104,6 +109,51 @@ void read_rings(const TomlDocument& document, const Replacements& replacements, 
   system.fixed_damper = section.boolean("fixed_damper", false);
 }
 
+/// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
+void read_harmonics(const TomlSection& section, const SystemUse& use, ProblemRequest& problem) {
+  constexpr int highest = 2 * most_harmonics - 1;
+  const std::string odd = fmt::format("an odd integer from 1 to {}", highest);
+  const std::string expected = odd + R"(, a list of them that begins with 1, or "auto")";
+  const auto fits = [](double h) { return h >= 1 && h <= highest && std::fmod(h, 2) == 1; };
+  std::vector<int>& orders = problem.system.harmonics;
+  problem.harmonics_tolerance.reset();
+  if (section.has("harmonics")) {
+    const toml::node& node = section.require("harmonics", expected);
+    if (node.value<std::string>() == "auto") {
+      const NumberRule rule{[](double x) { return x >= 1e-9 && x <= 0.1; }, " >= 1e-9 and <= 0.1"};
+      problem.harmonics_tolerance = section.number("harmonics_tolerance", rule, default_harmonics_tolerance);
+    } else if (node.is_array()) {
+      orders.clear();
+      for (const double h : section.numbers("harmonics", {fits, " that is odd, from 1 to 255"}))
+        orders.push_back(static_cast<int>(h));
+      const bool ascending =
+          std::adjacent_find(orders.begin(), orders.end(), std::greater_equal<>()) == orders.end();
+      if (orders.empty() || orders.front() != 1 || !ascending)
+        section.fail("harmonics", "expected a list that begins with 1 and ascends");
+    } else {
+      if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())))
+        section.mismatch("harmonics", expected);
+      orders = odd_up_to(static_cast<int>(*node.value<Index>()));
+    }
+  }
+  if (section.has("harmonics_tolerance") && !problem.harmonics_tolerance)
+    section.fail("harmonics_tolerance", R"(only beside harmonics = "auto")");
+  const bool several = orders.size() > 1 || problem.harmonics_tolerance;
+  if (several && !use.balanced)
+    section.fail("harmonics", "expected 1 for a study, limit cycles and one-way responses");
+  if (several && problem.system.cubic_stiffness != 0)
+    section.fail("harmonics", "expected 1 beside cubic_stiffness");
+  for (std::size_t i = 1; problem.system.sectors && i < orders.size(); ++i) {
+    const Index wave = orders[i] * problem.system.wave_number % problem.system.elements;
+    try {
+      problem.system.sectors->check({wave, problem.system.elements});
+    } catch (const SectorError& error) {
+      section.fail("harmonics",
+                   fmt::format("harmonic {}, which travels as {} waves: {}", orders[i], wave, error.what()));
+    }
+  }
+}
+
 void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
                    const SystemUse& use, ProblemRequest& problem) {
   if (use.sectors) {
@@ -114,9 +164,8 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, use, problem);
   }
   read_damping(document, section, use.linear_passive, problem.system);
-  const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts"};
-  problem.system.preload_growth =
-      section.number("preload_growth", problem.system.contacts.size() > 1 ? none : any_number(), 0);
+  problem.system.preload_growth = section.number("preload_growth", any_number(), 0);
+  read_harmonics(section, use, problem);
 }
 
 void read_settings(const TomlSection& section, const SystemUse& use,
@@ -223,6 +272,8 @@ void resolve_system(const ProblemRequest& problem, ordered_json& section) {
   ordered_json& damping = section["damping"];
   if (!damping.contains("base")) damping["base"] = system.base_damping;
   if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
+  set("harmonics", 1);
+  if (problem.harmonics_tolerance) set("harmonics_tolerance", *problem.harmonics_tolerance);
   if (system.sectors) return resolve_sectors(system, section);
   if (!damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
   if (section.contains("slenderness")) set("poisson_ratio", default_poisson_ratio);

@@ -1,6 +1,6 @@
 #include "arcslip/contact.hpp"
 #include "arcslip/continuation/derivative_check.hpp"
-#include "arcslip/problems/multi_contact_response.hpp"
+#include "arcslip/problems/harmonic_response.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
 #include "random_systems.hpp"
@@ -11,7 +11,7 @@ using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::PointType;
 using problems::ForcedResponse;
-using problems::MultiContactResponse;
+using problems::HarmonicResponse;
 
 namespace {
 
@@ -38,19 +38,19 @@ SectorContact contact_of(const FrictionSystem& system) {
   return {system.contact_stiffness, system.slip_per_preload};
 }
 
-MultiContactResponse one_contact(const FrictionSystem& system) {
-  return MultiContactResponse(
-      {spread(system.base, 1, {0}), spread(system.damper, 1, {0}), {contact_of(system)}});
+HarmonicResponse one_contact(const FrictionSystem& system) {
+  return HarmonicResponse(
+      one_harmonic({spread(system.base, 1, {0}), spread(system.damper, 1, {0}), {contact_of(system)}}));
 }
 
 /// The contact of `system` as two, at one place: `share` of the stiffness with the threshold `low` times that
 /// of the whole, the rest with `high` times.
-MultiContactResponse halved(const FrictionSystem& system, double share, double low, double high) {
+HarmonicResponse halved(const FrictionSystem& system, double share, double low, double high) {
   const SectorContact whole = contact_of(system);
-  return MultiContactResponse({spread(system.base, 2, {0, 1}),
-                               spread(system.damper, 2, {0, 1}),
-                               {{share * whole.stiffness, low * whole.slip_per_preload},
-                                {(1 - share) * whole.stiffness, high * whole.slip_per_preload}}});
+  return HarmonicResponse(one_harmonic({spread(system.base, 2, {0, 1}),
+                                        spread(system.damper, 2, {0, 1}),
+                                        {{share * whole.stiffness, low * whole.slip_per_preload},
+                                         {(1 - share) * whole.stiffness, high * whole.slip_per_preload}}}));
 }
 
 double observed(const continuation::Problem& problem, const BranchPoint& point, Index which) {
@@ -59,7 +59,7 @@ double observed(const continuation::Problem& problem, const BranchPoint& point, 
   return values(which);
 }
 
-Branch response(const MultiContactResponse& problem, double preload, double from, double to) {
+Branch response(const HarmonicResponse& problem, double preload, double from, double to) {
   return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("One contact in Cartesian unknowns has the peaks, troughs and switches
   for (const double preload : {0.1, 1.0, 10.0, 50.0}) {
     const FrictionSystem system = build_system(figure_8(preload));
     const ForcedResponse scalar(system);
-    const MultiContactResponse problem = one_contact(system);
+    const HarmonicResponse problem = one_contact(system);
     const Branch expected = trace_over_eta(scalar, preload, 0.5, 120);
     const Branch found = response(problem, preload, 0.5, 120);
     CAPTURE(preload, found.explanation);
@@ -97,7 +97,7 @@ TEST_CASE("At the same place and preload all observables of one contact are thos
     const auto [low, high] = resonance_range(parameters);
     const double eta = draw.log_uniform(low, high);
     const ForcedResponse scalar(system);
-    const MultiContactResponse problem = one_contact(system);
+    const HarmonicResponse problem = one_contact(system);
     const continuation::Guess right = scalar.guess(eta, parameters.preload);
     const continuation::Guess guess = problem.guess(eta, parameters.preload);
     REQUIRE(guess.regime == right.regime);
@@ -118,7 +118,7 @@ TEST_CASE(
     "[contacts]") {
   for (const double preload : {1.0, 10.0, 50.0}) {
     const FrictionSystem system = build_system(figure_8(preload));
-    const MultiContactResponse problem = halved(system, 0.5, 1, 1);
+    const HarmonicResponse problem = halved(system, 0.5, 1, 1);
     const Branch expected = trace_over_eta(ForcedResponse(system), preload, 0.5, 120);
     const Branch found = response(problem, preload, 0.5, 120);
     CAPTURE(preload, found.explanation);
@@ -134,14 +134,14 @@ TEST_CASE(
 TEST_CASE("Two sliders in parallel slip one after the other, as the sum of their forces says", "[contacts]") {
   const double preload = 3;
   const FrictionSystem system = build_system(figure_8(preload));
-  const MultiContactResponse problem = halved(system, 0.3, 0.5, 2);
+  const HarmonicResponse problem = halved(system, 0.3, 0.5, 2);
   const Branch branch = response(problem, preload, 0.5, 6);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());
   std::vector<int> seen;
   for (const BranchPoint& point : branch.points) {
     const double eta = point.parameters(0);
-    const double R = observed(problem, point, MultiContactResponse::R);
+    const double R = observed(problem, point, HarmonicResponse::R);
     const double S = system.slip_threshold(eta, preload);
     const Complex phi =
         0.3 * hysteresis_coefficient(R, 0.5 * S).phi + 0.7 * hysteresis_coefficient(R, 2 * S).phi;
@@ -165,19 +165,20 @@ TEST_CASE("Two contacts of structures that do not touch slip as each does alone"
   const FrictionSystem second = build_system(other);
   const Loss base{1e-4, 0};
   const Loss damper{2e-4, 0};
-  const MultiContactResponse problem(
-      {side_by_side(spread(first.base, 2, {0}), spread(second.base, 2, {1}), base),
-       side_by_side(spread(first.damper, 2, {0}), spread(second.damper, 2, {1}), damper),
-       {contact_of(first), contact_of(second)}});
+  const HarmonicResponse problem(
+      one_harmonic({side_by_side(spread(first.base, 2, {0}), spread(second.base, 2, {1}), base),
+                    side_by_side(spread(first.damper, 2, {0}), spread(second.damper, 2, {1}), damper),
+                    {contact_of(first), contact_of(second)}}));
   // the same losses for each alone
   const auto alone = [&](const FrictionSystem& system) {
     const auto with = [](const ModalModel& model, const Loss& loss) {
       return ContactModes(1, spread(model, 1, {0}).modes(), loss);
     };
-    return MultiContactResponse({with(system.base, base), with(system.damper, damper), {contact_of(system)}});
+    return HarmonicResponse(
+        one_harmonic({with(system.base, base), with(system.damper, damper), {contact_of(system)}}));
   };
-  const MultiContactResponse one = alone(first);
-  const MultiContactResponse two = alone(second);
+  const HarmonicResponse one = alone(first);
+  const HarmonicResponse two = alone(second);
   const Branch branch = response(problem, 10, 0.5, 6);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());
@@ -187,14 +188,14 @@ TEST_CASE("Two contacts of structures that do not touch slip as each does alone"
     seen.push_back(point.regime);
     if (i % 7 != 0) continue;
     const double eta = point.parameters(0);
-    const auto amplitude = [&](const MultiContactResponse& single) {
+    const auto amplitude = [&](const HarmonicResponse& single) {
       const continuation::Guess at = single.guess(eta, 10);
       Vector values;
       single.observe(at.unknowns, at.parameters, at.regime, values);
-      return values(MultiContactResponse::Y);
+      return values(HarmonicResponse::Y);
     };
     CAPTURE(eta, point.regime);
-    CHECK_THAT(observed(problem, point, MultiContactResponse::Y), WithinRel(amplitude(one), 1e-7));
+    CHECK_THAT(observed(problem, point, HarmonicResponse::Y), WithinRel(amplitude(one), 1e-7));
     CHECK_THAT(observed(problem, point, 11), WithinRel(amplitude(two), 1e-7));
   }
   for (int regime = 0; regime < 4; ++regime) {
@@ -221,7 +222,7 @@ TEST_CASE("The force's power is what dampers and sliders take", "[contacts]") {
     const std::vector<ContactMode> damper = modes(false);
     std::vector<SectorContact> contacts;
     for (int k = 0; k < 3; ++k) contacts.push_back({draw.log_uniform(0.1, 100), draw.log_uniform(0.1, 10)});
-    const MultiContactResponse problem({{3, base, loss}, {3, damper, loss}, contacts});
+    const HarmonicResponse problem(one_harmonic({{3, base, loss}, {3, damper, loss}, contacts}));
     const double preload = draw.log_uniform(1e-3, 1);
     const Branch branch = response(problem, preload, 0.4, 10);
     CAPTURE(i, branch.explanation);
@@ -271,7 +272,7 @@ TEST_CASE("All derivatives with several contacts are exact", "[contacts]") {
       modes.push_back(mode);
     }
     const ContactModes structure(3, modes, {0.02, 0.01});
-    const MultiContactResponse problem({structure, structure, {{1, 1}, {2, 0.5}, {0.3, 2}}});
+    const HarmonicResponse problem(one_harmonic({structure, structure, {{1, 1}, {2, 0.5}, {0.3, 2}}}));
     Vector u(6);
     for (Index k = 0; k < 3; ++k) {
       const double S = 0.7 * (k == 0 ? 1 : k == 1 ? 0.5 : 2);
@@ -294,9 +295,9 @@ TEST_CASE("Systems of contacts that do not fit are refused", "[contacts]") {
   const FrictionSystem system = build_system(figure_8(1));
   const ContactModes one = spread(system.base, 1, {0});
   const ContactModes two = spread(system.base, 2, {0, 1});
-  CHECK_THROWS_AS(MultiContactResponse({one, two, {{1, 1}}}), std::invalid_argument);
-  CHECK_THROWS_AS(MultiContactResponse({two, two, {{1, 1}}}), std::invalid_argument);
-  CHECK_THROWS_AS(MultiContactResponse({one, one, {{0, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicResponse(one_harmonic({one, two, {{1, 1}}})), std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicResponse(one_harmonic({two, two, {{1, 1}}})), std::invalid_argument);
+  CHECK_THROWS_AS(HarmonicResponse(one_harmonic({one, one, {{0, 1}}})), std::invalid_argument);
   CHECK_THROWS_AS(ContactModes(14, {}, {}), std::invalid_argument);
   CHECK_THROWS_AS(ContactModes(2, one.modes(), {}), std::invalid_argument);
   CHECK_THROWS_AS(one_contact(system).guess(1, 0), std::invalid_argument);

@@ -31,8 +31,8 @@ struct CurveRequest {
 };
 
 /// What is asked of a system with friction: its response to the force, the damper's to a base that moves as
-/// if alone, or self-excited vibration.
-enum class Response { forced, one_way, limit_cycle };
+/// if alone, self-excited vibration, or a mode of vibration over its amplitude.
+enum class Response { forced, one_way, limit_cycle, nonlinear_mode };
 
 /// The problem that a branch belongs to: one of the library's, or a system with friction.
 struct ProblemRequest {
@@ -41,9 +41,14 @@ struct ProblemRequest {
   SystemParameters system;
   std::optional<Geometry> geometry;  ///< where the system is given in SI units
   Response response = Response::forced;
-  double eta = 0;  ///< the fixed frequency where eta is not continued
+  double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
+
+  /// Where harmonics are added while tracing: the largest one left out, relative to R.
+  std::optional<double> harmonics_tolerance;
 
   bool is_limit_cycle() const { return response == Response::limit_cycle; }
+  bool is_mode() const { return response == Response::nonlinear_mode; }
+  bool is_free() const { return is_limit_cycle() || is_mode(); }  ///< whether eta is an unknown
 };
 
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.

@@ -27,6 +27,13 @@ struct ContactReceptance {
   ContactVector free_eta;        ///< dy_0/deta
 };
 
+/// Compliance of m contacts where there is more damping proportional to mass, with its derivatives.
+struct DampedReceptance {
+  ContactMatrix compliance;
+  ContactMatrix compliance_eta;
+  ContactMatrix compliance_mass;  ///< dC/dmu
+};
+
 struct ContactMode {
   double frequency;     ///< eta_k
   ContactVector shape;  ///< s_k, m
@@ -42,8 +49,12 @@ class ContactModes {
   /// O(m^2) operations for each mode.
   ContactReceptance at(double eta) const;
 
+  /// The compliance where mu of the loss is larger by `mass`.
+  DampedReceptance damped(double eta, double mass) const;
+
   Index contacts() const { return contacts_; }
   const std::vector<ContactMode>& modes() const { return modes_; }
+  const Loss& loss() const { return loss_; }
 
  private:
   Index contacts_;
@@ -76,10 +87,16 @@ struct ContactSystem {
   std::vector<ContactOutput> outputs = {};
 };
 
-/// The undamped frequencies of `structures` joined at their contacts through springs, of stiffness `springs`
-/// (m); of one structure, joined to ground. Relative to the first structure the others move backwards. In
+struct JoinedMode {
+  double frequency;        ///< eta_k
+  double damping;          ///< damping ratio, to the first order in the losses
+  ContactVector relative;  ///< relative displacements of the contacts, of any size
+};
+
+/// The undamped modes of `structures` joined at their contacts through springs, of stiffness `springs` (m);
+/// of one structure, joined to ground. Relative to the first structure the others move backwards. In
 /// ascending order.
-std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& structures,
-                                       const Vector& springs);
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs);
 
 }  // namespace arcslip

@@ -19,11 +19,18 @@ struct HarmonicSystem {
   std::vector<ContactModes> base;    ///< of each order, the first with the travelling load
   std::vector<ContactModes> damper;  ///< of each order, without load
   std::vector<SectorContact> contacts;
-  double preload_growth = 0;                 ///< P_2 of the preload P + P_2 eta^2
+  double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
   std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
 };
 
-/// The model of `parameters` in the harmonics 1, 3, ..., `highest`, which is odd. Throws SectorError.
-HarmonicSystem build_harmonic_system(const SystemParameters& parameters, int highest);
+/// Throws std::invalid_argument where base, damper, orders and contacts do not fit, or a stiffness or
+/// threshold is not positive.
+void check(const HarmonicSystem& system);
+
+/// A system in the first harmonic alone.
+HarmonicSystem one_harmonic(ContactSystem system);
+
+/// The model of `parameters` in its harmonics. Throws SectorError.
+HarmonicSystem build_harmonic_system(const SystemParameters& parameters);
 
 }  // namespace arcslip

@@ -46,10 +46,10 @@ class HysteresisLoop {
  private:
   struct Arc {
     double begin;
-    double end;
+    double width;
   };
   void march();
-  double slip_onset(double from, double to, double room) const;
+  double way_to_slip(double from, double longest, double room) const;
 
   const OddMotion& motion_;
   double slip_threshold_;

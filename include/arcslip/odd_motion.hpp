@@ -40,8 +40,8 @@ class OddMotion {
   };
   Slopes slopes(double theta) const;
 
-  /// r(theta) - r(from) to the rounding of the difference, however close the two are.
-  double difference(double theta, double from) const;
+  /// r(theta + step) - r(theta) to the rounding of the difference, however small the step is.
+  double change(double theta, double step) const;
 
   /// Where the motion turns back, within half a period: all zeros of dr/dtheta but pairs of them closer than
   /// 1e-8. Bounds on derivatives, not samples, tell that none is left. None of a motion that is zero.

@@ -42,6 +42,7 @@ struct SystemParameters {
   bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
+  std::vector<int> harmonics = {1};  ///< h in which friction is balanced, odd and ascending from 1
 
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
   /// contact, and no ratio, cubic stiffness or fixed damper counts.
@@ -52,6 +53,9 @@ struct SystemParameters {
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
+
+/// 1, 3, ..., `highest`.
+std::vector<int> odd_up_to(int highest);
 
 /// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
 double shear_interface_stiffness(double slenderness, double poisson_ratio);

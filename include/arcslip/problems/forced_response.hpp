@@ -34,9 +34,17 @@ class ForcedResponse : public ContactProblem {
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// r, whose modulus the unknown has.
+  Complex motion(const Vector& u, const Vector& p, int regime) const {
+    return motion(state(u(0), p, regime));
+  }
+
   /// The solution at (eta, P), of several the one with the smallest R: stick if it holds, else the slipping
   /// one by bracketing. Throws std::invalid_argument where the response has no value.
   continuation::Guess guess(double eta_value, double preload_value) const;
+
+ private:
+  static Complex motion(const State& at);
 };
 
 }  // namespace arcslip::problems

@@ -13,10 +13,11 @@
 // (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
 // less, is no border: the engine crosses such a corner as it finds it.
 
+#include "arcslip/contact_force.hpp"
 #include "arcslip/continuation/problem.hpp"
 #include "arcslip/continuation/trace.hpp"
 #include "arcslip/harmonic_system.hpp"
-#include "arcslip/odd_motion.hpp"
+#include "arcslip/problems/slip_regimes.hpp"
 
 namespace arcslip::problems {
 
@@ -38,8 +39,7 @@ class HarmonicResponse : public continuation::Problem {
                 const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  /// "stick", "slip", or "slip 1 3" where only these contacts slip.
-  std::vector<std::string> regime_names() const override;
+  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
   int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
   double border(const Vector& u, const Vector& p, int regime, int border,
                 continuation::Gradient* gradient) const override;
@@ -65,17 +65,32 @@ class HarmonicResponse : public continuation::Problem {
   /// r_h of a contact, of the unknowns.
   HarmonicVector motion(const Vector& u, Index contact) const;
 
- private:
-  /// What a contact's spring does, with its derivatives.
-  struct Force {
-    HarmonicVector harmonics;         // k f_h
-    HarmonicVector by_log_threshold;  // k df_h/d ln S
-    ComplexMatrix linear;             // k G
-    ComplexMatrix conjugate;          // k Q
-    double energy;                    // lost per cycle over k S^2
+  /// What friction does to the base; the damper feels the opposite.
+  struct Friction {
+    std::vector<ContactVector> forces;  ///< of each harmonic, the force on the base's contacts
+    double energy;                      ///< lost per cycle in all contacts
   };
+  Friction friction(const Vector& u, const Vector& p, int regime) const;
+
+ private:
   /// Of each contact; valid until the thread's next call, whose work space it is.
-  const std::vector<Force>& forces(const Vector& u, const Vector& p, int regime, bool derivatives) const;
+  const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
+                                          bool derivatives) const;
+
+  /// One harmonic of the linear part, with derivatives in eta.
+  struct Order {
+    Index which;
+    ContactMatrix compliance;  // C_h
+    ContactMatrix compliance_eta;
+    ContactVector free;  // y_0, 0 above the first
+    ContactVector free_eta;
+    double norm;  // 1 + |C_h K|^2
+    double norm_eta;
+  };
+  Order order(Index which, double eta_value) const;
+  void fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction, const Vector& u,
+                const Vector& p, const continuation::Evaluation& out) const;
+
   double load(const Vector& p) const;  // P + P_2 eta^2
   double threshold(Index contact, const Vector& p) const;
 

@@ -1,0 +1,26 @@
+#pragma once
+
+// Where the energy of a periodic response goes, per cycle and sector:
+//
+//   pi Im(F^H d_1)* = sum_h pi h d_h^H Im Z_h d_h  over base and damper  +  friction
+//
+// in modal coordinates. The left side needs the motion of the load alone, friction the arcs of slip in time,
+// so that their agreement proves a solution by other means than it was found.
+
+#include "arcslip/problems/harmonic_response.hpp"
+
+namespace arcslip::problems {
+
+struct PowerBalance {
+  double input;     ///< work of the excitation
+  double base;      ///< lost in the base's damping, negative where that feeds energy in
+  double damper;    ///< lost in the damper's
+  double friction;  ///< lost in all contacts
+
+  /// |input - losses| over the largest of them.
+  double error() const;
+};
+
+PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);
+
+}  // namespace arcslip::problems

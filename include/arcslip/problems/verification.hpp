@@ -1,0 +1,34 @@
+#pragma once
+
+// Points of a branch solved anew, with more harmonics and, where the ring can be assembled, by integrating
+// all its nodes in time, so that a branch says itself how far it can be trusted.
+
+#include <vector>
+
+#include "arcslip/continuation/branch.hpp"
+#include "arcslip/problems/harmonic_response.hpp"
+#include "arcslip/system.hpp"
+
+namespace arcslip::problems {
+
+/// NaN where a method has no result.
+struct Verification {
+  std::size_t point;   ///< of the branch
+  double Y;            ///< first harmonic, as traced
+  double power_error;  ///< of PowerBalance
+  int highest;         ///< harmonic of the second solution
+  double Y_harmonics;  ///< of the second solution
+  double Y_time;       ///< by time integration
+};
+
+struct VerifyOptions {
+  std::size_t samples = 10;       ///< regular points, spread over the branch, besides the special ones
+  std::size_t most_special = 30;  ///< special points
+  bool in_time = true;            ///< whether to integrate in time
+};
+
+/// `branch` is one of HarmonicResponse, or of ForcedResponse, with the system of `parameters` in `orders`.
+std::vector<Verification> verify(const SystemParameters& parameters, const std::vector<int>& orders,
+                                 const continuation::Branch& branch, const VerifyOptions& options = {});
+
+}  // namespace arcslip::problems

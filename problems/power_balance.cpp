@@ -1,0 +1,51 @@
+#include "arcslip/problems/power_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace arcslip::problems {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Work done on the modes of a structure by its load, and what its damping takes.
+struct Work {
+  double load = 0;
+  double damping = 0;
+};
+
+Work work(const ContactModes& structure, int order, double eta, const ContactVector& forces) {
+  Work sum;
+  for (const ContactMode& mode : structure.modes()) {
+    const Complex d = ModalDenominator(order * eta, mode.frequency, structure.loss()).value;
+    const Complex motion = (mode.load + mode.shape.dot(forces)) / d;
+    sum.load += pi * order * std::imag(mode.load * std::conj(motion));
+    sum.damping += pi * order * std::norm(motion) * d.imag();
+  }
+  return sum;
+}
+
+}  // namespace
+
+double PowerBalance::error() const {
+  const double largest = std::max({std::abs(input), std::abs(base), std::abs(damper), std::abs(friction)});
+  return std::abs(input - base - damper - friction) / largest;
+}
+
+PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+  const HarmonicSystem& system = problem.system();
+  const double eta = p(HarmonicResponse::eta);
+  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
+  PowerBalance balance{0, 0, 0, friction.energy};
+  for (std::size_t a = 0; a < system.orders.size(); ++a) {
+    const Work base = work(system.base[a], system.orders[a], eta, friction.forces[a]);
+    const Work damper = work(system.damper[a], system.orders[a], eta, -friction.forces[a]);
+    balance.input += base.load;
+    balance.base += base.damping;
+    balance.damper += damper.damping;
+  }
+  return balance;
+}
+
+}  // namespace arcslip::problems

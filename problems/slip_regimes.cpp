@@ -1,0 +1,35 @@
+#include "arcslip/problems/slip_regimes.hpp"
+
+#include <fmt/format.h>
+
+namespace arcslip::problems {
+
+std::vector<std::string> slip_regimes(Index contacts) {
+  std::vector<std::string> names = {"stick"};
+  const int all = 1 << contacts;
+  for (int regime = 1; regime < all; ++regime) {
+    std::string name = "slip";
+    for (Index i = 0; regime < all - 1 && i < contacts; ++i) {
+      if (slips(regime, i)) name += fmt::format(" {}", i + 1);
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+SlipBorder slip_border(const std::vector<int>& orders, const HarmonicVector& motion, double threshold,
+                       bool slips) {
+  const OddMotion::Maximum top = OddMotion(orders, motion).maximum();
+  const double sign = slips ? -1 : 1;
+  const double square = top.value * top.value;
+  const double sum = square + threshold * threshold;
+  const double slope = sign * 4 * threshold * threshold / (sum * sum);  // by A^2/2
+  SlipBorder border{sign * (square - threshold * threshold) / sum, HarmonicVector(motion.size()),
+                    -slope * square};
+  for (Index a = 0; a < motion.size(); ++a) {
+    border.by_motion(a) = std::polar(slope * top.value, -orders[static_cast<std::size_t>(a)] * top.angle);
+  }
+  return border;
+}
+
+}  // namespace arcslip::problems

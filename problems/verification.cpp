@@ -1,0 +1,140 @@
+#include "arcslip/problems/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "arcslip/continuation/newton.hpp"
+#include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/power_balance.hpp"
+#include "arcslip/ring_record.hpp"
+#include "arcslip/ring_response.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::BranchPoint;
+using continuation::Guess;
+using continuation::PointType;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Special points and, between them, some of the others.
+std::vector<std::size_t> chosen(const continuation::Branch& branch, const VerifyOptions& options) {
+  std::vector<std::size_t> points;
+  std::size_t special = 0;
+  const std::size_t stride =
+      std::max<std::size_t>(1, branch.points.size() / std::max<std::size_t>(1, options.samples));
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const bool regular = branch.points[i].type == PointType::regular;
+    if (regular ? i % stride == stride / 2 : special++ < options.most_special) points.push_back(i);
+  }
+  return points;
+}
+
+HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) {
+  parameters.harmonics = std::move(orders);
+  return HarmonicResponse(build_harmonic_system(parameters));
+}
+
+/// The same motion in the harmonics of another problem, those that are new being zero.
+Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
+  Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
+  for (Index i = 0; i < from.contacts(); ++i) {
+    for (Index a = 0; a < from.harmonics(); ++a) {
+      const std::vector<int>& orders = to.system().orders;
+      const auto place =
+          std::lower_bound(orders.begin(), orders.end(), from.system().orders[static_cast<std::size_t>(a)]) -
+          orders.begin();
+      guess.unknowns.segment<2>(2 * (i * to.harmonics() + place)) =
+          at.unknowns.segment<2>(2 * (i * from.harmonics() + a));
+    }
+  }
+  return guess;
+}
+
+double first_harmonic(const HarmonicResponse& problem, const Guess& at) {
+  Vector values;
+  problem.observe(at.unknowns, at.parameters, at.regime, values);
+  return values(HarmonicResponse::Y);
+}
+
+/// The solution near a guess, or on the way from a high preload where Newton's method does not find one.
+std::optional<Guess> solved(const HarmonicResponse& problem, Guess guess) {
+  const continuation::Solution near = continuation::solve(problem, guess);
+  if (near.outcome == continuation::Correction::converged) {
+    guess.unknowns = near.unknowns;
+    return guess;
+  }
+  try {
+    return problem.guess(guess.parameters(HarmonicResponse::eta),
+                         guess.parameters(HarmonicResponse::preload));
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+/// |y_1| of the ring's periodic motion nearest to the one that is given; NaN where it does not settle.
+double in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& at) {
+  constexpr double settled = 1e-9;
+  const double eta = at.parameters(HarmonicResponse::eta);
+  RingMotion motion(ring, eta, at.parameters(HarmonicResponse::preload));
+  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
+  const HarmonicVector r = problem.motion(at.unknowns, 0);
+  std::vector<ContactHarmonic> harmonics;
+  for (std::size_t a = 0; a < problem.system().orders.size(); ++a)
+    harmonics.push_back({problem.system().orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
+  const SettledMotion found = shoot(motion, motion.travelling(harmonics));
+  if (!(found.error < settled)) return none;
+  RingState state = found.state;
+  HarmonicRecord record(motion, {1});
+  motion.advance(state, motion.period(), &record);
+  return std::abs(record.base()(0));
+}
+
+/// The ring in full, where it is one of rods or beams that can be assembled.
+std::optional<Ring> assembled(const SystemParameters& parameters) {
+  try {
+    return build_ring(parameters);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::vector<Verification> verify(const SystemParameters& parameters, const std::vector<int>& orders,
+                                 const continuation::Branch& branch, const VerifyOptions& options) {
+  const HarmonicResponse problem = balanced(parameters, orders);
+  const int highest = std::min(2 * orders.back() + 13, 2 * most_harmonics - 1);
+  const HarmonicResponse more = balanced(parameters, odd_up_to(highest));
+  const std::optional<Ring> ring = options.in_time ? assembled(parameters) : std::nullopt;
+  const std::optional<ForcedResponse> scalar = branch.points.front().unknowns.size() == 1
+                                                   ? std::optional(ForcedResponse(build_system(parameters)))
+                                                   : std::nullopt;
+  std::vector<Verification> all;
+  for (const std::size_t i : chosen(branch, options)) {
+    const BranchPoint& point = branch.points[i];
+    Guess at{point.unknowns, point.parameters, point.regime};
+    if (scalar) {
+      const Complex r = scalar->motion(point.unknowns, point.parameters, point.regime);
+      at.unknowns = Vector(2);
+      at.unknowns << r.real(), r.imag();
+    }
+    Verification one{i,
+                     first_harmonic(problem, at),
+                     power_balance(problem, at.unknowns, at.parameters, at.regime).error(),
+                     highest,
+                     none,
+                     none};
+    const std::optional<Guess> better = solved(more, carried(problem, at, more));
+    if (better) one.Y_harmonics = first_harmonic(more, *better);
+    if (ring) one.Y_time = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
+    all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace arcslip::problems

@@ -1,0 +1,85 @@
+// Cost of friction in many harmonics, as ratios measured in one run: that of a point of a branch, with all
+// corrector iterations and events that belong to it, over that of as many marches of the loop and transforms
+// with their derivatives alone. Goal: at most 2.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "arcslip/contact_force.hpp"
+#include "arcslip/problems/harmonic_response.hpp"
+#include "arcslip/system.hpp"
+
+namespace {
+
+using namespace arcslip;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Figure 8 at P = 1 with its contact cut into `contacts` of different strength at one place.
+HarmonicSystem cut(int highest, int contacts) {
+  SystemParameters parameters;
+  parameters.mass_ratio = 5;
+  parameters.frequency_ratio = 4;
+  parameters.interface_stiffness = shear_interface_stiffness(33.3, 0.3);
+  parameters.harmonics = odd_up_to(highest);
+  HarmonicSystem system = build_harmonic_system(parameters);
+  const auto spread = [&](const ContactModes& one) {
+    std::vector<ContactMode> modes;
+    for (const ContactMode& mode : one.modes())
+      modes.push_back({mode.frequency, ContactVector::Constant(contacts, mode.shape(0)), mode.load});
+    return ContactModes(contacts, std::move(modes), one.loss());
+  };
+  for (ContactModes& one : system.base) one = spread(one);
+  for (ContactModes& one : system.damper) one = spread(one);
+  const SectorContact whole = system.contacts.front();
+  system.contacts.clear();
+  for (int i = 0; i < contacts; ++i)
+    system.contacts.push_back(
+        {whole.stiffness / contacts, whole.slip_per_preload * (0.7 + 0.6 * i / contacts)});
+  return system;
+}
+
+void report(int highest, int contacts) {
+  const problems::HarmonicResponse problem(cut(highest, contacts));
+  continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = 3.45;
+  options.to = 3.99;
+  const continuation::Guess guess = problem.guess(options.from, 1);
+  const Clock::time_point start = Clock::now();
+  const continuation::Branch branch = continuation::trace(problem, guess, options);
+  const double traced = seconds_since(start);
+
+  // the same number of evaluations, of the contacts' forces alone
+  ContactForce force;
+  const Clock::time_point again = Clock::now();
+  double sum = 0;
+  for (long i = 0; i < branch.work.evaluations; ++i) {
+    const auto& point = branch.points[static_cast<std::size_t>(i) * branch.points.size() /
+                                      static_cast<std::size_t>(branch.work.evaluations)];
+    for (int k = 0; k < contacts; ++k) {
+      const SectorContact& contact = problem.system().contacts[static_cast<std::size_t>(k)];
+      force.set(problem.system().orders, problem.motion(point.unknowns, k), contact.stiffness,
+                contact.slip_per_preload, (point.regime >> k & 1) != 0, true);
+      sum += force.energy;
+    }
+  }
+  const double marched = seconds_since(again);
+  const auto points = static_cast<double>(branch.points.size());
+  fmt::print(
+      "H = {:2}, {} contacts: {:4} points, {:7.1f} us a point, {:.2f} of marches and transforms alone{}\n",
+      highest, contacts, branch.points.size(), 1e6 * traced / points, traced / marched,
+      branch.complete() && std::isfinite(sum) ? "" : " (incomplete)");
+}
+
+}  // namespace
+
+int main() {
+  for (const int highest : {1, 3, 5, 9, 15, 21, 31}) report(highest, 1);
+  for (const int contacts : {2, 4, 8}) report(9, contacts);
+}
