@@ -61,7 +61,7 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
     if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
     const ProblemRequest& problem = traced[i].request->problem;
     if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
-    text += special_table_header(traced[i]) + special_table(i, traced[i]);
+    text += describe_harmonics(traced[i]) + special_table_header(traced[i]) + special_table(i, traced[i]);
     if (traced[i].branch.stop != continuation::Stop::reached_end)
       text += fmt::format("{}: {}\n", to_string(traced[i].branch.stop), traced[i].branch.explanation);
     points += traced[i].branch.points.size();

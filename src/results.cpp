@@ -311,6 +311,12 @@ ordered_json modes_to_json(const SystemParameters& system) {
   return parts;
 }
 
+std::string describe_harmonics(const TracedBranch& traced) {
+  const std::vector<int> orders = harmonics_of(*traced.base);
+  if (orders.size() == 1) return "";
+  return fmt::format("{} harmonics, up to {}\n", orders.size(), orders.back());
+}
+
 std::string special_table_header(const TracedBranch& traced) {
   const Columns columns(traced);
   std::string header = fmt::format("{:>6} {:>6}  {:<12}", "branch", "point", "type");

@@ -268,14 +268,14 @@ void resolve_system(const ProblemRequest& problem, ordered_json& section) {
     return;
   }
   const SystemParameters& system = problem.system;
-  set("damping", ordered_json::object());
-  ordered_json& damping = section["damping"];
+  ordered_json damping = section.value("damping", ordered_json::object());
   if (!damping.contains("base")) damping["base"] = system.base_damping;
   if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
+  if (!system.sectors && !damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
+  section["damping"] = damping;
   set("harmonics", 1);
   if (problem.harmonics_tolerance) set("harmonics_tolerance", *problem.harmonics_tolerance);
   if (system.sectors) return resolve_sectors(system, section);
-  if (!damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
   if (section.contains("slenderness")) set("poisson_ratio", default_poisson_ratio);
   set("preload_growth", system.preload_growth);
   set("cubic_stiffness", system.cubic_stiffness);
