@@ -20,7 +20,14 @@ ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const
   }
 }
 
+ContactModes ContactModes::solved_by(Receptance receptance) const {
+  ContactModes solved = *this;
+  solved.receptance_ = std::move(receptance);
+  return solved;
+}
+
 ContactReceptance ContactModes::at(double eta) const {
+  if (receptance_) return receptance_(eta);
   ContactReceptance response;
   response.compliance.setZero(contacts_, contacts_);
   response.compliance_eta.setZero(contacts_, contacts_);

@@ -114,9 +114,9 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, use, problem);
   }
   read_damping(document, section, use.linear_passive, problem.system);
-  const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts"};
+  const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts and path = \"full\""};
   problem.system.preload_growth =
-      section.number("preload_growth", problem.system.contacts.size() > 1 ? none : any_number(), 0);
+      section.number("preload_growth", needs_contact_system(problem.system) ? none : any_number(), 0);
 }
 
 void read_settings(const TomlSection& section, const SystemUse& use,
@@ -155,7 +155,7 @@ std::vector<std::string> system_keys(const problems::LibraryModel* model) {
 std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model) {
   if (is_sector(document)) {
     std::vector<std::string> names = sector_keys();
-    for (const char* key : {"model", "base", "damper", "reduction_tolerance"}) std::erase(names, key);
+    for (const char* key : {"model", "base", "damper", "reduction_tolerance", "path"}) std::erase(names, key);
     return names;
   }
   std::vector<std::string> names = system_keys(model);

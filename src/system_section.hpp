@@ -24,7 +24,7 @@ struct SystemUse {
   std::shared_ptr<const SectorPair> sectors = {};  ///< null for other models
   double eta_low = 0;                              ///< the eta that matter to them; 0: not known
   double eta_high = 0;
-  bool several_contacts = false;  ///< whether sectors may have them
+  bool several_contacts = false;  ///< whether sectors may have them, and the full path
 };
 
 /// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws
