@@ -268,8 +268,7 @@ std::string describe_modes(const SystemParameters& system) {
     text += fmt::format(
         "{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
         "factorisations",
-        name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
-        part["error"].get<double>(),
+        name, part["modes"].get<Index>(), part["dofs"].get<Index>(), part["error"].get<double>(),
         part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
         part["check_etas"].size(), part["error_eta"].get<double>(), part["factorisations"].get<int>());
   }

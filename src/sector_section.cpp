@@ -84,8 +84,9 @@ class PartSection {
                                             : DampingKind::structural;
     }
     if (response_ == SectorPath::full && part.damping_kind == DampingKind::modal)
-      section_.fail("damping_kind",
-                    R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
+      section_.fail(
+          "damping_kind",
+          R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
     if (part.damping_kind == DampingKind::viscous) {
       part.reference_frequency = section_.number("reference_frequency", positive());
     } else if (section_.has("reference_frequency")) {
@@ -236,9 +237,20 @@ bool is_sector(const TomlDocument& document) {
 }
 
 std::vector<std::string> sector_keys() {
-  return {"model",   "wave_number",    "sectors", "contact_stiffness",   "limit_per_preload", "force",
-          "preload", "preload_growth", "damping", "reduction_tolerance", "reduction_window",  "base",
-          "damper",  "path"};
+  return {"model",
+          "wave_number",
+          "sectors",
+          "contact_stiffness",
+          "limit_per_preload",
+          "force",
+          "preload",
+          "preload_growth",
+          "damping",
+          "reduction_tolerance",
+          "reduction_window",
+          "base",
+          "damper",
+          "path"};
 }
 
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {

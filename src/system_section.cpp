@@ -114,7 +114,8 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, use, problem);
   }
   read_damping(document, section, use.linear_passive, problem.system);
-  const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts and path = \"full\""};
+  const NumberRule none{[](double x) { return x == 0; },
+                        " that is 0, with several contacts and path = \"full\""};
   problem.system.preload_growth =
       section.number("preload_growth", needs_contact_system(problem.system) ? none : any_number(), 0);
 }
