@@ -56,6 +56,7 @@ std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& s
                                        const Vector& springs) {
   Index count = 0;
   for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
+  if (count == 0) return {};  // all held
   // In modal coordinates: diag(eta_k^2) + B^H diag(springs) B, where B gives the relative motions.
   ComplexMatrix relative(springs.size(), count);
   Vector squares(count);

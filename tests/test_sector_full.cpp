@@ -210,6 +210,30 @@ TEST_CASE("Damping that is no sum of mass and stiffness acts as a dense balance 
   }
 }
 
+TEST_CASE("Contacts to ground rub on a damper that is held, by modes and by sparse solves") {
+  const std::string contact = GENERATE("contact = [1]", "contact = [1, 2]");
+  const TemporaryFolder folder;
+  std::string text = DashpotPair().system(folder, 1);
+  text = replaced(text.substr(0, text.find("[system.damper]")), "damping = \"disk_c.mtx\"", "");
+  text = replaced(text, "contact = [1]", contact) +
+         "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 300\n[continuation]\nstop_at = [150, 250]\n";
+  const Rows modal = branches_csv(read_case(folder.write("modes.toml", text)));
+  const Rows full = branches_csv(read_case(folder.write("full.toml", in_full(text))));
+  for (const std::string type : {"user", "peak"}) {
+    const Rows found = of_type(full, type);
+    const Rows expected = of_type(modal, type);
+    REQUIRE(!expected.empty());
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (const char* name : {"R", "Y", "U", "Y_3"}) {
+        CAPTURE(contact, type, name);
+        const double right = numbers(modal, expected[i]).at(name);
+        CHECK_THAT(numbers(full, found[i]).at(name), WithinRel(right, 1e-9) || WithinAbs(right, 1e-300));
+      }
+    }
+  }
+}
+
 TEST_CASE("Each eta costs one factorisation, from whatever side and thread it is asked for") {
   const DashpotPair pair;
   const FiniteSector disk = checked(pair.disk);

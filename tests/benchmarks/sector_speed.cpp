@@ -99,8 +99,8 @@ std::string full_response(const FiniteSector& sector, double factorisation) {
 }
 
 void measure(double dofs) {
-  constexpr Index traced_in_full = 1000;
-  const FiniteSector sector = plate(std::lround(std::sqrt(dofs / 3)));
+  constexpr Index traced_in_full = 2000;
+  const FiniteSector sector = plate(std::lround(std::sqrt(dofs / 4)));
   SectorReduction reduction(sector);
   reduction.set_forward(wave.forward());
   const double w = 2 * std::numbers::pi * 2000;
@@ -130,7 +130,7 @@ void measure(double dofs) {
 int main(int count, char** arguments) {
   fmt::print("{:>8} {:>10} {:>8} {:>14} {:>7} {:>8} {:>6} {:>9} {:>12} {:>7}\n", "dofs", "factor ms",
              "full/f", "full path/f", "modes", "factors", "goal", "error", "response/f", "MB");
-  for (const double dofs : {75.0, 768.0, 7500.0}) measure(dofs);
+  for (const double dofs : {1e2, 1e3, 1e4}) measure(dofs);
   for (int i = 1; i < count; ++i) measure(std::stod(arguments[i]));
   return 0;
 }
