@@ -36,7 +36,7 @@ ComplexFactors::~ComplexFactors() {
 
 bool ComplexFactors::factor(const ComplexSparseMatrix& matrix) {
   ++factorisations_;
-  umfpack_zi_free_numeric(&numeric_);
+  release();
   std::array<double, UMFPACK_INFO> info{};
   const int status =
       umfpack_zi_numeric(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix.valuePtr()),
@@ -45,6 +45,8 @@ bool ComplexFactors::factor(const ComplexSparseMatrix& matrix) {
   pivot_ratio_ = info[UMFPACK_RCOND];
   return status == UMFPACK_OK && pivot_ratio_ > 0;
 }
+
+void ComplexFactors::release() { umfpack_zi_free_numeric(&numeric_); }
 
 void ComplexFactors::solve(int system, ComplexMatrix& columns) {
   for (Index column = 0; column < columns.cols(); ++column) {

@@ -26,6 +26,9 @@ class ComplexFactors {
   void solve(ComplexMatrix& columns);             ///< A^{-1} columns, in place
   void solve_transposed(ComplexMatrix& columns);  ///< A^{-T} columns, in place
 
+  /// Frees the factors until the next ones.
+  void release();
+
   int factorisations() const { return factorisations_; }
 
  private:

@@ -20,7 +20,14 @@ ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const
   }
 }
 
+ContactModes ContactModes::solved_by(Receptance receptance) const {
+  ContactModes solved = *this;
+  solved.receptance_ = std::move(receptance);
+  return solved;
+}
+
 ContactReceptance ContactModes::at(double eta) const {
+  if (receptance_) return receptance_(eta);
   ContactReceptance response;
   response.compliance.setZero(contacts_, contacts_);
   response.compliance_eta.setZero(contacts_, contacts_);
@@ -65,6 +72,7 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
                                      const Vector& springs) {
   Index count = 0;
   for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
+  if (count == 0) return {};  // all held
   // In modal coordinates: diag(eta_k^2) + B^H diag(springs) B, where B gives the relative motions.
   ComplexMatrix relative(springs.size(), count);
   Vector squares(count);

@@ -10,6 +10,7 @@
 #include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/nonlinear_mode.hpp"
 #include "arcslip/sector_pair.hpp"
+#include "full_receptance.hpp"
 
 namespace arcslip {
 namespace {
@@ -170,6 +171,8 @@ ordered_json highest_peak(const TracedBranch& traced, const ordered_json& specia
   return {{"eta", (*best)["eta"]}, {"Y", (*best)["Y"]}, {"R_over_S", (*best)["R_over_S"]}};
 }
 
+bool is_full(const SystemParameters& system) { return system.sectors->path() == SectorPath::full; }
+
 ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const ordered_json special = special_points(traced);
   const continuation::Work& work = traced.branch.work;
@@ -179,8 +182,8 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
   add_geometry(traced.request->problem, summary);
-  if (traced.request->problem.system.sectors)
-    summary["reduction"] = modes_to_json(traced.request->problem.system);
+  if (const SystemParameters& system = traced.request->problem.system; system.sectors)
+    summary[is_full(system) ? "full_solves" : "reduction"] = modes_to_json(system);
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   summary["special"] = special;
@@ -283,11 +286,16 @@ std::string describe_modes(const SystemParameters& system) {
   std::string text;
   const ordered_json parts = modes_to_json(system);
   for (const auto& [name, part] : parts.items()) {
+    if (!text.empty()) text += "\n  ";
+    if (is_full(system)) {
+      text += fmt::format("{}: full path, {} dofs solved for at each eta; {} modes show the resonances", name,
+                          part["dofs"].get<Index>(), part["modes"].get<Index>());
+      continue;
+    }
     text += fmt::format(
-        "{}{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
+        "{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
         "factorisations",
-        text.empty() ? "" : "\n  ", name, part["modes"].get<Index>(), part["dofs"].get<Index>(),
-        part["error"].get<double>(),
+        name, part["modes"].get<Index>(), part["dofs"].get<Index>(), part["error"].get<double>(),
         part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
         part["check_etas"].size(), part["error_eta"].get<double>(), part["factorisations"].get<int>());
   }
@@ -297,17 +305,23 @@ std::string describe_modes(const SystemParameters& system) {
 ordered_json modes_to_json(const SystemParameters& system) {
   ordered_json parts = ordered_json::object();
   const SectorUse use = sector_use(system);
-  const auto add = [&](const char* name, const SectorModes& modes) {
-    parts[name] = {{"dofs", modes.dofs},
-                   {"modes", modes.frequencies.size()},
-                   {"error", modes.error},
-                   {"error_eta", modes.error_eta},
-                   {"check_etas", modes.check_etas},
-                   {"factorisations", modes.factorisations}};
+  const SectorPair& sectors = *system.sectors;
+  const auto add = [&](const char* name, const SectorModes& modes, const auto& solves) {
+    ordered_json& part = parts[name] = {{"dofs", modes.dofs}, {"modes", modes.frequencies.size()}};
+    if (is_full(system)) {
+      part["factorisations"] = solves()->factorisations();
+      return;
+    }
+    part["error"] = modes.error;
+    part["error_eta"] = modes.error_eta;
+    part["check_etas"] = modes.check_etas;
+    part["factorisations"] = modes.factorisations;
   };
-  add("base", system.sectors->base_modes(use, system.base_damping));
-  if (system.sectors->damper() != nullptr)
-    add("damper", system.sectors->damper_modes(use, system.damper_damping));
+  add("base", sectors.base_modes(use, system.base_damping),
+      [&] { return sectors.base_solves(use.wave, system.base_damping); });
+  if (sectors.damper() != nullptr)
+    add("damper", sectors.damper_modes(use, system.damper_damping),
+        [&] { return sectors.damper_solves(use.wave, system.damper_damping); });
   return parts;
 }
 

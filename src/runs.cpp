@@ -15,6 +15,7 @@
 #include "arcslip/problems/limit_cycle.hpp"
 #include "arcslip/problems/nonlinear_mode.hpp"
 #include "arcslip/problems/one_way_response.hpp"
+#include "arcslip/sector_pair.hpp"
 
 namespace arcslip {
 namespace {
@@ -60,7 +61,7 @@ std::shared_ptr<Type> build_problem(const SystemParameters& system) {
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
   if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
-  if (request.system.contacts.size() > 1 || request.system.harmonics.size() > 1 ||
+  if (needs_contact_system(request.system) || request.system.harmonics.size() > 1 ||
       request.harmonics_tolerance)
     return use(std::type_identity<problems::HarmonicResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});

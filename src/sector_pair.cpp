@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "arcslip/sector_reduction.hpp"
+#include "full_receptance.hpp"
 
 namespace arcslip {
+
+std::string to_string(SectorPath path) { return path == SectorPath::full ? "full" : "reduced"; }
 
 Loss SectorPart::loss_per_zeta() const {
   if (damping_kind == DampingKind::structural) return {.structural = 2};
@@ -17,31 +21,46 @@ Loss SectorPart::loss_per_zeta() const {
   return {.viscous = 2 / reference_frequency};
 }
 
-SectorPair::SectorPair(SectorPart base, std::optional<SectorPart> damper, double tolerance)
-    : base_{std::move(base), "base"}, tolerance_(tolerance) {
+SectorPair::SectorPair(SectorPart base, std::optional<SectorPart> damper, double tolerance, SectorPath path)
+    : base_{std::move(base), "base"}, tolerance_(tolerance), path_(path) {
   if (damper) damper_ = Kept{std::move(*damper), "damper"};
 }
 
-const SectorModes& SectorPair::modes(const Kept& kept, const SectorUse& use, double zeta) const {
-  std::shared_ptr<Found> found;
-  {
+template <class Key, class Value, class Make>
+const Value& SectorPair::found(const Kept& kept, Places<Key, Value>& places, const Key& key,
+                               const Make& make) const {
+  Once<Value>& place = [&]() -> Once<Value>& {
     const std::scoped_lock lock(mutex_);
-    std::shared_ptr<Found>& place =
-        kept.found[{static_cast<double>(use.wave.wave_number), static_cast<double>(use.wave.sectors),
-                    use.eta_low, use.eta_high, zeta}];
-    if (!place) place = std::make_shared<Found>();
-    found = place;
-  }
-  std::call_once(found->once, [&] {
-    const ModesRequest request{use.eta_low, use.eta_high, tolerance_,
-                               kept.part.fixed + zeta * kept.part.loss_per_zeta()};
+    return places[key];
+  }();
+  std::call_once(place.flag, [&] {
     try {
-      found->modes = sector_modes(kept.part.sector, use.wave, request);
+      place.value = make();
     } catch (const SectorError& error) {
       throw SectorError(std::string(kept.name) + ": " + error.what());
     }
   });
-  return found->modes;
+  return place.value;
+}
+
+const SectorModes& SectorPair::modes(const Kept& kept, const SectorUse& use, double zeta) const {
+  // Of resonances that only show where to look: far within the peaks of any damping ratio.
+  constexpr double close = 1e-6;
+  constexpr Loss little{.structural = 2e-4};
+  const bool full = path_ == SectorPath::full;
+  const double damping = full ? 0 : zeta;
+  const std::array<double, 5> key = {static_cast<double>(use.wave.wave_number),
+                                     static_cast<double>(use.wave.sectors), use.eta_low, use.eta_high,
+                                     damping};
+  return found(kept, kept.modes, key, [&] {
+    ModesRequest request{use.eta_low, use.eta_high, tolerance_, kept.part.loss(zeta)};
+    if (full) {
+      request.tolerance = std::max(tolerance_, close);
+      request.loss = little;
+      request.compared = false;
+    }
+    return sector_modes(kept.part.sector, use.wave, request);
+  });
 }
 
 const SectorModes& SectorPair::base_modes(const SectorUse& use, double zeta) const {
@@ -52,22 +71,29 @@ const SectorModes& SectorPair::damper_modes(const SectorUse& use, double zeta) c
   return modes(damper_.value(), use, zeta);
 }
 
+std::shared_ptr<const FullReceptance> SectorPair::solves(const Kept& kept, const SectorWave& wave,
+                                                         double zeta) const {
+  const std::array<double, 3> key = {static_cast<double>(wave.wave_number), static_cast<double>(wave.sectors),
+                                     zeta};
+  return found(kept, kept.solves, key, [&] {
+    return std::make_shared<const FullReceptance>(kept.part.sector, wave, kept.part.loss(zeta));
+  });
+}
+
+std::shared_ptr<const FullReceptance> SectorPair::base_solves(const SectorWave& wave, double zeta) const {
+  return solves(base_, wave, zeta);
+}
+
+std::shared_ptr<const FullReceptance> SectorPair::damper_solves(const SectorWave& wave, double zeta) const {
+  return solves(damper_.value(), wave, zeta);
+}
+
 void SectorPair::check(const Kept& kept, const SectorWave& wave) const {
-  std::shared_ptr<std::once_flag> once;
-  {
-    const std::scoped_lock lock(mutex_);
-    std::shared_ptr<std::once_flag>& place = kept.checked[{wave.wave_number, wave.sectors}];
-    if (!place) place = std::make_shared<std::once_flag>();
-    once = place;
-  }
-  std::call_once(*once, [&] {
+  found(kept, kept.checked, {wave.wave_number, wave.sectors}, [&] {
     SectorReduction reduction(kept.part.sector);
     reduction.set_forward(wave.forward());
-    try {
-      check_mass(kept.part.sector, reduction);
-    } catch (const SectorError& error) {
-      throw SectorError(std::string(kept.name) + ": " + error.what());
-    }
+    check_mass(kept.part.sector, reduction);
+    return true;
   });
 }
 
@@ -76,16 +102,22 @@ void SectorPair::check(const SectorWave& wave) const {
   if (damper_) check(*damper_, wave);
 }
 
+bool needs_contact_system(const SystemParameters& parameters) {
+  return parameters.sectors &&
+         (parameters.contacts.size() > 1 || parameters.sectors->path() == SectorPath::full);
+}
+
 SectorUse sector_use(const SystemParameters& parameters) {
   return {{parameters.wave_number, parameters.elements}, parameters.eta_low, parameters.eta_high};
 }
 
 namespace {
 
-/// One of the two with its modes.
+/// One of the two with its modes and, on the full path, its sparse solves.
 struct Part {
   const SectorPart& part;
   const SectorModes& modes;
+  std::shared_ptr<const FullReceptance> solves;
   Loss loss;
   double force;       ///< factor of the load
   double force_sign;  ///< of the force that its contacts feel, against the base's
@@ -107,7 +139,11 @@ struct Part {
       }
       list.push_back(std::move(mode));
     }
-    return {count + (output ? 1 : 0), std::move(list), loss};
+    const ContactModes modal(count + (output ? 1 : 0), std::move(list), loss);
+    if (solves == nullptr) return modal;
+    return modal.solved_by([solves = solves, output, force = force](double eta) {
+      return output ? solves->with_output(*output, eta, force) : solves->at(eta, force);
+    });
   }
 
   void add_outputs(std::vector<ContactOutput>& outputs) const {
@@ -121,9 +157,12 @@ struct Part {
 Part base_part(const SystemParameters& parameters) {
   const SectorPart& part = parameters.sectors->base();
   const double zeta = parameters.base_damping;
+  const SectorUse use = sector_use(parameters);
+  const bool full = parameters.sectors->path() == SectorPath::full;
   return {part,
-          parameters.sectors->base_modes(sector_use(parameters), zeta),
-          part.fixed + zeta * part.loss_per_zeta(),
+          parameters.sectors->base_modes(use, zeta),
+          full ? parameters.sectors->base_solves(use.wave, zeta) : nullptr,
+          part.loss(zeta),
           parameters.force,
           1,
           "Y"};
@@ -133,9 +172,12 @@ std::optional<Part> damper_part(const SystemParameters& parameters) {
   const SectorPart* part = parameters.sectors->damper();
   if (part == nullptr) return std::nullopt;
   const double zeta = parameters.damper_damping;
+  const SectorUse use = sector_use(parameters);
+  const bool full = parameters.sectors->path() == SectorPath::full;
   return Part{*part,
-              parameters.sectors->damper_modes(sector_use(parameters), zeta),
-              part->fixed + zeta * part->loss_per_zeta(),
+              parameters.sectors->damper_modes(use, zeta),
+              full ? parameters.sectors->damper_solves(use.wave, zeta) : nullptr,
+              part->loss(zeta),
               0,
               -1,
               "U"};
@@ -146,6 +188,8 @@ std::optional<Part> damper_part(const SystemParameters& parameters) {
 FrictionSystem build_sector_system(const SystemParameters& parameters) {
   if (parameters.contacts.size() != 1)
     throw SectorError("several contacts of a sector are no system with one contact");
+  if (parameters.sectors->path() == SectorPath::full)
+    throw SectorError("sparse solves of a sector are no modes, which a system with one contact is made of");
   const SectorContact& contact = parameters.contacts.front();
   const Part base = base_part(parameters);
   FrictionSystem system{.base = base.contact(),

@@ -20,12 +20,13 @@ constexpr double default_limit = 1;  // per preload
 /// [system.base] or [system.damper].
 class PartSection {
  public:
-  PartSection(const TomlDocument& document, const std::string& path, bool loaded)
+  PartSection(const TomlDocument& document, const std::string& path, bool loaded, SectorPath response)
       : document_(document),
         path_(path),
         section_(document, path),
         folder_(std::filesystem::path(document.path()).parent_path()),
-        loaded_(loaded) {
+        loaded_(loaded),
+        response_(response) {
     std::vector<std::string> keys = {
         "mass",         "stiffness",           "damping",    "left", "right", "interior", "contact",
         "damping_kind", "reference_frequency", "mass_factor"};
@@ -53,19 +54,28 @@ class PartSection {
     if (loaded_ && sector.load.isZero(0)) section_.fail("load", "expected a force that is not 0");
     try {
       sector = checked(std::move(sector));
-      if (sector.damping.size() != 0) {
-        part.fixed = proportional_loss(sector.damping, sector.mass, sector.stiffness);
-        sector.damping = SparseMatrix();
-      }
     } catch (const SectorError& error) {
       document_.fail(section_.table(), path_, error.what());
     }
+    if (response_ == SectorPath::reduced) diagonalise(part);
     read_damping(part);
     part.fingerprint = fingerprint_;
     return part;
   }
 
  private:
+  /// Turns C into a loss of the modes.
+  void diagonalise(SectorPart& part) const {
+    FiniteSector& sector = part.sector;
+    if (sector.damping.size() == 0) return;
+    try {
+      part.fixed = proportional_loss(sector.damping, sector.mass, sector.stiffness);
+    } catch (const SectorError& error) {
+      section_.fail("damping", std::string(error.what()) + R"(; path = "full" in [system] takes any)");
+    }
+    sector.damping = SparseMatrix();
+  }
+
   void read_damping(SectorPart& part) const {
     if (section_.has("damping_kind")) {
       const std::string kind = section_.text("damping_kind", {"viscous", "structural", "modal"});
@@ -73,6 +83,10 @@ class PartSection {
                           : kind == "modal" ? DampingKind::modal
                                             : DampingKind::structural;
     }
+    if (response_ == SectorPath::full && part.damping_kind == DampingKind::modal)
+      section_.fail(
+          "damping_kind",
+          R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
     if (part.damping_kind == DampingKind::viscous) {
       part.reference_frequency = section_.number("reference_frequency", positive());
     } else if (section_.has("reference_frequency")) {
@@ -167,6 +181,7 @@ class PartSection {
   TomlSection section_;
   std::filesystem::path folder_;
   bool loaded_;
+  SectorPath response_;
   Index size_ = 0;
   std::uint64_t fingerprint_ = 14695981039346656037U;
 };
@@ -236,7 +251,8 @@ std::vector<std::string> sector_keys() {
           "base",
           "damper",
           "harmonics",
-          "harmonics_tolerance"};
+          "harmonics_tolerance",
+          "path"};
 }
 
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
@@ -246,15 +262,18 @@ std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
   section.require("base", "a table with the matrices of the base's sector");
   const NumberRule rule{[](double x) { return x >= 1e-14 && x <= 1e-2; }, " >= 1e-14 and <= 0.01"};
   const double tolerance = section.number("reduction_tolerance", rule, default_tolerance);
+  const SectorPath path = section.has("path") && section.text("path", {"reduced", "full"}) == "full"
+                              ? SectorPath::full
+                              : SectorPath::reduced;
   std::optional<SectorPart> damper;
-  if (section.has("damper")) damper = PartSection(document, "system.damper", false).read();
-  SectorPart base = PartSection(document, "system.base", true).read();
+  if (section.has("damper")) damper = PartSection(document, "system.damper", false, path).read();
+  SectorPart base = PartSection(document, "system.base", true, path).read();
   const std::size_t contacts = base.sector.contacts.size();
   if (damper && damper->sector.contacts.size() != contacts)
     TomlSection(document, "system.damper")
         .fail("contact", fmt::format("expected {} dofs, as many as of the base, got {}", contacts,
                                      damper->sector.contacts.size()));
-  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), tolerance);
+  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), tolerance, path);
 }
 
 void read_sector_system(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
@@ -266,6 +285,8 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
   system.wave_number =
       section.integer("wave_number", 0, system.elements / 2,
                       fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2));
+  if (system.sectors->path() == SectorPath::full && !use.balanced)
+    section.fail("path", R"(expected "reduced" for a study, limit cycles and one-way responses, got "full")");
   read_contacts(document, section, use, system);
   system.force = section.number("force", positive(), 1);
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
@@ -285,6 +306,7 @@ void resolve_sectors(const SystemParameters& system, ordered_json& section) {
   set(section, "limit_per_preload", default_limit);
   set(section, "force", system.force);
   set(section, "preload_growth", system.preload_growth);
+  set(section, "path", to_string(system.sectors->path()));
   set(section, "reduction_tolerance", system.sectors->tolerance());
   set(section, "reduction_window", {system.eta_low, system.eta_high});
   const auto add = [&](const char* name, const SectorPart& part) {

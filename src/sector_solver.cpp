@@ -84,6 +84,7 @@ const SectorResponse& SectorSolver::at(double eta) {
   set_right_hand_sides();
   factors_->solve(right_);
   factors_->solve_transposed(left_);
+  factors_->release();
   collect();
   return response_;
 }

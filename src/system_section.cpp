@@ -204,7 +204,7 @@ std::vector<std::string> system_keys(const problems::LibraryModel* model) {
 std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model) {
   if (is_sector(document)) {
     std::vector<std::string> names = sector_keys();
-    for (const char* key : {"model", "base", "damper", "reduction_tolerance"}) std::erase(names, key);
+    for (const char* key : {"model", "base", "damper", "reduction_tolerance", "path"}) std::erase(names, key);
     return names;
   }
   std::vector<std::string> names = system_keys(model);

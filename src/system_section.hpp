@@ -24,7 +24,8 @@ struct SystemUse {
   std::shared_ptr<const SectorPair> sectors = {};  ///< null for other models
   double eta_low = 0;                              ///< the eta that matter to them; 0: not known
   double eta_high = 0;
-  bool balanced = false;  ///< whether several contacts of a sector and several harmonics may be balanced
+  bool balanced =
+      false;  ///< whether several contacts and the full path of a sector, and several harmonics, may be taken
 };
 
 /// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws

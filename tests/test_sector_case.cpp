@@ -320,7 +320,9 @@ TEST_CASE("A damping matrix that modes do not diagonalise is refused, and where 
   const std::string path =
       folder.write("case.toml", replaced(text, "output = [2, 3, 4]", "damping = \"c.mtx\""));
   CHECK_THAT(error_of([&] { read_case(path); }),
-             ContainsSubstring(":8:1: system.base: the damping matrix is not a sum alpha M + beta K"));
+             ContainsSubstring(
+                 "system.base.damping: the damping matrix is not a sum alpha M + beta K, which the modes of "
+                 "the sector need; path = \"full\" in [system] takes any"));
   const std::string cycle = folder.write(
       "cycle.toml", rubbed.system(folder, 3, 24) +
                         "[branch]\nresponse = \"limit_cycle\"\nparameter = \"P\"\nfrom = 1\nto = 2\n");

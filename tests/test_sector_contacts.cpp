@@ -60,12 +60,6 @@ TEST_CASE("Several contacts are refused where a study or another response has on
   const std::string study = "[study]\nparameter = \"P\"\nfrom = 0.1\nto = 10.0\neta = [0.5, 6.0]\n";
   CHECK_THROWS_WITH(read_study(folder.write("study.toml", text + study)),
                     ContainsSubstring("system.base.contact: expected one dof"));
-  const auto wrong = [&](const std::string& change) {
-    std::string changed = text;
-    changed.insert(changed.find("preload = 1.0"), change);
-    return folder.write("case.toml", changed + over_all_eta);
-  };
-  CHECK_THROWS_WITH(read_case(wrong("preload_growth = 1.0\n")), ContainsSubstring("system.preload_growth"));
   CHECK_THROWS_WITH(read_case(folder.write("cycle.toml", text + over_all_eta + "response = \"one_way\"\n")),
                     ContainsSubstring("system.base.contact: expected one dof"));
   std::string listed = text;

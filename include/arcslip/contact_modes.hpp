@@ -7,6 +7,7 @@
 //
 // E has a unit column for each contact. ModalModel is this for one contact.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct DampedReceptance {
   ContactMatrix compliance_mass;  ///< dC/dmu
 };
 
+/// A structure's response at eta, found in whatever way; may be called from several threads.
+using Receptance = std::function<ContactReceptance(double eta)>;
+
 struct ContactMode {
   double frequency;     ///< eta_k
   ContactVector shape;  ///< s_k, m
@@ -46,7 +50,11 @@ class ContactModes {
   /// than `most_contacts`.
   ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss);
 
-  /// O(m^2) operations for each mode.
+  /// The same structure with its response by `receptance`, whatever its damping: the modes, undamped, serve
+  /// for its resonances alone.
+  ContactModes solved_by(Receptance receptance) const;
+
+  /// O(m^2) operations for each mode, or what `receptance` costs.
   ContactReceptance at(double eta) const;
 
   /// The compliance where mu of the loss is larger by `mass`.
@@ -60,6 +68,7 @@ class ContactModes {
   Index contacts_;
   std::vector<ContactMode> modes_;
   Loss loss_;
+  Receptance receptance_;  // in place of the sum, if there is one
 };
 
 /// One contact dof of each sector.

@@ -30,7 +30,7 @@ std::string describe_groups(const ProblemRequest& problem);
 std::string describe_units(const ProblemRequest& problem);
 
 /// The modes that stand for each finite-element sector, and how far their response is from that of the
-/// matrices: one line for each, and the same as JSON.
+/// matrices, or on the full path what was solved: one line for each, and the same as JSON.
 std::string describe_modes(const SystemParameters& system);
 nlohmann::ordered_json modes_to_json(const SystemParameters& system);
 

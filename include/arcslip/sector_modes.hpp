@@ -36,6 +36,7 @@ struct ModesRequest {
   double tolerance = 1e-10;  ///< relative
   Loss loss;                 ///< with which the response is measured
   Index all_modes = 100;     ///< most reduced dofs of a sector that keeps all its modes
+  bool compared = true;      ///< with the full solve
 };
 
 /// The modes v_k as contacts, outputs and load see them.

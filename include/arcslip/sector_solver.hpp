@@ -43,6 +43,8 @@ class SectorSolver {
 
   const SectorReduction& reduction() const { return reduction_; }
 
+  Index contacts() const { return std::ssize(contacts_); }
+  Index outputs() const { return std::ssize(outputs_); }
   int factorisations() const;  ///< since the start, all with one symbolic analysis
 
  private:

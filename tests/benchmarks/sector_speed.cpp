@@ -1,20 +1,24 @@
 // Cost of finite-element sectors, in times of one sparse factorisation: of a full solve at each eta
-// (goal: 1.2 of the factorisations alone) and of a response by way of the modes (goal: 5 + modes/10
-// factorisations). Annular plates with a contact at the rim, near their lowest frequency at n = 3, of 1e2 to
-// 1e5 dofs.
+// (goal: 1.2 of the factorisations alone), of a response traced with full solves, over the factorisations
+// that it needs, and of one by way of the modes (goal: 5 + modes/10 factorisations). Annular plates with a
+// contact at the rim, near their lowest frequency at n = 3. Arguments are further sizes in dofs: 100000 takes
+// some minutes.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <string>
 
 #include "../../src/complex_factors.hpp"
+#include "../../src/full_receptance.hpp"
 #include "arcslip/annular_plate.hpp"
 #include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/sector_modes.hpp"
 #include "arcslip/sector_solver.hpp"
 
@@ -65,34 +69,58 @@ FiniteSector plate(Index elements) {
   return sector;
 }
 
-void measure(Index elements) {
-  const FiniteSector sector = plate(elements);
+continuation::TraceOptions over_window() {
+  continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = eta_low;
+  options.to = eta_high;
+  options.extrema_of = {"Y"};
+  return options;
+}
+
+/// A response by way of the modes.
+SectorModes reduced_response(const FiniteSector& sector) {
+  SectorModes modes = sector_modes(sector, wave, {eta_low, eta_high, 1e-8, loss});
+  const problems::ForcedResponse problem({modal_model(modes, 1, loss), {}, 1e7, 1e-7});
+  trace(problem, problem.guess(eta_low, 1), over_window());
+  return modes;
+}
+
+/// One with full solves: its seconds over those of the factorisations alone, and how many these are.
+std::string full_response(const FiniteSector& sector, double factorisation) {
+  const Clock::time_point start = Clock::now();
+  const FullReceptance solves(sector, wave, loss);
+  const ContactModes base = ContactModes(1, {}, {}).solved_by([&](double eta) { return solves.at(eta, 1); });
+  const problems::HarmonicResponse problem(one_harmonic({base, ContactModes(1, {}, {}), {{1e7, 1e-7}}}));
+  trace(problem, problem.guess(eta_low, 1), over_window());
+  const double time = std::chrono::duration<double>(Clock::now() - start).count();
+  const int count = solves.factorisations();
+  return fmt::format("{:.2f} of {}", time / (count * factorisation), count);
+}
+
+void measure(double dofs) {
+  constexpr Index traced_in_full = 2000;
+  const FiniteSector sector = plate(std::lround(std::sqrt(dofs / 4)));
   SectorReduction reduction(sector);
   reduction.set_forward(wave.forward());
   const double w = 2 * std::numbers::pi * 2000;
   const ComplexSparseMatrix z = reduction.stiffness() * Complex(1, 2e-3) - w * w * reduction.mass();
   ComplexFactors factors(z);
   const double factorisation = seconds([&] { factors.factor(z); });
+  factors.release();
 
-  SectorSolver solver(sector, wave.forward(), loss);
-  double eta = 2000;
-  const double full = seconds([&] { solver.at(eta += 1); });
-
+  double full = 0;
+  {
+    SectorSolver solver(sector, wave.forward(), loss);
+    double eta = 2000;
+    full = seconds([&] { solver.at(eta += 1); });
+  }
+  const std::string traced = reduction.size() <= traced_in_full ? full_response(sector, factorisation) : "-";
   SectorModes modes;
-  const double reduced = seconds([&] {
-    modes = sector_modes(sector, wave, {eta_low, eta_high, 1e-8, loss});
-    FrictionSystem system{modal_model(modes, 1, loss), {}, 1e7, 1e-7};
-    const problems::ForcedResponse problem(system);
-    continuation::TraceOptions options;
-    options.parameter = "eta";
-    options.from = eta_low;
-    options.to = eta_high;
-    options.extrema_of = {"Y"};
-    trace(problem, problem.guess(eta_low, 1), options);
-  });
-  fmt::print("{:>8} {:>12.2f} {:>10.2f} {:>8} {:>8} {:>8.1f} {:>14} {:>16.1f} {:>8.0f}\n", reduction.size(),
-             1e3 * factorisation, full / factorisation, modes.frequencies.size(), modes.factorisations,
-             5 + 0.1 * static_cast<double>(modes.frequencies.size()), fmt::format("{:.1e}", modes.error),
+  const double reduced = seconds([&] { modes = reduced_response(sector); });
+  fmt::print("{:>8} {:>10.1f} {:>8.2f} {:>14} {:>7} {:>8} {:>6.1f} {:>9.1e} {:>12.1f} {:>7.0f}\n",
+             reduction.size(), 1e3 * factorisation, full / factorisation, traced, modes.frequencies.size(),
+             modes.factorisations, 5 + 0.1 * static_cast<double>(modes.frequencies.size()), modes.error,
              reduced / factorisation, peak_megabytes());
   std::fflush(stdout);
 }
@@ -100,9 +128,9 @@ void measure(Index elements) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  fmt::print("{:>8} {:>12} {:>10} {:>8} {:>8} {:>8} {:>14} {:>16} {:>8}\n", "dofs", "factor ms", "full/f",
-             "modes", "factors", "goal", "error", "response/f", "MB");
-  for (const Index elements : {5, 16, 50}) measure(elements);
-  for (int i = 1; i < count; ++i) measure(std::stol(arguments[i]));
+  fmt::print("{:>8} {:>10} {:>8} {:>14} {:>7} {:>8} {:>6} {:>9} {:>12} {:>7}\n", "dofs", "factor ms",
+             "full/f", "full path/f", "modes", "factors", "goal", "error", "response/f", "MB");
+  for (const double dofs : {1e2, 1e3, 1e4}) measure(dofs);
+  for (int i = 1; i < count; ++i) measure(std::stod(arguments[i]));
   return 0;
 }
