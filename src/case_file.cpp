@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "arcslip/runs.hpp"
-#include "arcslip/sector_pair.hpp"
 #include "continuation_section.hpp"
 #include "for_each.hpp"
 #include "sector_section.hpp"
@@ -228,8 +227,6 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
     if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
       TomlSection(document, "system", &replacements)
           .fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
-    if (branch.problem.is_mode() && use.sectors && use.sectors->path() == SectorPath::full)
-      TomlSection(document, "system").fail("path", "expected \"reduced\" for nonlinear modes");
     if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
       TomlSection(document, "system", &replacements)
           .fail("harmonics", "\"auto\" is only for the forced response");

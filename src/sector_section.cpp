@@ -285,8 +285,9 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
   system.wave_number =
       section.integer("wave_number", 0, system.elements / 2,
                       fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2));
-  if (system.sectors->path() == SectorPath::full && !use.balanced)
-    section.fail("path", R"(expected "reduced" for a study, limit cycles and one-way responses, got "full")");
+  const bool forced = use.balanced && use.parameter != "R";
+  if (system.sectors->path() == SectorPath::full && !forced)
+    section.fail("path", R"(expected "reduced" for all but forced responses and their curves, got "full")");
   read_contacts(document, section, use, system);
   system.force = section.number("force", positive(), 1);
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
