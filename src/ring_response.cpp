@@ -31,13 +31,26 @@ Matrix turned_back(const Matrix& sliders) {
   return next;
 }
 
+/// What is left of a difference of states in units of displacement once it has been freed of the drift.
 double length(const RingMotion& motion, const Vector& all) {
-  const Index coordinates = motion.ring().coordinates();
-  const Index nodes = motion.ring().nodes();
-  const double mass = motion.ring().relative.squaredNorm() / static_cast<double>(nodes);
-  return std::sqrt(all.head(coordinates).squaredNorm() +
-                   all.segment(coordinates, coordinates).squaredNorm() / std::pow(motion.frequency(), 2) +
-                   all.tail(nodes).squaredNorm() / mass);
+  const Ring& ring = motion.ring();
+  const Index coordinates = ring.coordinates();
+  const Vector drift = neutral_drift(ring);
+  Vector left = all;
+  left.segment(coordinates, coordinates) /= motion.frequency();
+  left -= drift * drift.dot(left);
+  return left.norm();
+}
+
+/// delta of (I - dG/ds) delta = residual without a drift: the matrix is singular along it, so it is bordered.
+Vector newton_step(const Ring& ring, const Matrix& derivative, const Vector& residual) {
+  const Index size = residual.size();
+  const Vector drift = neutral_drift(ring);
+  Matrix bordered(size + 1, size + 1);
+  bordered << Matrix::Identity(size, size) - derivative, drift, drift.transpose(), 0;
+  Vector right(size + 1);
+  right << residual, 0;
+  return bordered.partialPivLu().solve(right).head(size);
 }
 
 }  // namespace
@@ -96,6 +109,13 @@ Matrix RingTangent::at(const RingState& state) const {
   return all;
 }
 
+Vector neutral_drift(const Ring& ring) {
+  Vector drift = Vector::Zero(2 * ring.coordinates() + ring.nodes());
+  drift(0) = 1;
+  drift.tail(ring.nodes()) = ring.relative.col(0);
+  return drift.normalized();
+}
+
 RingState next_state(RingMotion& motion, const RingState& state, RingObserver* observer) {
   const Ring& ring = motion.ring();
   RingState next = state;
@@ -152,8 +172,7 @@ SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int r
   result.error = state_distance(motion, result.state, here.next);
   while (result.error > tolerance && result.rounds < rounds) {
     const Vector residual = stacked(here.next) - stacked(result.state);
-    const Index size = residual.size();
-    const Vector step = (Matrix::Identity(size, size) - here.derivative).partialPivLu().solve(residual);
+    const Vector step = newton_step(motion.ring(), here.derivative, residual);
     RingState base = result.state;
     base.slip = here.next.slip;
     double part = 1;

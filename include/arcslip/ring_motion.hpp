@@ -110,7 +110,7 @@ class RingMotion {
   RingCount count_;
 };
 
-/// Terms that the Taylor series of e^z needs for |z| = `reach` <= 4 to leave out less than rounding.
+/// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
 Index series_order(double reach);
 
 /// Rows of B of the contacts that stick, times k for the force.

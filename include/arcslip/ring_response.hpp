@@ -10,6 +10,9 @@
 // and where it begins, so displacements and velocities have no jump in their derivatives either; a slider
 // moves with its contact while this slips and is left, when slip ends, where the relative displacement has
 // taken it: delta x = delta r, for r' = 0 at that moment whatever its delay.
+//
+// One direction is neutral in every state: base against damper as rigid bodies, with all sliders. Neither
+// structure resists it, and r - x stays as it was. Responses that differ by such a drift are one here.
 
 #include "arcslip/ring_motion.hpp"
 
@@ -45,7 +48,10 @@ struct StateDerivative {
 };
 StateDerivative next_derivative(RingMotion& motion, const RingState& state);
 
-/// |a - b| over |b|, in position, velocity/w* and slider.
+/// The unit vector of the neutral drift in (position, velocity, slider), 2D + N.
+Vector neutral_drift(const Ring& ring);
+
+/// |a - b| over |b| in (position, velocity/w*, slider), each without its part along the drift.
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b);
 
 /// A response that repeats itself.
