@@ -58,7 +58,7 @@ TEST_CASE("The first crossing of a polynomial is found however close its roots a
   CHECK(first_crossing(polynomial(-1, {0.4})).value() == 0);       // positive from the start
   CHECK_FALSE(first_crossing(polynomial(1, {1.5})));               // outside
   CHECK_FALSE(first_crossing(polynomial(-1, {0.5, 0.5})));         // touches from below
-  CHECK_FALSE(first_crossing(polynomial(1, {-0.5, 0.0, 1.0, 2})));  // at the ends alone, positive between
+  CHECK_FALSE(first_crossing(polynomial(-1, {-0.5, 0.0, 1.0, 2})));  // zero at both ends, below between
 }
 
 TEST_CASE("A ring is refused where it is not linear and viscous between events", "[ring]") {
@@ -122,9 +122,9 @@ TEST_CASE("What the load feeds in from rest is stored or lost in friction and da
   };
   SystemParameters driven = small_rods();
   driven.base_damping = -0.01;
-  const Case c = GENERATE_COPY(Case{small_beams(), 3.7, 1.0}, Case{small_beams(7), 0.6, 0.01},
-                               Case{small_rods(), 2.3, 0.1}, Case{driven, 3.1, 0.3},
-                               Case{small_beams(), 3.7, 1e-3});
+  const Case c = GENERATE_COPY(Case{small_beams(), 3.7, 0.01}, Case{small_beams(7), 0.6, 0.01},
+                               Case{small_rods(), 2.3, 0.03}, Case{driven, 3.1, 0.03},
+                               Case{small_beams(), 3.7, 1e-5});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   RingState state = motion.at_rest();
   CHECK(std::abs(unaccounted(motion, state, 3.3 * motion.period())) < 1e-10);
@@ -132,8 +132,8 @@ TEST_CASE("What the load feeds in from rest is stored or lost in friction and da
 }
 
 TEST_CASE("In the settled response power in is power lost, and friction takes its share", "[ring]") {
-  RingMotion motion(build_ring(small_beams()), 3.7, 1);
-  const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(small_beams(), 3.7, 1)}));
+  RingMotion motion(build_ring(small_beams()), 3.7, 0.03);
+  const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(small_beams(), 3.7, 0.03)}));
   REQUIRE(settled.settled);
   EnergyRecord work(motion);
   RingState state = settled.state;
@@ -151,7 +151,7 @@ TEST_CASE("Each harmonic of the settled ring obeys its own travelling wave", "[r
     double eta;
     double preload;
   };
-  const Case c = GENERATE(Case{small_beams(), 3.7, 1.0}, Case{small_rods(), 2.3, 0.1});
+  const Case c = GENERATE(Case{small_beams(), 3.7, 0.03}, Case{small_rods(), 2.3, 0.03});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(c.system, c.eta, c.preload)}));
   REQUIRE(settled.settled);
