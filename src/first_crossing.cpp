@@ -44,10 +44,9 @@ double root_between(const Vector& c, double low, double high) {
   if (at_low >= 0) return low;  // to rounding
   if (at_high <= 0) return high;
   std::uintmax_t iterations = 100;
-  const auto bracket = boost::math::tools::toms748_solve([&](double x) { return value_at(c, x); }, low, high,
-                                                         at_low, at_high,
-                                                         boost::math::tools::eps_tolerance<double>(53),
-                                                         iterations);
+  const auto bracket =
+      boost::math::tools::toms748_solve([&](double x) { return value_at(c, x); }, low, high, at_low, at_high,
+                                        boost::math::tools::eps_tolerance<double>(53), iterations);
   return bracket.second;
 }
 

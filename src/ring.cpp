@@ -72,8 +72,8 @@ ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, I
   const Index dofs = first.size();
   ComplexVector load(nodes * dofs);
   for (Index i = 0; i < nodes; ++i) {
-    const double lag = 2 * std::numbers::pi * static_cast<double>(wave_number * i % nodes) /
-                       static_cast<double>(nodes);
+    const double lag =
+        2 * std::numbers::pi * static_cast<double>(wave_number * i % nodes) / static_cast<double>(nodes);
     for (Index d = 0; d < dofs; ++d) {
       const Complex at_first(static_cast<double>(first(d).real()), static_cast<double>(first(d).imag()));
       load(i * dofs + d) = at_first * std::polar(1.0, -lag);
@@ -102,8 +102,8 @@ Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   Ring ring;
   ring.stiffness = modes.stiffness.cast<double>();
   ring.damping = base_damping_factor(parameters) / (2 * std::numbers::pi) * ring.stiffness;
-  ring.load = modes.shapes.cast<double>().transpose() *
-              travelling(pair.base.load, parameters.wave_number, nodes);
+  ring.load =
+      modes.shapes.cast<double>().transpose() * travelling(pair.base.load, parameters.wave_number, nodes);
   ring.base = at_contacts(modes.shapes, nodes);
   ring.damper = Matrix::Zero(nodes, ring.base.cols());
   ring.turn = modes.turn.cast<double>();
@@ -114,7 +114,8 @@ Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   return ring;
 }
 
-/// Adds the damper's modes. The two rigid motions become the one of base against damper, the first coordinate.
+/// Adds the damper's modes. The two rigid motions become the one of base against damper, the first
+/// coordinate.
 void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damping_factor) {
   const Index nodes = ring.base.rows();
   const Index own = ring.base.cols();

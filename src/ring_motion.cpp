@@ -174,10 +174,9 @@ std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& s
     }
   }
   if (found.empty()) return found;
-  const double first =
-      std::min_element(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-        return a.ratio < b.ratio;
-      })->ratio;
+  const double first = std::min_element(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+                         return a.ratio < b.ratio;
+                       })->ratio;
   std::erase_if(found, [&](const Crossing& crossing) { return crossing.ratio > first * (1 + 1e-13); });
   for (Crossing& crossing : found) crossing.ratio = first;
   return found;

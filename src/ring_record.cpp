@@ -44,8 +44,8 @@ void HarmonicRecord::follow(const RingSegment& segment, const RingState& state) 
     const double spring = state.slip[0] == 0 ? r - state.slider(0) : state.slip[0] * threshold_;
     const Eigen::RowVector4d all(value(0), value(1), r, ring_.contact_stiffness * spring);
     for (std::size_t h = 0; h < orders_.size(); ++h) {
-      const Complex wave = std::polar(node.weight * segment.length,
-                                      -orders_[h] * frequency_ * (segment.start + t));
+      const Complex wave =
+          std::polar(node.weight * segment.length, -orders_[h] * frequency_ * (segment.start + t));
       sums_.row(static_cast<Index>(h)) += wave * all.cast<Complex>();
     }
   }
@@ -61,7 +61,8 @@ void EnergyRecord::follow(const RingSegment& segment, const RingState& state) {
     input_ += weight * (ring_.load.cast<Complex>() * phase).real().dot(velocity);
     damping_ += weight * ring_.damping.dot(velocity.cwiseAbs2());
   }
-  const Vector slid = RingSegment::value(segment.relative, segment.length / segment.scale) - segment.relative.col(0);
+  const Vector slid =
+      RingSegment::value(segment.relative, segment.length / segment.scale) - segment.relative.col(0);
   for (Index i = 0; i < ring_.nodes(); ++i) {
     friction_ += ring_.contact_stiffness * threshold_ * state.slip[i] * slid(i);
   }

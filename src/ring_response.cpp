@@ -1,6 +1,6 @@
 #include "arcslip/ring_response.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -31,26 +31,45 @@ Matrix turned_back(const Matrix& sliders) {
   return next;
 }
 
-/// What is left of a difference of states in units of displacement once it has been freed of the drift.
-double length(const RingMotion& motion, const Vector& all) {
-  const Ring& ring = motion.ring();
-  const Index coordinates = ring.coordinates();
-  const Vector drift = neutral_drift(ring);
-  Vector left = all;
-  left.segment(coordinates, coordinates) /= motion.frequency();
-  left -= drift * drift.dot(left);
-  return left.norm();
+/// A difference of states in units of displacement.
+Vector scaled(const RingMotion& motion, const Vector& all) {
+  const Index coordinates = motion.ring().coordinates();
+  Vector same = all;
+  same.segment(coordinates, coordinates) /= motion.frequency();
+  return same;
 }
 
-/// delta of (I - dG/ds) delta = residual without a drift: the matrix is singular along it, so it is bordered.
-Vector newton_step(const Ring& ring, const Matrix& derivative, const Vector& residual) {
+/// Its length once it has been freed of the drift.
+double length_without_drift(const RingMotion& motion, const Vector& all) {
+  const Vector drift = neutral_drift(motion.ring());
+  const Vector same = scaled(motion, all);
+  return (same - drift * drift.dot(same)).norm();
+}
+
+/// How far G(s) = next is from s: a drift that goes on is no settled motion.
+double step_length(const RingMotion& motion, const RingState& state, const RingState& next) {
+  return scaled(motion, stacked(next) - stacked(state)).norm();
+}
+
+double step_error(const RingMotion& motion, const RingState& state, const RingState& next) {
+  return step_length(motion, state, next) / length_without_drift(motion, stacked(next));
+}
+
+/// delta of (I - dG/ds) delta = residual, without a drift, along which the matrix is singular. Least squares
+/// also hold where contacts so soft that they hardly stop a drift let it look settled but for its own
+/// progress.
+Vector newton_step(const RingMotion& motion, const Matrix& derivative, const Vector& residual) {
   const Index size = residual.size();
-  const Vector drift = neutral_drift(ring);
-  Matrix bordered(size + 1, size + 1);
-  bordered << Matrix::Identity(size, size) - derivative, drift, drift.transpose(), 0;
+  Matrix equations(size + 1, size);
+  equations << Matrix::Identity(size, size) - derivative, neutral_drift(motion.ring()).transpose();
   Vector right(size + 1);
-  right << residual, 0;
-  return bordered.partialPivLu().solve(right).head(size);
+  right << scaled(motion, residual), 0;
+  const Index coordinates = motion.ring().coordinates();
+  equations.middleRows(coordinates, coordinates) /= motion.frequency();
+  equations.middleCols(coordinates, coordinates) *= motion.frequency();
+  Vector step = equations.householderQr().solve(right);
+  step.segment(coordinates, coordinates) *= motion.frequency();
+  return step;
 }
 
 }  // namespace
@@ -119,7 +138,8 @@ Vector neutral_drift(const Ring& ring) {
 RingState next_state(RingMotion& motion, const RingState& state, RingObserver* observer) {
   const Ring& ring = motion.ring();
   RingState next = state;
-  motion.advance(next, motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()),
+  motion.advance(next,
+                 motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()),
                  observer);
   next.time = state.time;
   next.position = ring.turn * next.position;
@@ -150,14 +170,14 @@ StateDerivative next_derivative(RingMotion& motion, const RingState& state) {
 
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b) {
   const Vector reference = stacked(b);
-  return length(motion, stacked(a) - reference) / length(motion, reference);
+  return length_without_drift(motion, stacked(a) - reference) / length_without_drift(motion, reference);
 }
 
 SettledMotion march_until_settled(RingMotion& motion, RingState state, double tolerance, int rounds) {
   SettledMotion result{std::move(state), 0, 0, false};
   while (result.rounds < rounds && !result.settled) {
     RingState next = next_state(motion, result.state);
-    result.error = state_distance(motion, result.state, next);
+    result.error = step_error(motion, result.state, next);
     result.settled = result.error <= tolerance;
     result.state = std::move(next);
     ++result.rounds;
@@ -169,24 +189,24 @@ SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int r
   constexpr int most_halvings = 6;
   SettledMotion result{std::move(guess), 0, 0, false};
   StateDerivative here = next_derivative(motion, result.state);
-  result.error = state_distance(motion, result.state, here.next);
+  result.error = step_error(motion, result.state, here.next);
   while (result.error > tolerance && result.rounds < rounds) {
     const Vector residual = stacked(here.next) - stacked(result.state);
-    const Vector step = newton_step(motion.ring(), here.derivative, residual);
+    const Vector step = newton_step(motion, here.derivative, residual);
     RingState base = result.state;
     base.slip = here.next.slip;
     double part = 1;
     for (int halving = 0;; ++halving, part /= 2) {
       const RingState trial = moved(base, part * step);
       const RingState next = next_state(motion, trial);
-      const double gap = length(motion, stacked(next) - stacked(trial));
-      if (gap < length(motion, residual) || halving == most_halvings) {
+      const double gap = step_length(motion, trial, next);
+      if (gap < step_length(motion, result.state, here.next) || halving == most_halvings) {
         result.state = trial;
         break;
       }
     }
     here = next_derivative(motion, result.state);
-    result.error = state_distance(motion, result.state, here.next);
+    result.error = step_error(motion, result.state, here.next);
     ++result.rounds;
   }
   result.settled = result.error <= tolerance;

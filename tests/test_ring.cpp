@@ -55,9 +55,9 @@ TEST_CASE("The first crossing of a polynomial is found however close its roots a
   CHECK_FALSE(first_crossing(polynomial(1, {0.3, 0.300002}) - Vector::Unit(3, 0)));  // below zero throughout
   CHECK_THAT(first_crossing(polynomial(1, {0.7})).value(), WithinAbs(0.7, 1e-15));
   CHECK_THAT(first_crossing(polynomial(1, {0.2, 0.5, 0.9})).value(), WithinAbs(0.2, 1e-14));
-  CHECK(first_crossing(polynomial(-1, {0.4})).value() == 0);       // positive from the start
-  CHECK_FALSE(first_crossing(polynomial(1, {1.5})));               // outside
-  CHECK_FALSE(first_crossing(polynomial(-1, {0.5, 0.5})));         // touches from below
+  CHECK(first_crossing(polynomial(-1, {0.4})).value() == 0);         // positive from the start
+  CHECK_FALSE(first_crossing(polynomial(1, {1.5})));                 // outside
+  CHECK_FALSE(first_crossing(polynomial(-1, {0.5, 0.5})));           // touches from below
   CHECK_FALSE(first_crossing(polynomial(-1, {-0.5, 0.0, 1.0, 2})));  // zero at both ends, below between
 }
 
@@ -122,9 +122,9 @@ TEST_CASE("What the load feeds in from rest is stored or lost in friction and da
   };
   SystemParameters driven = small_rods();
   driven.base_damping = -0.01;
-  const Case c = GENERATE_COPY(Case{small_beams(), 3.7, 0.01}, Case{small_beams(7), 0.6, 0.01},
-                               Case{small_rods(), 2.3, 0.03}, Case{driven, 3.1, 0.03},
-                               Case{small_beams(), 3.7, 1e-5});
+  const Case c =
+      GENERATE_COPY(Case{small_beams(), 3.7, 0.01}, Case{small_beams(7), 0.6, 0.01},
+                    Case{small_rods(), 2.3, 0.03}, Case{driven, 3.1, 0.03}, Case{small_beams(), 3.7, 1e-5});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   RingState state = motion.at_rest();
   CHECK(std::abs(unaccounted(motion, state, 3.3 * motion.period())) < 1e-10);
@@ -144,8 +144,8 @@ TEST_CASE("In the settled response power in is power lost, and friction takes it
 }
 
 TEST_CASE("Each harmonic of the settled ring obeys its own travelling wave", "[ring]") {
-  // r_h + k c_h f_h = -y_0 delta_h1, where c_h belongs to the propagation constant h a: no harmonic is left out
-  // on one side and nothing is reduced on the other.
+  // r_h + k c_h f_h = -y_0 delta_h1, where c_h belongs to the propagation constant h a: no harmonic is left
+  // out on one side and nothing is reduced on the other.
   struct Case {
     SystemParameters system;
     double eta;
@@ -163,8 +163,10 @@ TEST_CASE("Each harmonic of the settled ring obeys its own travelling wave", "[r
   for (Index h = 0; h < 8; ++h) {
     const int order = record.orders()[static_cast<std::size_t>(h)];
     CAPTURE(order);
-    const Complex wanted = -compliance(c.system, order, c.eta) * record.force()(h) - (order == 1 ? free : 0.0);
-    CHECK(std::abs(record.relative()(h) - wanted) < 1e-11 * std::abs(free));  // rounding of the first harmonic
+    const Complex wanted =
+        -compliance(c.system, order, c.eta) * record.force()(h) - (order == 1 ? free : 0.0);
+    CHECK(std::abs(record.relative()(h) - wanted) <
+          1e-11 * std::abs(free));  // rounding of the first harmonic
     if (order % 2 == 0) CHECK(std::abs(record.relative()(h)) < 1e-11 * std::abs(free));
   }
   CHECK(std::abs(record.relative()(1)) > 1e-4 * std::abs(free));
@@ -173,12 +175,14 @@ TEST_CASE("Each harmonic of the settled ring obeys its own travelling wave", "[r
 TEST_CASE("A contact that hardly resists has the harmonics of Caughey's loop", "[ring]") {
   SystemParameters s = small_beams();
   s.fixed_damper = true;
-  s.interface_stiffness = 1e-9;  // moves r by 1e-9 of itself or so
+  s.interface_stiffness = 1e-3;  // over K* = 80: the higher harmonics of r are some 1e-8 of the first
   const double eta = 2;
-  const double amplitude = std::abs(build_system(s).base.at(eta).free);
-  const double preload = 0.3 * amplitude * s.interface_stiffness / s.stiffness_ratio();  // R = 5, S = 1.5
+  const double limit = s.interface_stiffness / s.stiffness_ratio();  // P/S
+  double amplitude = std::abs(build_system(s).base.at(eta).free);
+  for (int i = 0; i < 3; ++i) amplitude = std::abs(one_harmonic(s, eta, 0.3 * amplitude * limit).relative);
+  const double preload = 0.3 * amplitude * limit;  // R = 5, S = 1.5
   RingMotion motion(build_ring(s), eta, preload);
-  const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(s, eta, preload)}), 1e-11);
+  const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(s, eta, preload)}));
   REQUIRE(settled.settled);
   HarmonicRecord record(motion, {1, 3, 5, 7});
   RingState state = settled.state;
@@ -192,7 +196,8 @@ TEST_CASE("A contact that hardly resists has the harmonics of Caughey's loop", "
   const Complex turn = record.relative()(0) / std::abs(record.relative()(0));
   const double unit = build_ring(s).contact_stiffness * amplitude / 10;
   for (Index h = 0; h < 4; ++h) {
-    const Complex force = record.force()(h) / unit / std::pow(turn, record.orders()[static_cast<std::size_t>(h)]);
-    CHECK(std::abs(force - expected[h]) < 1e-8);
+    const Complex force =
+        record.force()(h) / unit / std::pow(turn, record.orders()[static_cast<std::size_t>(h)]);
+    CHECK(std::abs(force - expected[h]) < 1e-6);
   }
 }

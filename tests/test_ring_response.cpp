@@ -39,8 +39,8 @@ struct Case {
 TEST_CASE("The derivative of the turned flow is that of finite differences", "[ring]") {
   SystemParameters held = small_rods();
   held.fixed_damper = true;
-  const Case c = GENERATE_COPY(Case{small_beams(), 3.7, 0.03}, Case{small_rods(), 2.3, 0.03},
-                               Case{held, 2.3, 0.1});
+  const Case c =
+      GENERATE_COPY(Case{small_beams(), 3.7, 0.03}, Case{small_rods(), 2.3, 0.03}, Case{held, 2.3, 0.1});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   RingState start = motion.travelling({one_harmonic(c.system, c.eta, c.preload)});
   motion.advance(start, 0.37 * motion.period());  // no settled response: any state will do
@@ -84,7 +84,8 @@ TEST_CASE("Each node repeats its neighbour with the delay of the wave, marched w
   RingState state = motion.at_rest();
   motion.advance(state, 120 * motion.period());
   RingState later = state;
-  motion.advance(later, motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()));
+  motion.advance(later,
+                 motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()));
   const Vector now = ring.base * state.position;
   const Vector then = ring.base * later.position;
   const Vector gap = ring.relative * later.position - later.slider;

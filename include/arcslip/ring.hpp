@@ -4,8 +4,9 @@
 // taken from the travelling wave but the load. With q the displacements of all nodes, b_i the difference
 // u_i - y_i of contact i and g_i its friction force,
 //
-//   M q'' + C q' + K q + sum_i b_i g_i = Re(F e^{jw*t}),   w* = 2 pi eta,   C = (beta/2 pi) K of each structure
-//   g_i = k (r_i - x_i) in stick, +-k S in slip,           r_i = b_i^T q,   x_i the place of the slider
+//   M q'' + C q' + K q + sum_i b_i g_i = Re(F e^{jw*t}),   w* = 2 pi eta,   C = (beta/2 pi) K of each
+//   structure g_i = k (r_i - x_i) in stick, +-k S in slip,           r_i = b_i^T q,   x_i the place of the
+//   slider
 //
 // where node i carries the load of node 1 times e^{-ja(i-1)}. It is held in the undamped modes of the two
 // uncoupled structures, q = Phi p, which leave every matrix but that of the contacts diagonal:

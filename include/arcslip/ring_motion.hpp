@@ -54,7 +54,7 @@ class RingObserver {
 /// What a motion has cost.
 struct RingCount {
   long steps = 0;
-  long events = 0;                        ///< changes between stick and slip, each contact counted
+  long events = 0;                       ///< changes between stick and slip, each contact counted
   std::set<std::vector<bool>> patterns;  ///< of sticking contacts, the least of each one's rotations
 };
 

@@ -18,7 +18,7 @@ class HarmonicRecord : public RingObserver {
   ComplexVector base() const { return sums_.col(0) * (2 / time_); }      ///< y_h
   ComplexVector damper() const { return sums_.col(1) * (2 / time_); }    ///< u_h
   ComplexVector relative() const { return sums_.col(2) * (2 / time_); }  ///< r_h
-  ComplexVector force() const { return sums_.col(3) * (2 / time_); }     ///< of the friction force on the base
+  ComplexVector force() const { return sums_.col(3) * (2 / time_); }  ///< of the friction force on the base
 
  private:
   const Ring& ring_;

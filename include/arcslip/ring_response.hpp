@@ -57,12 +57,14 @@ double state_distance(const RingMotion& motion, const RingState& a, const RingSt
 /// A response that repeats itself.
 struct SettledMotion {
   RingState state;
-  double error;  ///< distance of G(s) from s
+  double error;  ///< |G(s) - s| over |s|, this without its part along the drift
   int rounds;    ///< of the march, each nT/N long, or of Newton's method
   bool settled;  ///< whether the tolerance is met
 };
 
-/// Marches until the state repeats within `tolerance`, for at most `rounds` of nT/N.
+/// Marches until the state repeats within `tolerance`, for at most `rounds` of nT/N. Where contacts come to
+/// stick for good, their sliders stay as the start has left them, not the same at each node: such a motion is
+/// periodic, but no travelling wave, and is never settled in this sense.
 SettledMotion march_until_settled(RingMotion& motion, RingState state, double tolerance, int rounds);
 
 /// Newton's method on G(s) = s from a guess. Steps are halved while they do not bring G(s) nearer to s.
