@@ -27,7 +27,7 @@ const std::set<std::string, std::less<>> mechanics{
     "annular_plate",     "chain_sector",  "complex_factors", "contact",        "contact_modes",
     "dynamic_stiffness", "elements",      "extended_sector", "finite_sector",  "first_crossing",
     "lowest_frequency",  "matrix_market", "modal_model",     "physical_scale", "precise",
-    "reduced_pair",      "ring",          "ring_motion",     "ring_record",    "ring_response",
+    "reduced_pair",      "ring",          "ring_motion",     "ring_record",    "ring_response", "ring_stability",
     "ring_sector",       "ritz_space",    "sector",          "sector_modes",   "sector_pair",
     "sector_reduction",  "sector_solver", "shape_functions", "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
