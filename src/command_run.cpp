@@ -10,6 +10,7 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "verification_results.hpp"
 
 namespace arcslip {
 namespace {
@@ -70,6 +71,25 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
                             traced.size(), traced.size() == 1 ? "" : "es", points, seconds, folder);
 }
 
+/// Refuses before anything runs what cannot be verified.
+void require_verifiable(const Case& input, const std::string& path) {
+  for (const CaseBranch& branch : input.branches) {
+    const std::string why = why_not_verifiable(branch);
+    if (!why.empty())
+      throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", path, why));
+  }
+}
+
+std::vector<VerifiedBranch> verify_all(const std::vector<TracedBranch>& traced, bool quiet) {
+  std::vector<VerifiedBranch> all;
+  ProgressLine line(!quiet);
+  for (std::size_t i = 0; i < traced.size() && !interrupted(); ++i) {
+    line.show([&] { return fmt::format("verifying branch {} of {}", i + 1, traced.size()); });
+    all.push_back(verify(i, traced[i]));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string results_folder(const std::string& given, const std::string& case_path) {
@@ -80,6 +100,7 @@ int run_command(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const Case input = read_case(options.case_path, options.settings);
   const std::string folder = results_folder(options.folder, options.case_path);
+  if (options.verify) require_verifiable(input, options.case_path);
   create_folder(folder);
   AtomicFile branches(folder + "/branches.csv");
   AtomicFile summary(folder + "/summary.json");
@@ -96,6 +117,16 @@ int run_command(const RunOptions& options) {
   branches.commit();
   summary.commit();
   if (!options.quiet) print(tables(input, traced, folder, seconds));
+  if (options.verify) {
+    const std::vector<VerifiedBranch> verified = verify_all(traced, options.quiet);
+    AtomicFile file(folder + "/verify.csv");
+    write_verification(verified, [&](std::string_view text) { file.write(text); });
+    file.sync();
+    file.commit();
+    for (const VerifiedBranch& branch : verified) {
+      if (!options.quiet) print(describe_verification(branch));
+    }
+  }
 
   int result = status::done;
   for (std::size_t i = 0; i < traced.size(); ++i) {

@@ -138,6 +138,10 @@ int dispatch(int argc, char** argv) {
       ->type_name("DIR");
   add_settings(run, options.settings);
   run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
+  run->add_flag(
+      "--verify", options.verify,
+      "Solve special points and samples of forced responses anew, with more harmonics and by integrating "
+      "the whole ring in time; writes DIR/verify.csv");
   run->footer(run_notes);
 
   StudyOptions studied;

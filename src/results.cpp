@@ -117,14 +117,6 @@ class PhysicalColumns {
   std::vector<std::string> names_;
 };
 
-/// The harmonics in which friction is balanced.
-std::vector<int> harmonics_of(const continuation::Problem& problem) {
-  if (const auto* several = dynamic_cast<const problems::HarmonicResponse*>(&problem))
-    return several->system().orders;
-  if (const auto* mode = dynamic_cast<const problems::NonlinearMode*>(&problem)) return mode->system().orders;
-  return {1};
-}
-
 /// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
 void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
   if (!problem.geometry) return;
@@ -323,6 +315,13 @@ ordered_json modes_to_json(const SystemParameters& system) {
     add("damper", sectors.damper_modes(use, system.damper_damping),
         [&] { return sectors.damper_solves(use.wave, system.damper_damping); });
   return parts;
+}
+
+std::vector<int> harmonics_of(const continuation::Problem& problem) {
+  if (const auto* several = dynamic_cast<const problems::HarmonicResponse*>(&problem))
+    return several->system().orders;
+  if (const auto* mode = dynamic_cast<const problems::NonlinearMode*>(&problem)) return mode->system().orders;
+  return {1};
 }
 
 std::string describe_harmonics(const TracedBranch& traced) {
