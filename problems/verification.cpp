@@ -115,7 +115,9 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
                                                    ? std::optional(ForcedResponse(build_system(parameters)))
                                                    : std::nullopt;
   std::vector<Verification> all;
-  for (const std::size_t i : chosen(branch, options)) {
+  const std::vector<std::size_t> points = chosen(branch, options);
+  for (const std::size_t i : points) {
+    if (options.progress && !options.progress(all.size(), points.size())) break;
     const BranchPoint& point = branch.points[i];
     Guess at{point.unknowns, point.parameters, point.regime};
     if (scalar) {
@@ -131,7 +133,8 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
                      none};
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
-    if (ring) one.Y_time = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
+    if (ring && point.type != PointType::regular)
+      one.Y_time = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
     all.push_back(one);
   }
   return all;

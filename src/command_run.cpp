@@ -84,8 +84,14 @@ std::vector<VerifiedBranch> verify_all(const std::vector<TracedBranch>& traced, 
   std::vector<VerifiedBranch> all;
   ProgressLine line(!quiet);
   for (std::size_t i = 0; i < traced.size() && !interrupted(); ++i) {
-    line.show([&] { return fmt::format("verifying branch {} of {}", i + 1, traced.size()); });
-    all.push_back(verify(i, traced[i]));
+    const auto progress = [&](std::size_t point, std::size_t points) {
+      line.show([&] {
+        return fmt::format("verifying branch {} of {}: point {} of {}", i + 1, traced.size(), point + 1,
+                           points);
+      });
+      return !interrupted();
+    };
+    all.push_back(verify(i, traced[i], progress));
   }
   return all;
 }

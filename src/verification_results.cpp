@@ -42,10 +42,12 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   return branch.curve ? "curves" : "";
 }
 
-VerifiedBranch verify(std::size_t number, const TracedBranch& traced) {
+VerifiedBranch verify(std::size_t number, const TracedBranch& traced,
+                      const std::function<bool(std::size_t, std::size_t)>& progress) {
   if (traced.branch.points.empty()) return {number, &traced, {}};
   return {number, &traced,
-          problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch)};
+          problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
+                           {.progress = progress})};
 }
 
 void write_verification(const std::vector<VerifiedBranch>& branches, const Sink& sink) {

@@ -18,7 +18,8 @@ struct VerifiedBranch {
 std::string why_not_verifiable(const CaseBranch& branch);
 
 /// Solves points of a branch anew.
-VerifiedBranch verify(std::size_t number, const TracedBranch& traced);
+VerifiedBranch verify(std::size_t number, const TracedBranch& traced,
+                      const std::function<bool(std::size_t, std::size_t)>& progress);
 
 /// verify.csv, in pieces.
 void write_verification(const std::vector<VerifiedBranch>& branches, const Sink& sink);

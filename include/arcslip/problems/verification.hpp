@@ -3,6 +3,7 @@
 // Points of a branch solved anew, with more harmonics and, where the ring can be assembled, by integrating
 // all its nodes in time, so that a branch says itself how far it can be trusted.
 
+#include <functional>
 #include <vector>
 
 #include "arcslip/continuation/branch.hpp"
@@ -23,8 +24,11 @@ struct Verification {
 
 struct VerifyOptions {
   std::size_t samples = 10;       ///< regular points, spread over the branch, besides the special ones
-  std::size_t most_special = 30;  ///< special points
-  bool in_time = true;            ///< whether to integrate in time
+  std::size_t most_special = 30;  ///< special points, the first ones; only these are integrated in time
+  bool in_time = true;            ///< whether to integrate in time, some seconds for a point of 30 nodes
+
+  /// Called before each point with its number among those chosen and how many these are; false ends it.
+  std::function<bool(std::size_t, std::size_t)> progress = {};
 };
 
 /// `branch` is one of HarmonicResponse, or of ForcedResponse, with the system of `parameters` in `orders`.
