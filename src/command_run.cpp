@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -70,6 +71,16 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
                             traced.size(), traced.size() == 1 ? "" : "es", points, seconds, folder);
 }
 
+/// Refuses before anything runs what no certificate covers.
+void require_certifiable(const Case& input, const std::string& path) {
+  for (const CaseBranch& branch : input.branches) {
+    const std::string why = why_not_certifiable(branch);
+    if (why.empty()) continue;
+    throw InputError(fmt::format(
+        "{}: --certify is for forced responses of one contact with linear structures, not for {}", path, why));
+  }
+}
+
 }  // namespace
 
 std::string results_folder(const std::string& given, const std::string& case_path) {
@@ -80,12 +91,14 @@ int run_command(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   const Case input = read_case(options.case_path, options.settings);
   const std::string folder = results_folder(options.folder, options.case_path);
+  if (options.certify) require_certifiable(input, options.case_path);
   create_folder(folder);
   AtomicFile branches(folder + "/branches.csv");
   AtomicFile summary(folder + "/summary.json");
 
   catch_interrupts();
-  const std::vector<TracedBranch> traced = trace_all(input, options.quiet);
+  std::vector<TracedBranch> traced = trace_all(input, options.quiet);
+  if (options.certify) std::for_each(traced.begin(), traced.end(), certify);
   const double seconds = seconds_since(start);
 
   write_branches(traced, [&](std::string_view text) { branches.write(text); });
@@ -103,6 +116,14 @@ int run_command(const RunOptions& options) {
     if (why.empty()) continue;
     result = status::incomplete_branch;
     fmt::print(stderr, "arcslip: branch {}: {}\n", i, why);
+  }
+  for (std::size_t i = 0; options.certify && i < traced.size(); ++i) {
+    if (traced[i].certificate->proven()) {
+      if (!options.quiet) print(describe_certificate(i, traced[i]));
+    } else {
+      result = status::incomplete_branch;
+      fmt::print(stderr, "arcslip: {}", describe_certificate(i, traced[i]));
+    }
   }
   const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
   const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;

@@ -21,6 +21,7 @@ struct RunOptions {
   std::string folder;                 ///< empty: out/<name of the case file>
   std::vector<std::string> settings;  ///< "section.key=value"
   bool quiet = false;
+  bool certify = false;  ///< prove each branch by interval arithmetic
 };
 
 /// Traces the branches, writes branches.csv and summary.json, prints the special points.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 
@@ -159,6 +160,23 @@ ordered_json highest_peak(const TracedBranch& traced, const ordered_json& specia
   return {{"eta", (*best)["eta"]}, {"Y", (*best)["Y"]}, {"R_over_S", (*best)["R_over_S"]}};
 }
 
+ordered_json certificate_to_json(const problems::Certificate& certificate) {
+  ordered_json turns = ordered_json::array();
+  for (const problems::Turn& turn : certificate.turns)
+    turns.push_back({{"low", turn.low}, {"high", turn.high}, {"certain", turn.certain}});
+  ordered_json json = {{"proven", certificate.proven()},
+                       {"from", certificate.from},
+                       {"to", certificate.to},
+                       {"boxes", certificate.boxes},
+                       {"widest", certificate.widest},
+                       {"folds", turns},
+                       {"single_valued", certificate.single_valued}};
+  if (certificate.gap)
+    json["gap"] = {{"point", certificate.gap->point}, {"reason", certificate.gap->reason}};
+  json["seconds"] = certificate.seconds;
+  return json;
+}
+
 ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const ordered_json special = special_points(traced);
   const continuation::Work& work = traced.branch.work;
@@ -178,6 +196,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                      {"iterations", work.iterations},
                      {"rejected_steps", work.rejected_steps}};
   summary["seconds"] = traced.seconds;
+  if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
   return summary;
 }
 
@@ -282,6 +301,31 @@ ordered_json modes_to_json(const SystemParameters& system) {
   if (system.sectors->damper() != nullptr)
     add("damper", system.sectors->damper_modes(use, system.damper_damping));
   return parts;
+}
+
+std::string describe_certificate(std::size_t number, const TracedBranch& traced) {
+  const problems::Certificate& certificate = traced.certificate.value();
+  const std::string& parameter = traced.request->options.parameter;
+  const continuation::Problem& problem = traced.problem();
+  const Index index = continuation::index_of(problem.parameter_names(), parameter);
+  if (certificate.gap) {
+    const std::size_t i = certificate.gap->point;
+    const std::vector<BranchPoint>& points = traced.branch.points;
+    const auto at = [&](std::size_t k) { return k < points.size() ? points[k].parameters(index) : NAN; };
+    return fmt::format("branch {}: not certified: the segment from point {} to {}, {} = {:.9g} to {:.9g}: {}\n",
+                       number, i, i + 1, parameter, at(i), at(i + 1), certificate.gap->reason);
+  }
+  std::string folds;
+  for (const problems::Turn& turn : certificate.turns) {
+    folds += fmt::format("{} {} {:.9g} to {:.9g}", folds.empty() ? "" : ",", turn.certain ? "one fold or more in" : "perhaps folds in", turn.low,
+                         turn.high);
+  }
+  std::string text = fmt::format("branch {}: certified: no fold{}, no jump between {} = {:.9g} and {:.9g} ({} boxes, {:.2g} s)\n", number,
+                                 folds.empty() ? "" : " but" + folds, parameter, certificate.from, certificate.to, certificate.boxes,
+                                 certificate.seconds);
+  if (certificate.single_valued)
+    text += fmt::format("branch {}: and no other solution at any preload, since Im c < 0\n", number);
+  return text;
 }
 
 std::string special_table_header(const TracedBranch& traced) {

@@ -25,7 +25,7 @@ enum class Layer { types, continuation, mechanics, problems, files, command_line
 
 const std::set<std::string, std::less<>> mechanics{
     "annular_plate",     "chain_sector",  "complex_factors", "contact",       "contact_modes",
-    "dynamic_stiffness", "elements",      "extended_sector", "finite_sector", "lowest_frequency",
+    "dynamic_stiffness", "elements",      "extended_sector", "finite_sector", "interval", "interval_response", "lowest_frequency",
     "matrix_market",     "modal_model",   "physical_scale",  "precise",       "reduced_pair",
     "ring_sector",       "ritz_space",    "sector",          "sector_modes",  "sector_pair",
     "sector_reduction",  "sector_solver", "shape_functions", "system"};

@@ -37,6 +37,9 @@ nlohmann::ordered_json modes_to_json(const SystemParameters& system);
 /// Rows of special points, as AUTO prints them; `number` is the branch's.
 std::string special_table(std::size_t number, const TracedBranch& traced);
 
+/// What a certificate proves, one line or two, or the segment that it cannot prove, one line.
+std::string describe_certificate(std::size_t number, const TracedBranch& traced);
+
 /// The line above such rows.
 std::string special_table_header(const TracedBranch& traced);
 
