@@ -12,7 +12,8 @@ namespace {
 using continuation::BranchPoint;
 
 constexpr int most_halvings = 40;
-constexpr int halvings_before_exchange = 6;  // of the roles, so that folds are confined well
+constexpr long most_boxes = 4096;            // for one segment
+constexpr int halvings_before_exchange = 8;  // of the roles, so that folds are confined well
 constexpr int halvings_of_range = 12;        // to show Im c < 0
 
 int sign(double x) { return (x > 0) - (x < 0); }
@@ -22,75 +23,73 @@ double extent(const PlanePoint& from, const PlanePoint& to) {
   return std::hypot(std::log(to.parameter / from.parameter), to.rho - from.rho);
 }
 
-struct Box {
-  PlanePoint from;
-  PlanePoint to;
-  Axis axis;
-  double half_width;
+/// The way that the coordinate goes of which the other one is a function.
+int direction(const TiltedBox& box) {
+  return box.axis == Axis::rho ? sign(box.to.parameter - box.from.parameter) : sign(box.to.rho - box.from.rho);
+}
 
-  /// The way that the coordinate which is not `axis` goes.
-  int direction() const {
-    return axis == Axis::rho ? sign(to.parameter - from.parameter) : sign(to.rho - from.rho);
-  }
-};
-
-/// Puts boxes together in the branch's order.
+/// The boxes in the branch's order.
 class Chain {
  public:
   explicit Chain(const EnclosedEquation& equation) : equation_(equation) {}
 
+  long boxes() const { return boxes_; }
+  Axis last_axis() const { return boxes_ == 0 ? Axis::rho : last_.axis; }
+
   /// Why a box does not go on from the last one; empty if it does.
-  std::string add(const Box& box) {
-    std::string reason = boxes_ == 0 ? "" : joint(box);
-    if (!reason.empty()) return reason;
+  std::string objection(const TiltedBox& box) const {
+    if (boxes_ == 0) return "";
+    const char* back = "it turns back without a fold";
+    if (box.axis == last_.axis)
+      return direction(box) != 0 && direction(box) == -direction(last_) ? back : "";
+    const bool rises = box.axis == Axis::rho;
+    const int slope = slope_at(box.from, rises ? box : last_, rises ? last_ : box);
+    if (slope == 0) return "boxes do not join where rho and the parameter exchange their roles";
+    return direction(box) == slope * direction(last_) ? "" : back;
+  }
+
+  void add(const TiltedBox& box) {
     if (box.axis == Axis::parameter) {
-      if (boxes_ == 0 || last_.axis == Axis::rho) turns_.push_back({box.from.parameter, box.from.parameter, false});
-      Turn& turn = turns_.back();
-      turn.low = std::min({turn.low, box.from.parameter - box.half_width, box.to.parameter - box.half_width});
-      turn.high = std::max({turn.high, box.from.parameter + box.half_width, box.to.parameter + box.half_width});
-    } else if (box.direction() != 0) {
-      if (boxes_ > 0 && last_.axis == Axis::parameter) turns_.back().certain = way_ == -box.direction();
-      way_ = box.direction();
+      const double w = box.half_width;
+      const auto [low, high] = std::minmax(box.from.parameter, box.to.parameter);
+      if (boxes_ == 0 || last_.axis == Axis::rho) turns_.push_back({low - w, high + w, false});
+      turns_.back().low = std::min(turns_.back().low, low - w);
+      turns_.back().high = std::max(turns_.back().high, high + w);
+      widest_ = std::max(widest_, w / low);
+    } else {
+      const int way = direction(box);
+      if (boxes_ > 0 && last_.axis == Axis::parameter) turns_.back().certain = way_ == -way && way != 0;
+      if (way != 0) way_ = way;
+      widest_ = std::max(widest_, box.half_width);
     }
     ++boxes_;
-    widest_ = std::max(widest_, box.axis == Axis::rho ? box.half_width : box.half_width / box.from.parameter);
     last_ = box;
-    return "";
   }
 
-  void write(Certificate& certificate) const {
-    certificate.boxes = boxes_;
-    certificate.widest = widest_;
-    certificate.turns = turns_;
-  }
+  double widest() const { return widest_; }
+  const std::vector<Turn>& turns() const { return turns_; }
 
  private:
-  std::string joint(const Box& box) const {
-    const int direction = box.direction();
-    if (box.axis == last_.axis) {
-      const bool back = direction != 0 && direction == -last_.direction();
-      return back ? "it turns back without a fold" : "";
-    }
-    const Box& upright = box.axis == Axis::rho ? box : last_;
-    const Box& level = box.axis == Axis::rho ? last_ : box;
-    const PlanePoint& at = box.from;
+  /// The sign of drho/dq of the one curve in a rectangle about a point where boxes of different axes meet: it
+  /// holds the zeros of both on the lines through the point. 0 where that is not sure.
+  int slope_at(const PlanePoint& at, const TiltedBox& rho_box, const TiltedBox& parameter_box) const {
     try {
-      const auto around = [](double x, double half_width) {
-        return Interval(x) + Interval(-half_width, half_width);
+      const Interval residual = norm(equation_.residual(at));
+      const auto around = [&](double x, const TiltedBox& box) {
+        const double reach = (residual * inverse(Interval(box.slope))).upper();
+        return Interval(x) + Interval(-reach, reach);
       };
-      const EnclosedGradient gradient = equation_.gradient(around(at.parameter, level.half_width),
-                                                           around(at.rho, upright.half_width));
-      const int slope = -sign(gradient.parameter) * sign(gradient.rho);
-      if (slope == 0) return "boxes do not join where rho and the parameter exchange their roles";
-      return level.direction() == slope * upright.direction() ? "" : "it turns back without a fold";
-    } catch (const NoEnclosure& none) {
-      return none.what();
+      const EnclosedGradient gradient =
+          equation_.gradient(around(at.parameter, parameter_box), around(at.rho, rho_box));
+      return -sign(gradient.parameter) * sign(gradient.rho);
+    } catch (const NoEnclosure&) {
+      return 0;
     }
   }
 
   const EnclosedEquation& equation_;
-  Box last_{};
-  int way_ = 0;  // of the parameter, in the last box that was a function of it
+  TiltedBox last_{};
+  int way_ = 0;  // of the parameter, in the last box of which rho is the axis
   long boxes_ = 0;
   double widest_ = 0;
   std::vector<Turn> turns_;
@@ -99,12 +98,15 @@ class Chain {
 /// Proves one segment after the other.
 class Prover {
  public:
-  Prover(const ForcedResponse& problem, ContactProblem::Parameter parameter, const Vector& parameters)
+  /// `eta_low` and `eta_high` are the range of the branch.
+  Prover(const ForcedResponse& problem, ContactProblem::Parameter parameter, const Vector& parameters,
+         double eta_low, double eta_high)
       : problem_(problem),
         parameter_(parameter),
         parameters_(parameters),
         equation_(problem.system(), parameter, parameters(1 - parameter)),
-        chain_(equation_) {}
+        chain_(equation_),
+        single_valued_(is_passive(eta_low, eta_high, halvings_of_range)) {}
 
   PlanePoint point(const BranchPoint& stored) const {
     return {stored.parameters(parameter_), stored.unknowns(0)};
@@ -120,31 +122,49 @@ class Prover {
     }
   }
 
-  /// Why there is no proof; empty if there is one.
-  std::string prove(const PlanePoint& from, const PlanePoint& to, int halvings = 0) {
-    if (from.parameter == to.parameter && from.rho == to.rho) return "";
-    for (const Axis axis : {Axis::rho, Axis::parameter}) {
-      if (axis == Axis::parameter && halvings < halvings_before_exchange) break;
-      const auto half_width = equation_.certified_half_width(from, to, axis);
-      if (half_width) return chain_.add({from, to, axis, *half_width});
-    }
-    if (halvings == most_halvings)
-      return fmt::format("no box about the piece at {:.12g} holds a single solution", from.parameter);
-    const PlanePoint middle = between(from, to);
-    std::string reason = prove(from, middle, halvings + 1);
-    return reason.empty() ? prove(middle, to, halvings + 1) : reason;
+  /// Why there is no proof of a segment; empty if there is one.
+  std::string prove(const PlanePoint& from, const PlanePoint& to) {
+    most_boxes_ = chain_.boxes() + most_boxes;
+    return prove(from, to, 0);
   }
 
-  bool is_single_valued(double low, double high, int halvings = 0) const {
-    if (equation_.is_passive({low, high})) return true;
-    if (halvings == halvings_of_range || low == high) return false;
-    const double middle = 0.5 * (low + high);
-    return is_single_valued(low, middle, halvings + 1) && is_single_valued(middle, high, halvings + 1);
-  }
-
+  bool single_valued() const { return single_valued_; }
   const Chain& chain() const { return chain_; }
 
  private:
+  /// Of a unique response no fold is possible, so that the roles are exchanged freely; else only where it is
+  /// needed, and late.
+  std::vector<Axis> axes(int halvings) const {
+    if (single_valued_ && chain_.last_axis() == Axis::parameter) return {Axis::parameter, Axis::rho};
+    if (single_valued_ || halvings >= halvings_before_exchange) return {Axis::rho, Axis::parameter};
+    return {Axis::rho};
+  }
+
+  std::string prove(const PlanePoint& from, const PlanePoint& to, int halvings) {
+    if (from.parameter == to.parameter && from.rho == to.rho) return "";
+    std::string reason = fmt::format("no box about the piece from {:.12g} holds a single solution", from.parameter);
+    for (const Axis axis : axes(halvings)) {
+      const std::optional<TiltedBox> box = equation_.certified_box(from, to, axis);
+      if (!box) continue;
+      reason = chain_.objection(*box);
+      if (!reason.empty()) continue;
+      chain_.add(*box);
+      return "";
+    }
+    if (halvings == most_halvings) return reason;
+    if (chain_.boxes() >= most_boxes_) return fmt::format("it takes more than {} boxes", most_boxes);
+    const PlanePoint middle = between(from, to);
+    reason = prove(from, middle, halvings + 1);
+    return reason.empty() ? prove(middle, to, halvings + 1) : reason;
+  }
+
+  bool is_passive(double low, double high, int halvings) const {
+    if (equation_.is_passive(parameter_ == ContactProblem::eta ? Interval(low, high) : Interval(low))) return true;
+    if (halvings == 0 || low == high) return false;
+    const double middle = 0.5 * (low + high);
+    return is_passive(low, middle, halvings - 1) && is_passive(middle, high, halvings - 1);
+  }
+
   /// The point of the branch nearest to the middle of a piece, to rounding, by Newton's method; wherever it
   /// leads, the proof does not rest on it.
   PlanePoint between(const PlanePoint& from, const PlanePoint& to) const {
@@ -173,6 +193,8 @@ class Prover {
   Vector parameters_;
   EnclosedEquation equation_;
   Chain chain_;
+  bool single_valued_;
+  long most_boxes_ = 0;
 };
 
 /// The first segment that is not proven.
@@ -182,10 +204,8 @@ std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<Bran
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const PlanePoint from = prover.point(points[i]);
     const PlanePoint to = prover.point(points[i + 1]);
-    std::string reason;
-    for (const PlanePoint& end : {from, to}) {
-      if (reason.empty()) reason = prover.check(end, options.tolerance);
-    }
+    std::string reason = i == 0 ? prover.check(from, options.tolerance) : "";
+    if (reason.empty()) reason = prover.check(to, options.tolerance);
     if (reason.empty() && !(extent(from, to) <= 2 * options.max_step)) reason = "it is longer than a step";
     if (reason.empty()) reason = prover.prove(from, to);
     if (!reason.empty()) return Certificate::Gap{i, reason};
@@ -204,17 +224,19 @@ Certificate certify(const ForcedResponse& problem, const continuation::Branch& b
     return certificate;
   }
   const Vector& first = branch.points.front().parameters;
-  Prover prover(problem, parameter, first);
-  certificate.gap = first_gap(prover, branch.points, options);
-  prover.chain().write(certificate);
-  certificate.from = first(parameter);
-  certificate.to = branch.points.back().parameters(parameter);
   double low = first(ContactProblem::eta), high = low;
   for (const BranchPoint& point : branch.points) {
     low = std::min(low, point.parameters(ContactProblem::eta));
     high = std::max(high, point.parameters(ContactProblem::eta));
   }
-  certificate.single_valued = prover.is_single_valued(low, high);
+  Prover prover(problem, parameter, first, low, high);
+  certificate.gap = first_gap(prover, branch.points, options);
+  certificate.from = first(parameter);
+  certificate.to = branch.points.back().parameters(parameter);
+  certificate.boxes = prover.chain().boxes();
+  certificate.widest = prover.chain().widest();
+  certificate.single_valued = prover.single_valued();
+  if (!certificate.single_valued) certificate.turns = prover.chain().turns();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   certificate.seconds = seconds.count();
   return certificate;

@@ -1,5 +1,7 @@
 #include "arcslip/problems/enclosed_equation.hpp"
 
+#include <algorithm>
+
 namespace arcslip::problems {
 namespace {
 
@@ -76,14 +78,15 @@ EnclosedGradient EnclosedEquation::gradient(const Interval& q, const Interval& r
   const ComplexInterval gain = k * inverse(closed(k, at.law.phi, at.compliance));
   const Interval by_ratio = (gain * at.law.phi_log * at.compliance).real;
   return {(gain * at.law.phi * at.compliance_q).real - at.log_free_q - by_ratio * at.log_threshold_q,
-          Interval(1) + by_ratio};
+          quotient(closed(k, at.law.slope, at.compliance), closed(k, at.law.phi, at.compliance)).real};
 }
 
 EnclosedEquation::Derivatives EnclosedEquation::derivatives(const Piece& piece, double half_width) const {
   const bool up = piece.axis == Axis::rho;
   const Interval side = symmetric(half_width);
   const Interval q = up ? piece.q : piece.q + side;
-  Terms box = terms(q, up ? piece.rho + side : piece.rho);
+  const Interval box_rho = up ? piece.rho + side : piece.rho;
+  Terms box = terms(q, box_rho);
   const Terms& middle = piece.middle;
   const Interval k(system_.contact_stiffness);
   const Interval half = symmetric(0.5);
@@ -91,38 +94,36 @@ EnclosedEquation::Derivatives EnclosedEquation::derivatives(const Piece& piece, 
       middle.compliance + (q - piece.middle_q) * box.compliance_q;  // the mean value theorem, as below
   box.compliance = common(box.compliance, from_middle);
 
-  // d(k phi c) along the piece and across it.
-  const auto change = [&](const Interval& by_q, const Interval& by_rho) {
-    const Interval by_ratio = by_rho - box.log_threshold_q * by_q;
-    return k * (by_ratio * (box.law.phi_log * box.compliance) + by_q * (box.law.phi * box.compliance_q));
-  };
-  const Interval across_q = up ? 0 : 1;
-  const Interval across_rho = up ? 1 : 0;
-  const ComplexInterval along = change(piece.step_q, piece.step_rho);
-  const ComplexInterval across = change(across_q, across_rho);
-  const ComplexInterval factor =
-      common(closed(k, box.law.phi, box.compliance),
-             closed(k, middle.law.phi, middle.compliance) + half * along + side * across);
+  // Derivative of R (1 + k phi c) along the piece and across it, over R.
+  const ComplexInterval by_rho = ComplexInterval{1, 0} + k * (box.law.slope * box.compliance);
+  const ComplexInterval by_q = k * (box.law.phi * box.compliance_q +
+                                    -box.log_threshold_q * (box.law.phi_log * box.compliance));
+  const ComplexInterval along = piece.step_rho * by_rho + piece.step_q * by_q;
+  const ComplexInterval& across = up ? by_rho : by_q;
+  const Interval growth = exponential(box_rho - piece.middle_rho);  // of R from the middle
+  const ComplexInterval factor = common(
+      closed(k, box.law.phi, box.compliance),
+      inverse(growth) * (closed(k, middle.law.phi, middle.compliance) + (half * growth) * along +
+                         (side * growth) * across));
   const ComplexInterval reciprocal = inverse(factor);
-  return {piece.step_rho - box.log_free_q * piece.step_q + (along * reciprocal).real,
-          across_rho - box.log_free_q * across_q + (across * reciprocal).real};
+  return {(along * reciprocal).real - box.log_free_q * piece.step_q,
+          (across * reciprocal).real - (up ? Interval(0) : box.log_free_q)};
 }
 
-std::optional<double> EnclosedEquation::certified_half_width(const PlanePoint& from, const PlanePoint& to,
-                                                             Axis axis) const {
+std::optional<TiltedBox> EnclosedEquation::certified_box(const PlanePoint& from, const PlanePoint& to,
+                                                         Axis axis) const {
+  constexpr int attempts = 3;
   Piece piece(from, to, axis);
   try {
     piece.middle = terms(piece.middle_q, piece.middle_rho);
     const Derivatives line = derivatives(piece, 0);
-    const double residual =
-        norm(value(piece.middle, piece.middle_rho) + line.along * symmetric(0.5));  // |g(a, 0)| at most
-    // The interval Newton operator is within +- this, given g_b.
-    const auto reach = [&](const Interval& across) {
-      return norm(Interval(residual) * inverse(across));
-    };
-    double half_width = 2 * reach(line.across);
-    for (int attempt = 0; attempt < 3; ++attempt) {
-      if (reach(derivatives(piece, half_width).across) < half_width) return half_width;
+    // |g(a, 0)| at most.
+    const Interval residual = norm(value(piece.middle, piece.middle_rho) + line.along * symmetric(0.5));
+    double half_width = 2 * norm(residual * inverse(line.across));
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      const Interval across = derivatives(piece, half_width).across;
+      if (norm(residual * inverse(across)) < half_width)
+        return TiltedBox{from, to, axis, half_width, std::max(across.lower(), -across.upper())};
       half_width *= 4;
     }
   } catch (const NoEnclosure&) {

@@ -85,7 +85,8 @@ ComplexInterval common(const ComplexInterval& a, const ComplexInterval& b) {
 }
 
 Interval exponential(const Interval& x) {
-  return {exponential_at(x.lower()).lower(), exponential_at(x.upper()).upper()};
+  const Interval low = exponential_at(x.lower());
+  return {low.lower(), x.upper() == x.lower() ? low.upper() : exponential_at(x.upper()).upper()};
 }
 
 Interval logarithm(const Interval& x) {

@@ -11,14 +11,13 @@
 
 namespace arcslip {
 
-/// phi and d phi/d ln(R/S).
 struct EnclosedCoefficient {
   ComplexInterval phi;
-  ComplexInterval phi_log;
+  ComplexInterval phi_log;  ///< d phi/d ln(R/S)
+  ComplexInterval slope;    ///< d(R phi)/dR = phi + phi_log, in which most of both cancels where R/S is large
 };
 
-/// For x = S/R > 0. Where x may lie on either side of 1, phi_log holds the derivatives of stick and slip; as
-/// phi is continuous and each piece smooth up to the border, its differences are then still those that the
+/// For x = S/R > 0. Where x may lie on either side of 1, derivatives hold those of stick and slip; as phi is continuous and each piece smooth up to the border, its differences are then still those that the
 /// mean value theorem allows.
 EnclosedCoefficient enclose_coefficient(const Interval& x);
 

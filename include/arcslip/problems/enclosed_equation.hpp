@@ -28,6 +28,15 @@ struct PlanePoint {
 /// The coordinate that is proven to be a function of the other one.
 enum class Axis { rho, parameter };
 
+/// A box in which for every a there is one b with g = 0, and no other.
+struct TiltedBox {
+  PlanePoint from;
+  PlanePoint to;
+  Axis axis;
+  double half_width;  ///< w
+  double slope;       ///< |g_b| is at least this, > 0
+};
+
 /// Derivatives of g by q and rho.
 struct EnclosedGradient {
   Interval parameter;
@@ -45,10 +54,9 @@ class EnclosedEquation {
 
   EnclosedGradient gradient(const Interval& q, const Interval& rho) const;
 
-  /// Half the width w of a tilted box around the piece in which for every a there is one b with g = 0, and no
-  /// other: g_b has one sign, and by the interval Newton operator |g(a, 0)/g_b| < w. None if that cannot be
-  /// shown.
-  std::optional<double> certified_half_width(const PlanePoint& from, const PlanePoint& to, Axis axis) const;
+  /// The box about a piece, wide enough for the proof: g_b has one sign in it, and the interval Newton
+  /// operator stays inside, |g(a, 0)/g_b| < w. None if that cannot be shown.
+  std::optional<TiltedBox> certified_box(const PlanePoint& from, const PlanePoint& to, Axis axis) const;
 
   /// Whether Im c < 0 for all q of an interval.
   bool is_passive(const Interval& q) const;
