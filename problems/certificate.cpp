@@ -25,7 +25,8 @@ double extent(const PlanePoint& from, const PlanePoint& to) {
 
 /// The way that the coordinate goes of which the other one is a function.
 int direction(const TiltedBox& box) {
-  return box.axis == Axis::rho ? sign(box.to.parameter - box.from.parameter) : sign(box.to.rho - box.from.rho);
+  return box.axis == Axis::rho ? sign(box.to.parameter - box.from.parameter)
+                               : sign(box.to.rho - box.from.rho);
 }
 
 /// The boxes in the branch's order.
@@ -40,8 +41,7 @@ class Chain {
   std::string objection(const TiltedBox& box) const {
     if (boxes_ == 0) return "";
     const char* back = "it turns back without a fold";
-    if (box.axis == last_.axis)
-      return direction(box) != 0 && direction(box) == -direction(last_) ? back : "";
+    if (box.axis == last_.axis) return direction(box) != 0 && direction(box) == -direction(last_) ? back : "";
     const bool rises = box.axis == Axis::rho;
     const int slope = slope_at(box.from, rises ? box : last_, rises ? last_ : box);
     if (slope == 0) return "boxes do not join where rho and the parameter exchange their roles";
@@ -58,7 +58,10 @@ class Chain {
       widest_ = std::max(widest_, w / low);
     } else {
       const int way = direction(box);
-      if (boxes_ > 0 && last_.axis == Axis::parameter) turns_.back().certain = way_ == -way && way != 0;
+      if (boxes_ > 0 && last_.axis == Axis::parameter) {
+        turns_.back().certain = way_ == -way && way != 0;
+        merge_last_turns();
+      }
       if (way != 0) way_ = way;
       widest_ = std::max(widest_, box.half_width);
     }
@@ -70,6 +73,17 @@ class Chain {
   const std::vector<Turn>& turns() const { return turns_; }
 
  private:
+  /// Two ranges that overlap become one, but where both hold a fold.
+  void merge_last_turns() {
+    if (turns_.size() < 2) return;
+    Turn& turn = turns_[turns_.size() - 2];
+    const Turn& last = turns_.back();
+    if (turn.certain && last.certain) return;
+    if (last.low > turn.high || last.high < turn.low) return;
+    turn = {std::min(turn.low, last.low), std::max(turn.high, last.high), turn.certain || last.certain};
+    turns_.pop_back();
+  }
+
   /// The sign of drho/dq of the one curve in a rectangle about a point where boxes of different axes meet: it
   /// holds the zeros of both on the lines through the point. 0 where that is not sure.
   int slope_at(const PlanePoint& at, const TiltedBox& rho_box, const TiltedBox& parameter_box) const {
@@ -142,7 +156,8 @@ class Prover {
 
   std::string prove(const PlanePoint& from, const PlanePoint& to, int halvings) {
     if (from.parameter == to.parameter && from.rho == to.rho) return "";
-    std::string reason = fmt::format("no box about the piece from {:.12g} holds a single solution", from.parameter);
+    std::string reason =
+        fmt::format("no box about the piece from {:.12g} holds a single solution", from.parameter);
     for (const Axis axis : axes(halvings)) {
       const std::optional<TiltedBox> box = equation_.certified_box(from, to, axis);
       if (!box) continue;
@@ -159,7 +174,8 @@ class Prover {
   }
 
   bool is_passive(double low, double high, int halvings) const {
-    if (equation_.is_passive(parameter_ == ContactProblem::eta ? Interval(low, high) : Interval(low))) return true;
+    if (equation_.is_passive(parameter_ == ContactProblem::eta ? Interval(low, high) : Interval(low)))
+      return true;
     if (halvings == 0 || low == high) return false;
     const double middle = 0.5 * (low + high);
     return is_passive(low, middle, halvings - 1) && is_passive(middle, high, halvings - 1);
@@ -176,8 +192,8 @@ class Prover {
     unknown(0) = 0.5 * (from.rho + to.rho);
     const PlanePoint middle{q, unknown(0)};
     for (int i = 0; i < corrections; ++i) {
-      const double threshold =
-          problem_.system().slip_threshold(parameters(ContactProblem::eta), parameters(ContactProblem::preload));
+      const double threshold = problem_.system().slip_threshold(parameters(ContactProblem::eta),
+                                                                parameters(ContactProblem::preload));
       const int regime = unknown(0) > std::log(threshold) ? ContactProblem::slip : ContactProblem::stick;
       if (!problem_.evaluate(unknown, parameters, regime, {&residual, &slope, &slopes})) return middle;
       const double by_log_q = q * slopes(0, parameter_);

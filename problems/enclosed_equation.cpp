@@ -61,10 +61,8 @@ EnclosedEquation::Terms EnclosedEquation::terms(const Interval& q, const Interva
 }
 
 Interval EnclosedEquation::value(const Terms& terms, const Interval& rho) const {
-  const ComplexInterval factor =
-      closed(Interval(system_.contact_stiffness), terms.law.phi, terms.compliance);
-  return Interval(0.5) *
-         logarithm(norm(factor) * exponential(Interval(2) * rho) * inverse(norm(terms.free)));
+  const ComplexInterval factor = closed(Interval(system_.contact_stiffness), terms.law.phi, terms.compliance);
+  return Interval(0.5) * logarithm(norm(factor) * exponential(Interval(2) * rho) * inverse(norm(terms.free)));
 }
 
 Interval EnclosedEquation::residual(const PlanePoint& point) const {
@@ -96,15 +94,15 @@ EnclosedEquation::Derivatives EnclosedEquation::derivatives(const Piece& piece, 
 
   // Derivative of R (1 + k phi c) along the piece and across it, over R.
   const ComplexInterval by_rho = ComplexInterval{1, 0} + k * (box.law.slope * box.compliance);
-  const ComplexInterval by_q = k * (box.law.phi * box.compliance_q +
-                                    -box.log_threshold_q * (box.law.phi_log * box.compliance));
+  const ComplexInterval by_q =
+      k * (box.law.phi * box.compliance_q + -box.log_threshold_q * (box.law.phi_log * box.compliance));
   const ComplexInterval along = piece.step_rho * by_rho + piece.step_q * by_q;
   const ComplexInterval& across = up ? by_rho : by_q;
   const Interval growth = exponential(box_rho - piece.middle_rho);  // of R from the middle
-  const ComplexInterval factor = common(
-      closed(k, box.law.phi, box.compliance),
-      inverse(growth) * (closed(k, middle.law.phi, middle.compliance) + (half * growth) * along +
-                         (side * growth) * across));
+  const ComplexInterval factor =
+      common(closed(k, box.law.phi, box.compliance),
+             inverse(growth) * (closed(k, middle.law.phi, middle.compliance) + (half * growth) * along +
+                                (side * growth) * across));
   const ComplexInterval reciprocal = inverse(factor);
   return {(along * reciprocal).real - box.log_free_q * piece.step_q,
           (across * reciprocal).real - (up ? Interval(0) : box.log_free_q)};

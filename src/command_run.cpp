@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
@@ -76,9 +75,35 @@ void require_certifiable(const Case& input, const std::string& path) {
   for (const CaseBranch& branch : input.branches) {
     const std::string why = why_not_certifiable(branch);
     if (why.empty()) continue;
-    throw InputError(fmt::format(
-        "{}: --certify is for forced responses of one contact with linear structures, not for {}", path, why));
+    throw InputError(
+        fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
+                    path, why));
   }
+}
+
+void certify_all(std::vector<TracedBranch>& traced) {
+  for (TracedBranch& branch : traced) {
+    if (interrupted()) return;
+    certify(branch);
+  }
+}
+
+/// Prints what is proven, on stderr what is not. Whether all is.
+bool report_certificates(const std::vector<TracedBranch>& traced, bool quiet) {
+  bool all = true;
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    const auto& certificate = traced[i].certificate;
+    const bool proven = certificate && certificate->proven();
+    all = all && proven;
+    if (!certificate) {
+      fmt::print(stderr, "arcslip: branch {}: not certified: interrupted\n", i);
+    } else if (!proven) {
+      fmt::print(stderr, "arcslip: {}", describe_certificate(i, traced[i]));
+    } else if (!quiet) {
+      print(describe_certificate(i, traced[i]));
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -98,7 +123,7 @@ int run_command(const RunOptions& options) {
 
   catch_interrupts();
   std::vector<TracedBranch> traced = trace_all(input, options.quiet);
-  if (options.certify) std::for_each(traced.begin(), traced.end(), certify);
+  if (options.certify) certify_all(traced);
   const double seconds = seconds_since(start);
 
   write_branches(traced, [&](std::string_view text) { branches.write(text); });
@@ -117,14 +142,7 @@ int run_command(const RunOptions& options) {
     result = status::incomplete_branch;
     fmt::print(stderr, "arcslip: branch {}: {}\n", i, why);
   }
-  for (std::size_t i = 0; options.certify && i < traced.size(); ++i) {
-    if (traced[i].certificate->proven()) {
-      if (!options.quiet) print(describe_certificate(i, traced[i]));
-    } else {
-      result = status::incomplete_branch;
-      fmt::print(stderr, "arcslip: {}", describe_certificate(i, traced[i]));
-    }
-  }
+  if (options.certify && !report_certificates(traced, options.quiet)) result = status::incomplete_branch;
   const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
   const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;
   if (missing > 0) {

@@ -89,8 +89,8 @@ EnclosedResponse enclose_response(const ModalModel& model, const Interval& eta) 
   EnclosedResponse response;
   for (const Mode& mode : model.modes()) {
     const Interval frequency(mode.frequency);
-    const Interval by_eta = Interval(loss.viscous) * square(frequency) + Interval(loss.modal) * frequency +
-                            Interval(loss.mass);
+    const Interval by_eta =
+        Interval(loss.viscous) * square(frequency) + Interval(loss.modal) * frequency + Interval(loss.mass);
     const ComplexInterval d{(frequency - eta) * (frequency + eta),
                             by_eta * eta + Interval(loss.structural) * square(frequency)};
     const ComplexInterval reciprocal = inverse(d);

@@ -134,9 +134,10 @@ int dispatch(int argc, char** argv) {
       ->type_name("DIR");
   add_settings(run, options.settings);
   run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
-  run->add_flag("--certify", options.certify,
-                "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
-                "jumped; forced responses with one contact; status 3 where a segment is not proven");
+  run->add_flag(
+      "--certify", options.certify,
+      "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
+      "jumped; forced responses with one contact; status 3 where a segment is not proven");
   run->footer(run_notes);
 
   StudyOptions studied;

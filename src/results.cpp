@@ -171,8 +171,7 @@ ordered_json certificate_to_json(const problems::Certificate& certificate) {
                        {"widest", certificate.widest},
                        {"folds", turns},
                        {"single_valued", certificate.single_valued}};
-  if (certificate.gap)
-    json["gap"] = {{"point", certificate.gap->point}, {"reason", certificate.gap->reason}};
+  if (certificate.gap) json["gap"] = {{"point", certificate.gap->point}, {"reason", certificate.gap->reason}};
   json["seconds"] = certificate.seconds;
   return json;
 }
@@ -312,19 +311,22 @@ std::string describe_certificate(std::size_t number, const TracedBranch& traced)
     const std::size_t i = certificate.gap->point;
     const std::vector<BranchPoint>& points = traced.branch.points;
     const auto at = [&](std::size_t k) { return k < points.size() ? points[k].parameters(index) : NAN; };
-    return fmt::format("branch {}: not certified: the segment from point {} to {}, {} = {:.9g} to {:.9g}: {}\n",
-                       number, i, i + 1, parameter, at(i), at(i + 1), certificate.gap->reason);
+    return fmt::format(
+        "branch {}: not certified: the segment from point {} to {}, {} = {:.9g} to {:.9g}: {}\n", number, i,
+        i + 1, parameter, at(i), at(i + 1), certificate.gap->reason);
   }
-  std::string folds;
+  std::string folds = certificate.turns.empty() ? "no fold" : "";
   for (const problems::Turn& turn : certificate.turns) {
-    folds += fmt::format("{} {} {:.9g} to {:.9g}", folds.empty() ? "" : ",", turn.certain ? "one fold or more in" : "perhaps folds in", turn.low,
-                         turn.high);
+    folds += fmt::format("{}{} in {:.9g} to {:.9g}", folds.empty() ? "" : ", ",
+                         turn.certain ? "fold" : "perhaps folds", turn.low, turn.high);
   }
-  std::string text = fmt::format("branch {}: certified: no fold{}, no jump between {} = {:.9g} and {:.9g} ({} boxes, {:.2g} s)\n", number,
-                                 folds.empty() ? "" : " but" + folds, parameter, certificate.from, certificate.to, certificate.boxes,
-                                 certificate.seconds);
+  if (!certificate.turns.empty()) folds += ", none elsewhere";
+  std::string text = fmt::format(
+      "branch {}: certified: {}, no jump between {} = {:.9g} and {:.9g} ({} boxes, {:.2g} s)\n", number,
+      folds, parameter, certificate.from, certificate.to, certificate.boxes, certificate.seconds);
   if (certificate.single_valued)
-    text += fmt::format("branch {}: and no other solution at any preload, since Im c < 0\n", number);
+    text += fmt::format("branch {}: certified: no other solution for these eta at any P, since Im c < 0\n",
+                        number);
   return text;
 }
 

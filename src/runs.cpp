@@ -252,7 +252,8 @@ std::string why_not_certifiable(const CaseBranch& request) {
 void certify(TracedBranch& traced) {
   const continuation::TraceOptions& options = traced.request->options;
   const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
-  const auto parameter = options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
+  const auto parameter =
+      options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
   traced.certificate =
       problems::certify(problem, traced.branch, parameter, {options.tolerance, options.max_step});
 }

@@ -23,12 +23,19 @@ namespace fs = std::filesystem;
 
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
-const std::set<std::string, std::less<>> mechanics{
-    "annular_plate",     "chain_sector",  "complex_factors", "contact",       "contact_modes",
-    "dynamic_stiffness", "elements",      "extended_sector", "finite_sector", "interval", "interval_response", "lowest_frequency",
-    "matrix_market",     "modal_model",   "physical_scale",  "precise",       "reduced_pair",
-    "ring_sector",       "ritz_space",    "sector",          "sector_modes",  "sector_pair",
-    "sector_reduction",  "sector_solver", "shape_functions", "system"};
+const std::set<std::string, std::less<>> mechanics{"annular_plate",     "chain_sector",
+                                                   "complex_factors",   "contact",
+                                                   "contact_modes",     "dynamic_stiffness",
+                                                   "elements",          "extended_sector",
+                                                   "finite_sector",     "interval",
+                                                   "interval_response", "lowest_frequency",
+                                                   "matrix_market",     "modal_model",
+                                                   "physical_scale",    "precise",
+                                                   "reduced_pair",      "ring_sector",
+                                                   "ritz_space",        "sector",
+                                                   "sector_modes",      "sector_pair",
+                                                   "sector_reduction",  "sector_solver",
+                                                   "shape_functions",   "system"};
 const std::set<std::string, std::less<>> files{"case_file",        "continuation_section",
                                                "database",         "for_each",
                                                "geometry_section", "output",

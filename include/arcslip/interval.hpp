@@ -5,9 +5,9 @@
 //
 // Bounds are rounded outwards without the processor's rounding modes, which compilers do not respect: each
 // operation is done to nearest and its result moved out by 3/2 epsilon, three times the error that IEEE 754
-// allows, and by 1e-280, above any error of underflow. Assumed: +, -, *, / and sqrt of double are IEEE 754's to
-// nearest, also where a compiler contracts two of them. Of the mathematical library nothing is assumed: exp
-// and ln are series with their remainders.
+// allows, and by 1e-280, above any error of underflow. Assumed: +, -, *, / and sqrt of double are IEEE 754's
+// to nearest, also where a compiler contracts two of them. Of the mathematical library nothing is assumed:
+// exp and ln are series with their remainders.
 
 #include <boost/numeric/interval.hpp>
 #include <cmath>
@@ -53,10 +53,10 @@ class OutwardRounding {
   static double above(double x) { return x + margin(x); }
 };
 
-using Interval =
-    boost::numeric::interval<double, boost::numeric::interval_lib::policies<
-                                         boost::numeric::interval_lib::save_state_nothing<OutwardRounding>,
-                                         boost::numeric::interval_lib::checking_base<double>>>;
+using Interval = boost::numeric::interval<
+    double,
+    boost::numeric::interval_lib::policies<boost::numeric::interval_lib::save_state_nothing<OutwardRounding>,
+                                           boost::numeric::interval_lib::checking_base<double>>>;
 
 /// A rectangle of complex numbers.
 struct ComplexInterval {

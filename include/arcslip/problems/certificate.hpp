@@ -9,8 +9,15 @@
 // every rho. Boxes that meet in a point are about it, one within the other, so that both hold the same
 // solution; where the roles change, a rectangle about the point is shown to hold one monotone curve alone.
 //
-// The proof is of the equation with the system's numbers as they are in double precision. See interval.hpp for
-// what is assumed of the machine.
+// Where Im c < 0, shown by intervals as well, each (eta, P) has one response and nothing folds. With F = k
+// phi r, two responses of r + c F = -y_0 would differ by dr = -c dF, so that Im(dF conj(dr)) = |dF|^2 Im c.
+// But a Jenkins element has Im(dF conj(dr)) >= 0: it is the energy per cycle, over pi, that the difference of
+// its forces does work on the difference of its motions, and as f' = k (x' - p') with sliding p, where (f_1 -
+// f_2)(p_1' - p_2') >= 0, that is never less than the change of (f_1 - f_2)^2/(2k), which is nothing over a
+// cycle.
+//
+// The proof is of the equation with the system's numbers as they are in double precision. See interval.hpp
+// for what is assumed of the machine.
 
 #include <optional>
 #include <string>
@@ -28,11 +35,12 @@ struct CertificateOptions {
   double max_step = 0.1;
 };
 
-/// A range of the parameter without which the branch is proven to go on in one direction.
+/// A range of the parameter in which the branch may fold.
 struct Turn {
   double low;
   double high;
-  bool certain;  ///< the branch comes back: there is a fold. Else there may be some, or none
+  bool certain;  ///< the branch leaves it the other way than it came: there is a fold, or an odd number of
+                 ///< them
 };
 
 struct Certificate {
@@ -42,15 +50,13 @@ struct Certificate {
     std::string reason;
   };
 
-  double from = 0;            ///< the parameter's value at the branch's first point
-  double to = 0;              ///< and at its last
-  long boxes = 0;             ///< which prove the branch, or what comes before the gap
-  double widest = 0;          ///< half the width of the widest box, in rho or in ln q
-  std::vector<Turn> turns;    ///< there is no fold elsewhere
-  std::optional<Gap> gap;     ///< the first one
-  bool single_valued = false; /**< Im c < 0 over the whole range of eta, so that each (eta, P) has one response:
-      from r + k phi c r = -y_0 two of them would have Im(dF conj(dr)) = |dF|^2 Im c, where F = k phi r, and
-      Im(dF conj(dr)) >= 0 for a Jenkins element */
+  double from = 0;             ///< the parameter's value at the branch's first point
+  double to = 0;               ///< and at its last
+  long boxes = 0;              ///< which prove the branch, or what comes before the gap
+  double widest = 0;           ///< half the width of the widest box, in rho or in ln q
+  std::vector<Turn> turns;     ///< in the branch's order; there is no fold elsewhere
+  std::optional<Gap> gap;      ///< the first one
+  bool single_valued = false;  ///< Im c < 0 over the whole range of eta: one response at every (eta, P)
   double seconds = 0;
 
   bool proven() const { return !gap; }

@@ -5,13 +5,13 @@
 //
 //   g(q, rho) = rho + ln|1 + k phi c| - ln|y_0| = 0
 //
-// Along a piece of a branch from p_0 to p_1 both coordinates are linear, p = p_0 + a (p_1 - p_0) + b e, where e
-// is the unit vector of rho or that of q: a tilted box for a in [0, 1], |b| <= w. There
+// Along a piece of a branch from p_0 to p_1 both coordinates are linear, p = p_0 + a (p_1 - p_0) + b e, where
+// e is the unit vector of rho or that of q: a tilted box for a in [0, 1], |b| <= w. There
 //
 //   g(a, b) in g(1/2, 0) + g_a [-1/2, 1/2] + g_b b
 //
-// with the ranges of the derivatives over the box. On the border R = S g is continuous and its derivatives are
-// bounded; the ranges hold those of both sides, and the mean value theorem holds as it stands.
+// with the ranges of the derivatives over the box. On the border R = S g is continuous and its derivatives
+// are bounded; the ranges hold those of both sides, and the mean value theorem holds as it stands.
 
 #include <optional>
 
@@ -78,9 +78,7 @@ class EnclosedEquation {
     Interval across;  ///< g_b
   };
 
-  Interval eta(const Interval& q) const {
-    return parameter_ == ContactProblem::eta ? q : Interval(fixed_);
-  }
+  Interval eta(const Interval& q) const { return parameter_ == ContactProblem::eta ? q : Interval(fixed_); }
   ComplexInterval compliance(const Interval& q) const;
   Terms terms(const Interval& q, const Interval& rho) const;
   Interval value(const Terms& terms, const Interval& rho) const;
