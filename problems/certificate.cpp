@@ -12,9 +12,10 @@ namespace {
 using continuation::BranchPoint;
 
 constexpr int most_halvings = 40;
-constexpr long most_boxes = 4096;            // for one segment
-constexpr int halvings_before_exchange = 8;  // of the roles, so that folds are confined well
-constexpr int halvings_of_range = 12;        // to show Im c < 0
+constexpr long most_boxes = 4096;       // for one segment
+constexpr int halvings_at_fold = 8;     // before roles are exchanged: they confine the fold
+constexpr int halvings_elsewhere = 24;  // before roles are exchanged, as at a fold that was missed
+constexpr int halvings_of_range = 12;   // to show Im c < 0
 
 int sign(double x) { return (x > 0) - (x < 0); }
 int sign(const Interval& x) { return (x.lower() > 0) - (x.upper() < 0); }
@@ -35,6 +36,7 @@ class Chain {
   explicit Chain(const EnclosedEquation& equation) : equation_(equation) {}
 
   long boxes() const { return boxes_; }
+  long parameter_boxes() const { return parameter_boxes_; }
   Axis last_axis() const { return boxes_ == 0 ? Axis::rho : last_.axis; }
 
   /// Why a box does not go on from the last one; empty if it does.
@@ -50,6 +52,7 @@ class Chain {
 
   void add(const TiltedBox& box) {
     if (box.axis == Axis::parameter) {
+      ++parameter_boxes_;
       const double w = box.half_width;
       const auto [low, high] = std::minmax(box.from.parameter, box.to.parameter);
       if (boxes_ == 0 || last_.axis == Axis::rho) turns_.push_back({low - w, high + w, false});
@@ -105,6 +108,7 @@ class Chain {
   TiltedBox last_{};
   int way_ = 0;  // of the parameter, in the last box of which rho is the axis
   long boxes_ = 0;
+  long parameter_boxes_ = 0;
   double widest_ = 0;
   std::vector<Turn> turns_;
 };
@@ -136,8 +140,10 @@ class Prover {
     }
   }
 
-  /// Why there is no proof of a segment; empty if there is one.
-  std::string prove(const PlanePoint& from, const PlanePoint& to) {
+  /// Why there is no proof of a segment; empty if there is one. At a fold it may be that of a single
+  /// parameter for each rho.
+  std::string prove(const PlanePoint& from, const PlanePoint& to, bool at_fold) {
+    halvings_before_exchange_ = at_fold ? halvings_at_fold : halvings_elsewhere;
     most_boxes_ = chain_.boxes() + most_boxes;
     return prove(from, to, 0);
   }
@@ -150,7 +156,7 @@ class Prover {
   /// needed, and late.
   std::vector<Axis> axes(int halvings) const {
     if (single_valued_ && chain_.last_axis() == Axis::parameter) return {Axis::parameter, Axis::rho};
-    if (single_valued_ || halvings >= halvings_before_exchange) return {Axis::rho, Axis::parameter};
+    if (single_valued_ || halvings >= halvings_before_exchange_) return {Axis::rho, Axis::parameter};
     return {Axis::rho};
   }
 
@@ -211,7 +217,12 @@ class Prover {
   Chain chain_;
   bool single_valued_;
   long most_boxes_ = 0;
+  int halvings_before_exchange_ = 0;
 };
+
+bool is_fold(const BranchPoint& point) {
+  return point.type == continuation::PointType::fold || point.type == continuation::PointType::corner_fold;
+}
 
 /// The first segment that is not proven.
 std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<BranchPoint>& points,
@@ -223,7 +234,11 @@ std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<Bran
     std::string reason = i == 0 ? prover.check(from, options.tolerance) : "";
     if (reason.empty()) reason = prover.check(to, options.tolerance);
     if (reason.empty() && !(extent(from, to) <= 2 * options.max_step)) reason = "it is longer than a step";
-    if (reason.empty()) reason = prover.prove(from, to);
+    const bool at_fold = is_fold(points[i]) || is_fold(points[i + 1]);
+    const long before = prover.chain().parameter_boxes();
+    if (reason.empty()) reason = prover.prove(from, to, at_fold);
+    const bool may_fold = !prover.single_valued() && prover.chain().parameter_boxes() > before;
+    if (reason.empty() && may_fold && !at_fold) reason = "a fold within is not excluded";
     if (!reason.empty()) return Certificate::Gap{i, reason};
   }
   return std::nullopt;

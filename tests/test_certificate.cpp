@@ -126,7 +126,7 @@ TEST_CASE("A jump past two folds is refused, however long steps may be", "[certi
   while (traced.branch.points[last].parameters(0) > eta) --last;
   REQUIRE(last > first + 2);
   traced.branch.points.erase(traced.at(first), traced.at(last + 1));
-  check_gap(traced.certify({.max_step = 100}), first - 1, "no box");
+  check_gap(traced.certify({.max_step = 100}), first - 1, "a fold within");
 }
 
 TEST_CASE("A branch of fewer than two points proves nothing", "[certificate]") {
@@ -175,10 +175,11 @@ TEST_CASE("arcslip run --certify tells what is proven, in its output and in summ
   CHECK(certificate["proven"] == true);
   CHECK(certificate["single_valued"] == true);
   CHECK(certificate["boxes"] > 100);
-  // Points that are coarser than the proof allows.
-  const Outcome coarse = run("rods", "--set branch.for_each.preload=[1.0] --set continuation.max_points=1");
-  CHECK(coarse.status == 3);
-  CHECK_THAT(coarse.err, ContainsSubstring("branch 0: not certified"));
+  // Points that no enclosure shows to be as good as they are to be.
+  const Outcome strict =
+      run("figure_8", "--set branch.for_each.preload=[1.0] --set continuation.tolerance=1e-14");
+  CHECK(strict.status == 3);
+  CHECK_THAT(strict.err, ContainsSubstring("branch 0: not certified: the segment from point "));
 }
 
 TEST_CASE("What --certify does not cover is refused in one line before anything runs", "[certificate]") {

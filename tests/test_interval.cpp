@@ -117,8 +117,8 @@ TEST_CASE("Exponential and logarithm enclose fifty digits, in a few units of rou
     missed += !holds(logarithm(y.interval), log(PreciseReal(y.inside)));
     const double near = 1 + sign * draw.log_uniform(1e-12, 0.4);
     missed += !holds(logarithm(near), log(PreciseReal(near)));
-    widest = std::max(
-        {widest, relative_width(exponential(x.inside)), std::abs(relative_width(logarithm(near)))});
+    widest =
+        std::max({widest, relative_width(exponential(x.inside)), std::abs(relative_width(logarithm(near)))});
   }
   CHECK(missed == 0);
   CHECK(widest < 2e-14);  // some twenty operations, each of 3 epsilon
@@ -132,7 +132,7 @@ TEST_CASE("What has no enclosure is refused", "[interval]") {
   CHECK_THROWS_AS(enclose_coefficient(Interval(-1e-9, 1)), NoEnclosure);
   const Interval infinite(0, std::numeric_limits<double>::infinity());
   CHECK_THROWS_AS(logarithm(infinite), NoEnclosure);
-  CHECK_THROWS_AS(joined(infinite - infinite, 1), NoEnclosure);
+  CHECK_THROWS_AS(joined(Interval(1e200) * Interval(1e200), 1), NoEnclosure);
 }
 
 TEST_CASE("The enclosed contact law holds fifty digits, from stick to R/S = 1e12", "[interval]") {
@@ -145,8 +145,8 @@ TEST_CASE("The enclosed contact law holds fifty digits, from stick to R/S = 1e12
     const Sample x = around(draw, ratio);
     const EnclosedCoefficient law = enclose_coefficient(x.interval);
     const PreciseCoefficient exact = precise_coefficient(x.inside);
-    missed += !holds(law.phi, exact.phi) + !holds(law.phi_log, exact.phi_log) +
-              !holds(law.slope, exact.slope());
+    missed +=
+        !holds(law.phi, exact.phi) + !holds(law.phi_log, exact.phi_log) + !holds(law.slope, exact.slope());
     widest = std::max(widest, relative_width(enclose_coefficient(x.inside).phi.real));
   }
   CHECK(missed == 0);
@@ -195,8 +195,10 @@ TEST_CASE("On both sides of a certified box g has opposite signs, all along the 
   RandomSystems draw(4);
   int boxes = 0, wrong = 0;
   for (int i = 0; i < 400; ++i) {
-    const auto& first = branch.points[static_cast<std::size_t>(draw.integer(0, std::ssize(branch.points) - 1))];
-    const auto& last = branch.points[static_cast<std::size_t>(draw.integer(0, std::ssize(branch.points) - 1))];
+    const auto& first =
+        branch.points[static_cast<std::size_t>(draw.integer(0, std::ssize(branch.points) - 1))];
+    const auto& last =
+        branch.points[static_cast<std::size_t>(draw.integer(0, std::ssize(branch.points) - 1))];
     const double part = draw.log_uniform(1e-3, 1);  // of the way; mostly off the branch
     const PlanePoint from{first.parameters(0), first.unknowns(0)};
     const PlanePoint to{from.parameter + part * (last.parameters(0) - from.parameter),
