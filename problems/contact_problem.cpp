@@ -8,12 +8,6 @@
 namespace arcslip::problems {
 namespace {
 
-/// Phase behind the excitation in (-pi, pi].
-double lag(Complex z) {
-  const double angle = -std::arg(z);
-  return angle <= -std::numbers::pi ? std::numbers::pi : angle;
-}
-
 /// The zero of a function that has values of opposite sign at the ends.
 template <class Function>
 double zero_between(const Function& function, double a, double b) {
@@ -24,6 +18,11 @@ double zero_between(const Function& function, double a, double b) {
 }
 
 }  // namespace
+
+double lag(Complex z) {
+  const double angle = -std::arg(z);
+  return angle <= -std::numbers::pi ? std::numbers::pi : angle;
+}
 
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
                              const HarmonicCoefficient& law, const LogThreshold& threshold) {

@@ -40,11 +40,9 @@ void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vecto
   observe_motion(at, u(0), r, p, regime, values);
   const auto count = values.size();
   values.conservativeResize(count + std::ssize(system_.outputs));
-  for (std::size_t i = 0; i < system_.outputs.size(); ++i) {
-    const ContactOutput& output = system_.outputs[i];
-    values(count + static_cast<Index>(i)) =
-        std::abs(output.by_load.at(p(eta)).free + at.force * r * output.by_contact.at(p(eta)).free);
-  }
+  const ContactVector force = ContactVector::Constant(1, at.force * r);
+  for (std::size_t i = 0; i < system_.outputs.size(); ++i)
+    values(count + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), force);
 }
 
 double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,

@@ -9,15 +9,10 @@
 #include <stdexcept>
 
 #include "arcslip/contact.hpp"
+#include "arcslip/problems/contact_problem.hpp"
 
 namespace arcslip::problems {
 namespace {
-
-/// Phase behind the excitation in (-pi, pi].
-double lag(Complex z) {
-  const double angle = -std::arg(z);
-  return angle <= -std::numbers::pi ? std::numbers::pi : angle;
-}
 
 bool slips(int regime, Index contact) { return (regime >> contact & 1) != 0; }
 
@@ -143,7 +138,7 @@ std::vector<continuation::Observable> MultiContactResponse::observables() const 
     for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
       all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
   }
-  for (const ContactsOutput& output : system_.outputs) all.push_back({output.name});
+  for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
   return all;
 }
 
@@ -155,12 +150,8 @@ void MultiContactResponse::observe(const Vector& u, const Vector& p, int regime,
   const ContactVector damper = -(system_.damper.at(p(eta)).compliance * f);
   const ContactVector base = damper - r;
   values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs));
-  for (Index i = 0; i < std::ssize(system_.outputs); ++i) {
-    const ContactsOutput& output = system_.outputs[static_cast<std::size_t>(i)];
-    const ContactReceptance at = output.modes.at(p(eta));
-    const Complex by_contacts = (at.compliance.row(m).head(m) * f).value();
-    values(9 + 5 * (m - 1) + i) = std::abs(at.free(m) + output.force_sign * by_contacts);
-  }
+  for (std::size_t i = 0; i < system_.outputs.size(); ++i)
+    values(9 + 5 * (m - 1) + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), f);
   values(S) = threshold(0, p(preload));
   values(beta) = lag(base(0));
   values(alpha) = lag(damper(0));

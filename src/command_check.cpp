@@ -18,12 +18,8 @@ namespace arcslip {
 namespace {
 
 std::string describe_sector(const SystemParameters& system) {
-  std::vector<double> k = {system.interface_stiffness / static_cast<double>(system.elements)};
-  std::vector<double> limits = {system.limit_per_preload};
-  if (!system.contacts.empty()) {
-    k.clear();
-    limits.clear();
-  }
+  std::vector<double> k;
+  std::vector<double> limits;
   for (const SectorContact& contact : system.contacts) {
     k.push_back(contact.stiffness);
     limits.push_back(contact.slip_per_preload * contact.stiffness);

@@ -38,6 +38,10 @@ CLI::Option* positive(CLI::App* app, const std::string& name, double& value, con
       ->check(CLI::PositiveNumber);
 }
 
+void poisson_ratio(CLI::App* app, const std::string& name, double& value) {
+  app->add_option(name, value, "")->capture_default_str()->type_name("X")->check(CLI::Range(0.0, 0.499));
+}
+
 void add_shared(CLI::App* app, SectorOptions& options) {
   PairOptions& pair = options.pair;
   app->add_option("-o,--output", options.folder, "Folder for the files")->type_name("DIR")->required();
@@ -81,10 +85,7 @@ void add_ring(CLI::App* app, Ring& ring, const std::string& prefix, const std::s
   positive(app, prefix + "width", ring.width, "Of the section, along the axis, m");
   positive(app, prefix + "height", ring.height, "Of the section, along the radius, m");
   positive(app, prefix + "youngs-modulus", ring.youngs_modulus, "Pa");
-  app->add_option(prefix + "poisson-ratio", ring.poisson_ratio, "")
-      ->capture_default_str()
-      ->type_name("X")
-      ->check(CLI::Range(0.0, 0.499));
+  poisson_ratio(app, prefix + "poisson-ratio", ring.poisson_ratio);
   positive(app, prefix + "density", ring.density, "kg/m^3");
   count(app, prefix + "elements", ring.elements, "Elements of " + whose + " in a sector");
 }
@@ -112,10 +113,7 @@ CLI::App* add_plate(CLI::App* sector, SectorOptions& options) {
   positive(app, "--outer-radius", plate.outer_radius, "m");
   positive(app, "--thickness", plate.thickness, "m");
   positive(app, "--youngs-modulus", plate.youngs_modulus, "Pa");
-  app->add_option("--poisson-ratio", plate.poisson_ratio, "")
-      ->capture_default_str()
-      ->type_name("X")
-      ->check(CLI::Range(0.0, 0.499));
+  poisson_ratio(app, "--poisson-ratio", plate.poisson_ratio);
   positive(app, "--density", plate.density, "kg/m^3");
   app->add_option("--inner-edge", plate.inner_edge, "free, supported or clamped (if not given)")
       ->type_name("EDGE")

@@ -27,16 +27,22 @@ ContactReceptance ContactModes::at(double eta) const {
   response.free.setZero(contacts_);
   response.free_eta.setZero(contacts_);
   for (const ContactMode& mode : modes_) {
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss_.part(eta, mode.frequency));
-    const Complex d_eta(-2 * eta, loss_.part_eta(mode.frequency));
-    const Complex inverse = std::conj(d) / std::norm(d);
-    const Complex slope = -inverse * inverse * d_eta;
+    const ModalDenominator d(eta, mode.frequency, loss_);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const Complex slope = -inverse * inverse * d.by_eta;
     response.compliance.noalias() += (inverse * mode.shape) * mode.shape.adjoint();
     response.compliance_eta.noalias() += (slope * mode.shape) * mode.shape.adjoint();
     response.free += (mode.load * inverse) * mode.shape;
     response.free_eta += (mode.load * slope) * mode.shape;
   }
   return response;
+}
+
+double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
+  const Index m = forces.size();
+  const ContactReceptance at = modes.at(eta);
+  const Complex by_contacts = (at.compliance.row(m).head(m) * forces).value();
+  return std::abs(at.free(m) + force_sign * by_contacts);
 }
 
 std::vector<double> joined_frequencies(const std::vector<const ContactModes*>& structures,

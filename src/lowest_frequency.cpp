@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arcslip/sector_modes.hpp"
 #include "arcslip/sector_reduction.hpp"
 
 namespace arcslip {
@@ -34,8 +35,7 @@ SparseMatrix sparse(const Triplets& entries, Index size) {
 double lowest_frequency(const FiniteSector& sector, Index wave_number, Index sectors) {
   constexpr int most = 500;
   SectorReduction reduction(sector);
-  reduction.set_forward(std::polar(
-      1.0, -2 * std::numbers::pi * static_cast<double>(wave_number) / static_cast<double>(sectors)));
+  reduction.set_forward(SectorWave{wave_number, sectors}.forward());
   const double largest =
       (reduction.stiffness().diagonal().real().array() / reduction.mass().diagonal().real().array())
           .maxCoeff();

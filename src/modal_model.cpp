@@ -47,10 +47,9 @@ ModalModel ModalModel::unyielding() const {
 ContactResponse ModalModel::at(double eta) const {
   ContactResponse response{};
   for (const Mode& mode : modes_) {
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss_.part(eta, mode.frequency));
-    const Complex d_eta(-2 * eta, loss_.part_eta(mode.frequency));
-    const Complex inverse = std::conj(d) / std::norm(d);
-    const Complex slope = -inverse * inverse * d_eta;
+    const ModalDenominator d(eta, mode.frequency, loss_);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const Complex slope = -inverse * inverse * d.by_eta;
     response.compliance += mode.residue * inverse;
     response.compliance_eta += mode.residue * slope;
     response.free += mode.load_residue * inverse;
@@ -62,10 +61,9 @@ ContactResponse ModalModel::at(double eta) const {
 ContactCurvature ModalModel::curvature(double eta) const {
   ContactCurvature curvature{};
   for (const Mode& mode : modes_) {
-    const Complex inverse = 1.0 / Complex((mode.frequency - eta) * (mode.frequency + eta),
-                                          loss_.part(eta, mode.frequency));  // 1/d
-    const Complex d_eta(-2 * eta, loss_.part_eta(mode.frequency));
-    const Complex bend = 2.0 * inverse * inverse * (inverse * d_eta * d_eta + 1.0);  // d2d/deta2 = -2
+    const ModalDenominator d(eta, mode.frequency, loss_);
+    const Complex inverse = 1.0 / d.value;
+    const Complex bend = 2.0 * inverse * inverse * (inverse * d.by_eta * d.by_eta + 1.0);  // d2d/deta2 = -2
     curvature.compliance += mode.residue * bend;
     curvature.free += mode.load_residue * bend;
   }
@@ -77,11 +75,11 @@ DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& per
   DampedCompliance compliance{};
   const Loss loss = fixed + zeta * per_zeta;
   for (const Mode& mode : modes_) {
-    const Complex d((mode.frequency - eta) * (mode.frequency + eta), loss.part(eta, mode.frequency));
-    const Complex inverse = std::conj(d) / std::norm(d);
+    const ModalDenominator d(eta, mode.frequency, loss);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -mode.residue * inverse * inverse;  // dc/dd
     compliance.value += mode.residue * inverse;
-    compliance.by_eta += slope * Complex(-2 * eta, loss.part_eta(mode.frequency));
+    compliance.by_eta += slope * d.by_eta;
     compliance.by_zeta += slope * Complex(0, per_zeta.part(eta, mode.frequency));
   }
   return compliance;

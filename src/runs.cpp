@@ -59,7 +59,7 @@ std::shared_ptr<Type> build_problem(const SystemParameters& system) {
 /// Calls `use` with the type of the problem of a system with friction.
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
-  if (!request.system.contacts.empty()) return use(std::type_identity<problems::MultiContactResponse>{});
+  if (request.system.contacts.size() > 1) return use(std::type_identity<problems::MultiContactResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
   if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
   if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});

@@ -68,11 +68,14 @@ void thin_out(std::vector<Index>& contacts, Index count, const char* elements) {
   contacts.resize(static_cast<std::size_t>(count));
 }
 
-/// Travelling force of unit amplitude in all on the dofs, which are equally spaced.
-void load(FiniteSector& sector, const std::vector<Index>& dofs, double propagation) {
+/// Travelling force of unit amplitude in all on the base's outputs, which are equally spaced.
+void load_outputs(SectorCase& result) {
+  const double propagation =
+      2 * std::numbers::pi * static_cast<double>(result.wave_number) / static_cast<double>(result.sectors);
+  const std::vector<Index>& dofs = result.base.outputs;
   const auto count = static_cast<double>(dofs.size());
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    sector.load(dofs[i]) = std::polar(1 / count, -propagation * static_cast<double>(i) / count);
+    result.base.load(dofs[i]) = std::polar(1 / count, -propagation * static_cast<double>(i) / count);
   }
 }
 
@@ -80,10 +83,11 @@ std::string describe(const Ring& ring) {
   return fmt::format("a ring of radius {}, width {} and height {} m", ring.radius, ring.width, ring.height);
 }
 
-/// Base, its load and contacts are there; adds the damper and the rest.
+/// The base is there; adds its load, the damper and the rest.
 SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, const std::string& base,
                        SectorCase result) {
   const Ring& ring = solid.damper;
+  load_outputs(result);
   thin_out(result.base.contacts, solid.contacts, "elements of the base's contact line");
   result.damper = ring_sector(ring);
   thin_out(result.damper.contacts, solid.contacts, "elements of the damper");
@@ -94,8 +98,7 @@ SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, co
       solid.contact_stiffness.value_or(shear * ring.width * spacing / (0.5 * ring.height));
   result.notes += fmt::format(
       "# {},\n# and its damper, {}: {} and {} dofs in one of {} sectors.\n# SI units: eta in Hz, force in N "
-      "on "
-      "a sector, preload P = mu p, the largest friction force of one contact, in N.\n",
+      "on a sector, preload P = mu p, the largest friction force of one contact, in N.\n",
       base, describe(ring), result.base.mass.rows(), result.damper.mass.rows(), result.sectors);
   set_window(options, result);
   return result;
@@ -146,8 +149,6 @@ SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, con
   SectorCase result = shared(options, plate.sectors);
   result.base = annular_plate_sector(plate);
   result.title = "Annular plate with a ring damper at its rim";
-  load(result.base, result.base.outputs,
-       2 * std::numbers::pi * static_cast<double>(result.wave_number) / static_cast<double>(result.sectors));
   const std::string base = fmt::format("An annular plate of radii {} and {} m, thickness {} m",
                                        plate.inner_radius, plate.outer_radius, plate.thickness);
   return with_damper(options, solid, base, std::move(result));
@@ -157,8 +158,6 @@ SectorCase ring_case(const PairOptions& options, const Ring& base, const SolidOp
   SectorCase result = shared(options, base.sectors);
   result.base = ring_sector(base);
   result.title = "Ring with a ring damper";
-  load(result.base, result.base.outputs,
-       2 * std::numbers::pi * static_cast<double>(result.wave_number) / static_cast<double>(result.sectors));
   return with_damper(options, solid, "Base: " + describe(base), std::move(result));
 }
 

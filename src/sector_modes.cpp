@@ -89,7 +89,7 @@ ComplexMatrix response(const SectorModes& found, Index contacts, const Loss& los
   drive << found.shapes.topRows(contacts).adjoint(), found.loads;
   for (Index k = 0; k < drive.rows(); ++k) {
     const double frequency = found.frequencies[static_cast<std::size_t>(k)];
-    drive.row(k) /= Complex((frequency - eta) * (frequency + eta), loss.part(eta, frequency));
+    drive.row(k) /= ModalDenominator(eta, frequency, loss).value;
   }
   return found.shapes * drive;
 }
@@ -178,9 +178,7 @@ class FullResponse {
   }
 
   ComplexMatrix at(double eta) {
-    const double w = two_pi * eta;
-    const Complex k(1, loss_.at(eta));
-    const Complex m(-w * w, two_pi * loss_.mass * w);
+    const auto [k, m] = MatrixFactors<double>(eta, loss_);
     matrix_ = reduction_.stiffness();
     matrix_ *= k;
     for (Index i = 0; i < matrix_.nonZeros(); ++i)
@@ -190,8 +188,8 @@ class FullResponse {
     const Index contacts = extended_.contacts();
     ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
     for (Index i = 0; i < contacts; ++i)
-      motion.col(i) = solve(NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), k, eta);
-    motion.col(contacts) = solve(extended_.load(), k, eta);
+      motion.col(i) = solve(NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
+    motion.col(contacts) = solve(extended_.load(), eta);
     return motion;
   }
 
@@ -202,11 +200,10 @@ class FullResponse {
   using NumberVector = ExtendedSector::NumberVector;
 
   /// The motions of contact and outputs under a force.
-  ComplexVector solve(const NumberVector& force, const Complex& k, double eta) {
+  ComplexVector solve(const NumberVector& force, double eta) {
     constexpr int most = 10;
     constexpr double rounding = 1e-15;
-    const long double w = 2 * std::numbers::pi_v<long double> * eta;
-    const Number m(-w * w, 2 * std::numbers::pi_v<long double> * loss_.mass * w);
+    const auto [k, m] = MatrixFactors<ExtendedSector::Real>(eta, loss_);
     NumberVector motion = NumberVector::Zero(force.size());
     NumberVector residual = force;
     for (int i = 0; i < most; ++i) {
@@ -214,7 +211,7 @@ class FullResponse {
       factors_.solve(step);
       motion += step.col(0).cast<Number>();
       const NumberVector unfolded = extended_.unfold(motion);
-      residual = force - Number(k) * extended_.stiffness_times(unfolded) - m * extended_.mass_times(unfolded);
+      residual = force - k * extended_.stiffness_times(unfolded) - m * extended_.mass_times(unfolded);
       if (static_cast<long double>(step.norm()) <= rounding * motion.norm()) break;
     }
     return extended_.observed(motion).cast<Complex>();
@@ -259,11 +256,12 @@ Complex SectorWave::forward() const {
   return std::polar(1.0, -two_pi * static_cast<double>(wave_number) / static_cast<double>(sectors));
 }
 
-ModalModel modal_model(const SectorModes& found, Index row, const ComplexVector& sources, const Loss& loss) {
+ModalModel modal_model(const SectorModes& found, double force, const Loss& loss) {
   std::vector<Mode> modes;
   for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
-    const Complex shape = found.shapes(row, static_cast<Index>(k));
-    modes.push_back({found.frequencies[k], std::norm(shape), shape * sources(static_cast<Index>(k))});
+    const Complex shape = found.shapes(0, static_cast<Index>(k));
+    modes.push_back(
+        {found.frequencies[k], std::norm(shape), shape * (force * found.loads(static_cast<Index>(k)))});
   }
   return {std::move(modes), loss};
 }

@@ -82,10 +82,6 @@ SectorUse sector_use(const SystemParameters& parameters) {
 
 namespace {
 
-std::string output_name(const char* letter, const SectorPart& part, Index output) {
-  return fmt::format("{}_{}", letter, part.sector.outputs[static_cast<std::size_t>(output)] + 1);
-}
-
 /// One of the two with its modes.
 struct Part {
   const SectorPart& part;
@@ -95,15 +91,7 @@ struct Part {
   double force_sign;  ///< of the force that its contacts feel, against the base's
   const char* letter;
 
-  ModalModel contact() const { return modal_model(modes, 0, force * modes.loads, loss); }
-
-  void add_outputs(std::vector<ContactOutput>& outputs) const {
-    const ComplexVector by_contact = force_sign * modes.shapes.row(0).adjoint();
-    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
-      outputs.push_back({output_name(letter, part, i), modal_model(modes, 1 + i, force * modes.loads, loss),
-                         modal_model(modes, 1 + i, by_contact, loss)});
-    }
-  }
+  ModalModel contact() const { return modal_model(modes, force, loss); }
 
   /// The contacts and, if one is asked for, an output after them.
   ContactModes contacts(std::optional<Index> output = {}) const {
@@ -122,9 +110,11 @@ struct Part {
     return {count + (output ? 1 : 0), std::move(list), loss};
   }
 
-  void add_outputs(std::vector<ContactsOutput>& outputs) const {
-    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i)
-      outputs.push_back({output_name(letter, part, i), contacts(i), force_sign});
+  void add_outputs(std::vector<ContactOutput>& outputs) const {
+    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
+      const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
+      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts(i), force_sign});
+    }
   }
 };
 
@@ -154,14 +144,14 @@ std::optional<Part> damper_part(const SystemParameters& parameters) {
 }  // namespace
 
 FrictionSystem build_sector_system(const SystemParameters& parameters) {
-  if (!parameters.contacts.empty())
+  if (parameters.contacts.size() != 1)
     throw SectorError("several contacts of a sector are no system with one contact");
-  const double k = parameters.interface_stiffness / static_cast<double>(parameters.elements);
+  const SectorContact& contact = parameters.contacts.front();
   const Part base = base_part(parameters);
   FrictionSystem system{.base = base.contact(),
                         .damper = {},
-                        .contact_stiffness = k,
-                        .slip_per_preload = parameters.limit_per_preload / k,
+                        .contact_stiffness = contact.stiffness,
+                        .slip_per_preload = contact.slip_per_preload,
                         .base_loss_per_zeta = base.part.loss_per_zeta(),
                         .preload_growth = parameters.preload_growth,
                         .base_loss_fixed = base.part.fixed};

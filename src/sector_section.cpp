@@ -15,6 +15,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double default_tolerance = 1e-10;
+constexpr double default_limit = 1;  // per preload
 
 /// [system.base] or [system.damper].
 class PartSection {
@@ -208,10 +209,9 @@ void read_contacts(const TomlDocument& document, const TomlSection& section, con
         .fail("contact",
               fmt::format("expected one dof for a study, limit cycles and one-way responses, got {}", count));
   const std::vector<double> k = for_contacts(section, "contact_stiffness", count, {});
-  const std::vector<double> limit = for_contacts(section, "limit_per_preload", count, 1);
+  const std::vector<double> limit = for_contacts(section, "limit_per_preload", count, default_limit);
   system.interface_stiffness = k.front() * static_cast<double>(system.elements);
-  system.limit_per_preload = limit.front();
-  for (std::size_t i = 0; count > 1 && i < count; ++i) system.contacts.push_back({k[i], limit[i] / k[i]});
+  for (std::size_t i = 0; i < count; ++i) system.contacts.push_back({k[i], limit[i] / k[i]});
 }
 
 }  // namespace
@@ -270,7 +270,7 @@ void resolve_sectors(const SystemParameters& system, ordered_json& section) {
   const auto set = [](ordered_json& table, const char* key, const ordered_json& value) {
     if (!table.contains(key)) table[key] = value;
   };
-  set(section, "limit_per_preload", system.limit_per_preload);
+  set(section, "limit_per_preload", default_limit);
   set(section, "force", system.force);
   set(section, "preload_growth", system.preload_growth);
   set(section, "reduction_tolerance", system.sectors->tolerance());

@@ -33,9 +33,8 @@ int SectorSolver::factorisations() const { return factors_->factorisations(); }
 void SectorSolver::assemble(double eta) {
   const double two_pi = 2 * std::numbers::pi;
   const double w = two_pi * eta;
-  const Complex k(1, loss_.at(eta));
+  const auto [k, m] = MatrixFactors<double>(eta, loss_);
   const Complex k_eta(0, loss_.viscous);
-  const Complex m(-w * w, two_pi * loss_.mass * w);
   const Complex m_eta(-2 * two_pi * w, two_pi * two_pi * loss_.mass);
   const Complex* stiffness = reduction_.stiffness().valuePtr();
   const Complex* mass = reduction_.mass().valuePtr();

@@ -116,7 +116,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   read_damping(document, section, use.linear_passive, problem.system);
   const NumberRule none{[](double x) { return x == 0; }, " that is 0, with several contacts"};
   problem.system.preload_growth =
-      section.number("preload_growth", problem.system.contacts.empty() ? any_number() : none, 0);
+      section.number("preload_growth", problem.system.contacts.size() > 1 ? none : any_number(), 0);
 }
 
 void read_settings(const TomlSection& section, const SystemUse& use,

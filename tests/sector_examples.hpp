@@ -49,6 +49,14 @@ inline FiniteSector chain(const Element& element, Index count, const Complex& fo
   return sector;
 }
 
+/// Frequencies of the bladed disk below at 0 to 6 nodal diameters [pyHarm,
+/// Tutorials/Tuto_006_LumpedBladedDisk.ipynb]: Hz, printed to 8 decimals.
+inline constexpr double bladed_disk_frequencies[7][3] = {
+    {88.26374399, 249.31165161, 619.34330474},   {169.34412950, 335.56537939, 619.82021678},
+    {189.30185260, 555.31017863, 626.20258590},  {193.04962270, 615.15017797, 810.00679680},
+    {194.33310084, 616.58502200, 1044.51877441}, {194.91823247, 616.96341859, 1264.68323410},
+    {195.23065575, 617.12696788, 1464.72871426}};
+
 /// Bladed disk of 24 sectors [pyHarm, Tutorials/Tuto_006_LumpedBladedDisk; parameters after Laxalde,
 /// Thouverez, Sinou and Lombard, Eur. J. Mech. A/Solids 26 (2007) 676]: dofs disk, blade, tip and the next
 /// sector's disk.

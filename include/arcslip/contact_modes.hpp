@@ -59,10 +59,13 @@ struct SectorContact {
 
 /// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
 /// others.
-struct ContactsOutput {
+struct ContactOutput {
   std::string name;
   ContactModes modes;
   double force_sign;  ///< of the contacts' forces: 1 on the base, -1 on the damper
+
+  /// Under the load and the forces k phi r of all contacts.
+  double amplitude(double eta, const ContactVector& forces) const;
 };
 
 /// Base, damper and the interface between their contacts.
@@ -70,7 +73,7 @@ struct ContactSystem {
   ContactModes base;    ///< with the travelling load
   ContactModes damper;  ///< without load
   std::vector<SectorContact> contacts;
-  std::vector<ContactsOutput> outputs = {};
+  std::vector<ContactOutput> outputs = {};
 };
 
 /// The undamped frequencies of `structures` joined at their contacts through springs, of stiffness `springs`

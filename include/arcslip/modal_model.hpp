@@ -14,6 +14,7 @@
 //
 // The difference eta_k - eta is exact, so that the sums are accurate to rounding on the sharpest peak.
 
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,29 @@ struct Loss {
   friend Loss operator*(double factor, const Loss& loss) {
     return {factor * loss.viscous, factor * loss.structural, factor * loss.modal, factor * loss.mass};
   }
+};
+
+/// Z(eta) = k K + m M of a structure with this damping but for its modal part, which no matrix has.
+template <class Real>
+struct MatrixFactors {
+  MatrixFactors(double eta, const Loss& loss) {
+    const Real w = 2 * std::numbers::pi_v<Real> * eta;
+    k = {1, loss.at(eta)};
+    m = {-w * w, 2 * std::numbers::pi_v<Real> * loss.mass * w};
+  }
+
+  std::complex<Real> k;
+  std::complex<Real> m;
+};
+
+/// d_k of a mode of frequency eta_k, with its derivative in eta.
+struct ModalDenominator {
+  ModalDenominator(double eta, double frequency, const Loss& loss)
+      : value((frequency - eta) * (frequency + eta), loss.part(eta, frequency)),
+        by_eta(-2 * eta, loss.part_eta(frequency)) {}
+
+  Complex value;
+  Complex by_eta;
 };
 
 /// Compliance c for a loss fixed + zeta * per_zeta, with its derivatives.

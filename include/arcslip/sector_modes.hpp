@@ -50,8 +50,8 @@ struct SectorModes {
   int factorisations = 0;           ///< of the shift and of the comparison
 };
 
-/// The modes as a row of the shapes sees them; `sources` (one for each mode) drive them in the load's place.
-ModalModel modal_model(const SectorModes& found, Index row, const ComplexVector& sources, const Loss& loss);
+/// The modes as the first contact sees them, under `force` times the load.
+ModalModel modal_model(const SectorModes& found, double force, const Loss& loss);
 
 /// `sector` is checked and has a contact. Throws SectorError where the reduced mass is not positive
 /// definite, where the stiffness is not positive semidefinite, and where the modes fail to give the response.

@@ -43,11 +43,10 @@ struct SystemParameters {
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
 
-  /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k, and no ratio,
-  /// cubic stiffness or fixed damper counts.
+  /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
+  /// contact, and no ratio, cubic stiffness or fixed damper counts.
   std::shared_ptr<const SectorPair> sectors = {};
-  double limit_per_preload = 1;              ///< L
-  std::vector<SectorContact> contacts = {};  ///< where there are several, in place of K_FD and L
+  std::vector<SectorContact> contacts = {};  ///< one or several
   double eta_low = 0;                        ///< window of eta in which the modes give the response
   double eta_high = 0;
 
@@ -66,14 +65,6 @@ struct LogThreshold {
   double value;       ///< ln S
   double by_eta;      ///< d ln S/deta
   double by_preload;  ///< d ln S/dP
-};
-
-/// A further dof of base or damper whose amplitude is wanted. Both models hold its motion as their free
-/// response.
-struct ContactOutput {
-  std::string name;
-  ModalModel by_load;
-  ModalModel by_contact;  ///< per force on the contact, of the damper against the base's
 };
 
 /// Base, damper and interface at one contact point, as the response equation needs them.

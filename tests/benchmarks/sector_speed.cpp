@@ -81,7 +81,7 @@ void measure(Index elements) {
   SectorModes modes;
   const double reduced = seconds([&] {
     modes = sector_modes(sector, wave, {eta_low, eta_high, 1e-8, loss});
-    FrictionSystem system{modal_model(modes, 0, modes.loads, loss), {}, 1e7, 1e-7};
+    FrictionSystem system{modal_model(modes, 1, loss), {}, 1e7, 1e-7};
     const problems::ForcedResponse problem(system);
     continuation::TraceOptions options;
     options.parameter = "eta";

@@ -30,6 +30,9 @@ struct BaseAmplitude {
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
                              const HarmonicCoefficient& law, const LogThreshold& threshold);
 
+/// Phase of a motion behind the excitation, in (-pi, pi].
+double lag(Complex z);
+
 /// d ln|y_0|/deta.
 inline double log_free_by_eta(const ContactResponse& base) {
   return std::real(base.free_eta * std::conj(base.free)) / std::norm(base.free);
