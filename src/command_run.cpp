@@ -96,6 +96,42 @@ std::vector<VerifiedBranch> verify_all(const std::vector<TracedBranch>& traced, 
   return all;
 }
 
+/// Refuses before anything runs what no certificate covers.
+void require_certifiable(const Case& input, const std::string& path) {
+  for (const CaseBranch& branch : input.branches) {
+    const std::string why = why_not_certifiable(branch);
+    if (why.empty()) continue;
+    throw InputError(
+        fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
+                    path, why));
+  }
+}
+
+void certify_all(std::vector<TracedBranch>& traced) {
+  for (TracedBranch& branch : traced) {
+    if (interrupted()) return;
+    certify(branch);
+  }
+}
+
+/// Prints what is proven, on stderr what is not. Whether all is.
+bool report_certificates(const std::vector<TracedBranch>& traced, bool quiet) {
+  bool all = true;
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    const auto& certificate = traced[i].certificate;
+    const bool proven = certificate && certificate->proven();
+    all = all && proven;
+    if (!certificate) {
+      fmt::print(stderr, "arcslip: branch {}: not certified: interrupted\n", i);
+    } else if (!proven) {
+      fmt::print(stderr, "arcslip: {}", describe_certificate(i, traced[i]));
+    } else if (!quiet) {
+      print(describe_certificate(i, traced[i]));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string results_folder(const std::string& given, const std::string& case_path) {
@@ -107,12 +143,14 @@ int run_command(const RunOptions& options) {
   const Case input = read_case(options.case_path, options.settings);
   const std::string folder = results_folder(options.folder, options.case_path);
   if (options.verify) require_verifiable(input, options.case_path);
+  if (options.certify) require_certifiable(input, options.case_path);
   create_folder(folder);
   AtomicFile branches(folder + "/branches.csv");
   AtomicFile summary(folder + "/summary.json");
 
   catch_interrupts();
-  const std::vector<TracedBranch> traced = trace_all(input, options.quiet);
+  std::vector<TracedBranch> traced = trace_all(input, options.quiet);
+  if (options.certify) certify_all(traced);
   const double seconds = seconds_since(start);
 
   write_branches(traced, [&](std::string_view text) { branches.write(text); });
@@ -141,6 +179,7 @@ int run_command(const RunOptions& options) {
     result = status::incomplete_branch;
     fmt::print(stderr, "arcslip: branch {}: {}\n", i, why);
   }
+  if (options.certify && !report_certificates(traced, options.quiet)) result = status::incomplete_branch;
   const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
   const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;
   if (missing > 0) {

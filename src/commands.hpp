@@ -21,7 +21,8 @@ struct RunOptions {
   std::string folder;                 ///< empty: out/<name of the case file>
   std::vector<std::string> settings;  ///< "section.key=value"
   bool quiet = false;
-  bool verify = false;  ///< solve points of each branch anew, by other means
+  bool verify = false;   ///< solve points of each branch anew, by other means
+  bool certify = false;  ///< prove each branch by interval arithmetic
 };
 
 /// Traces the branches, writes branches.csv and summary.json, prints the special points.

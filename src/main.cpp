@@ -17,6 +17,7 @@ constexpr const char* examples = R"(
 Examples
   arcslip run problems/figure_8.toml              results in out/figure_8
   arcslip run problems/figure_8.toml -o fine --set continuation.max_step=0.02
+  arcslip run problems/figure_8.toml --certify    and a proof that nothing was jumped
   arcslip plot out/figure_8                       its pictures, PNG and SVG
   arcslip check problems/figure_8.toml            what would run
   arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
@@ -26,7 +27,7 @@ Examples
   arcslip sector plate -o rotor                   finite-element matrices of a brake rotor and its ring
 
 Exit status
-  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end; 4 a file could not be written)";
+  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end, or a branch not certified; 4 a file could not be written)";
 
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
@@ -142,6 +143,10 @@ int dispatch(int argc, char** argv) {
       "--verify", options.verify,
       "Solve special points and samples of forced responses anew, with more harmonics and by integrating "
       "the whole ring in time; writes DIR/verify.csv");
+  run->add_flag(
+      "--certify", options.certify,
+      "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
+      "jumped; forced responses with one contact; status 3 where a segment is not proven");
   run->footer(run_notes);
 
   StudyOptions studied;

@@ -312,4 +312,26 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
                                              : trace_given(request, observer);
 }
 
+std::string why_not_certifiable(const CaseBranch& request) {
+  const ProblemRequest& problem = request.problem;
+  if (problem.model != nullptr) return fmt::format("the model {}", problem.model->name);
+  if (request.curve) return fmt::format("a curve of {} points", to_string(request.curve->type));
+  if (problem.is_limit_cycle()) return "limit cycles";
+  if (problem.response == Response::one_way) return "a one-way response";
+  if (problem.is_mode()) return "nonlinear modes";
+  if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance) return "several harmonics";
+  if (needs_contact_system(problem.system)) return "several contacts or the full path of a sector";
+  if (problem.system.cubic_stiffness != 0) return "cubic springs";
+  return "";
+}
+
+void certify(TracedBranch& traced) {
+  const continuation::TraceOptions& options = traced.request->options;
+  const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
+  const auto parameter =
+      options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
+  traced.certificate =
+      problems::certify(problem, traced.branch, parameter, {options.tolerance, options.max_step});
+}
+
 }  // namespace arcslip

@@ -3,12 +3,14 @@
 // What a case asks for, done: problems built, branches and curves traced.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "arcslip/case_file.hpp"
 #include "arcslip/continuation/branch.hpp"
 #include "arcslip/continuation/problem.hpp"
+#include "arcslip/problems/certificate.hpp"
 
 namespace arcslip {
 
@@ -38,6 +40,7 @@ struct TracedBranch {
   std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
   continuation::Branch branch;
   double seconds = 0;
+  std::optional<problems::Certificate> certificate = {};  ///< where one was asked for
 
   const continuation::Problem& problem() const {
     return curve ? static_cast<const continuation::Problem&>(*curve) : *base;
@@ -47,5 +50,11 @@ struct TracedBranch {
 /// Traces what is asked for: one branch, or several where branches are switched or several curves are found.
 /// Never throws for a branch that fails: its `stop` tells. The request must outlive the result.
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer = {});
+
+/// Why no branch of this request can be certified, or empty.
+std::string why_not_certifiable(const CaseBranch& request);
+
+/// Proves a traced branch that can be certified, and stores the certificate in it.
+void certify(TracedBranch& traced);
 
 }  // namespace arcslip

@@ -1,0 +1,101 @@
+#pragma once
+
+// Interval arithmetic that encloses: every result holds all values that real arithmetic has for operands in
+// the intervals.
+//
+// Bounds are rounded outwards without the processor's rounding modes, which compilers do not respect: each
+// operation is done to nearest and its result moved out by 3/2 epsilon, three times the error that IEEE 754
+// allows, and by 1e-280, above any error of underflow. Assumed: +, -, *, / and sqrt of double are IEEE 754's
+// to nearest, also where a compiler contracts two of them. Of the mathematical library nothing is assumed:
+// exp and ln are series with their remainders.
+
+#include <boost/numeric/interval.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace arcslip {
+
+/// There is no finite enclosure, as of a quotient by an interval that holds zero.
+class NoEnclosure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The rounding policy that Boost.Interval asks for.
+class OutwardRounding {
+ public:
+  template <class Number>
+  double conv_down(const Number& x) const {
+    return static_cast<double>(x);
+  }
+  template <class Number>
+  double conv_up(const Number& x) const {
+    return static_cast<double>(x);
+  }
+  double add_down(double x, double y) const { return below(x + y); }
+  double add_up(double x, double y) const { return above(x + y); }
+  double sub_down(double x, double y) const { return below(x - y); }
+  double sub_up(double x, double y) const { return above(x - y); }
+  double mul_down(double x, double y) const { return below(x * y); }
+  double mul_up(double x, double y) const { return above(x * y); }
+  double div_down(double x, double y) const { return below(x / y); }
+  double div_up(double x, double y) const { return above(x / y); }
+  double sqrt_down(double x) const { return below(std::sqrt(x)); }
+  double sqrt_up(double x) const { return above(std::sqrt(x)); }
+  double median(double x, double y) const { return 0.5 * x + 0.5 * y; }
+
+ private:
+  static double margin(double x) {
+    return 1.5 * std::numeric_limits<double>::epsilon() * std::abs(x) + 1e-280;
+  }
+  static double below(double x) { return x - margin(x); }
+  static double above(double x) { return x + margin(x); }
+};
+
+using Interval = boost::numeric::interval<
+    double,
+    boost::numeric::interval_lib::policies<boost::numeric::interval_lib::save_state_nothing<OutwardRounding>,
+                                           boost::numeric::interval_lib::checking_base<double>>>;
+
+/// A rectangle of complex numbers.
+struct ComplexInterval {
+  Interval real = 0;
+  Interval imaginary = 0;
+};
+
+inline ComplexInterval operator+(const ComplexInterval& a, const ComplexInterval& b) {
+  return {a.real + b.real, a.imaginary + b.imaginary};
+}
+inline ComplexInterval operator*(const Interval& a, const ComplexInterval& b) {
+  return {a * b.real, a * b.imaginary};
+}
+inline ComplexInterval operator*(const ComplexInterval& a, const ComplexInterval& b) {
+  return {a.real * b.real - a.imaginary * b.imaginary, a.real * b.imaginary + a.imaginary * b.real};
+}
+
+/// |z|^2.
+inline Interval norm(const ComplexInterval& z) { return square(z.real) + square(z.imaginary); }
+
+/// 1/x and 1/z. Throw NoEnclosure where zero is not excluded.
+Interval inverse(const Interval& x);
+ComplexInterval inverse(const ComplexInterval& z);
+
+/// The smallest interval that holds both, and what they have in common: two enclosures of the same values.
+/// Throw NoEnclosure where one is no interval, for it has a bound that is no number.
+Interval joined(const Interval& a, const Interval& b);
+Interval common(const Interval& a, const Interval& b);
+ComplexInterval joined(const ComplexInterval& a, const ComplexInterval& b);
+ComplexInterval common(const ComplexInterval& a, const ComplexInterval& b);
+
+/// e^x for |x| <= 700. Throws NoEnclosure beyond.
+Interval exponential(const Interval& x);
+
+/// ln x, sharp for x from 1/2 to 2, else by 1 - 1/x <= ln x <= x - 1. Throws NoEnclosure where x > 0 is not
+/// sure.
+Interval logarithm(const Interval& x);
+
+/// Encloses 1/pi.
+Interval inverse_pi();
+
+}  // namespace arcslip
