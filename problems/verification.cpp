@@ -10,7 +10,7 @@
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/problems/power_balance.hpp"
 #include "arcslip/ring_record.hpp"
-#include "arcslip/ring_response.hpp"
+#include "arcslip/ring_stability.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -76,8 +76,14 @@ std::optional<Guess> solved(const HarmonicResponse& problem, Guess guess) {
   }
 }
 
-/// |y_1| of the ring's periodic motion nearest to the one that is given; NaN where it does not settle.
-double in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& at) {
+/// |y_1| of the ring's periodic motion nearest to the one that is given, and its largest Floquet multiplier;
+/// NaN where it does not settle.
+struct TimedResponse {
+  double Y = none;
+  double growth = none;
+};
+
+TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& at) {
   constexpr double settled = 1e-9;
   const double eta = at.parameters(HarmonicResponse::eta);
   RingMotion motion(ring, eta, at.parameters(HarmonicResponse::preload));
@@ -87,11 +93,12 @@ double in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& a
   for (std::size_t a = 0; a < problem.system().orders.size(); ++a)
     harmonics.push_back({problem.system().orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
   const SettledMotion found = shoot(motion, motion.travelling(harmonics));
-  if (!(found.error < settled)) return none;
+  if (!(found.error < settled)) return {};
+  const double growth = floquet_stability(motion, found.state).growth();
   RingState state = found.state;
   HarmonicRecord record(motion, {1});
   motion.advance(state, motion.period(), &record);
-  return std::abs(record.base()(0));
+  return {std::abs(record.base()(0)), growth};
 }
 
 /// The ring in full, where it is one of rods or beams that can be assembled.
@@ -130,11 +137,15 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
                      power_balance(problem, at.unknowns, at.parameters, at.regime).error(),
                      highest,
                      none,
+                     none,
                      none};
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
-    if (ring && point.type != PointType::regular)
-      one.Y_time = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
+    if (ring && point.type != PointType::regular) {
+      const TimedResponse timed = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
+      one.Y_time = timed.Y;
+      one.growth = timed.growth;
+    }
     all.push_back(one);
   }
   return all;

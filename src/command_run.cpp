@@ -6,6 +6,7 @@
 
 #include "arcslip/case_file.hpp"
 #include "arcslip/results.hpp"
+#include "certificate_results.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"

@@ -52,15 +52,16 @@ VerifiedBranch verify(std::size_t number, const TracedBranch& traced,
 
 void write_verification(const std::vector<VerifiedBranch>& branches, const Sink& sink) {
   sink(
-      "branch,point,type,eta,P,Y,power_error,harmonics,Y_harmonics,difference_harmonics,Y_time,difference_"
-      "time\n");
+      "branch,point,type,eta,P,Y,power_error,harmonics,Y_harmonics,difference_harmonics,Y_time,"
+      "difference_time,growth\n");
   for (const VerifiedBranch& branch : branches) {
     for (const Verification& point : branch.points) {
       const continuation::BranchPoint& at = branch.traced->branch.points[point.point];
-      sink(fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g}\n",
+      sink(fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g},{:.10g}\n",
                        branch.number, point.point, to_string(at.type), at.parameters(0), at.parameters(1),
                        point.Y, point.power_error, point.highest, point.Y_harmonics,
-                       point.Y_harmonics / point.Y - 1, point.Y_time, point.Y_time / point.Y - 1));
+                       point.Y_harmonics / point.Y - 1, point.Y_time, point.Y_time / point.Y - 1,
+                       point.growth));
     }
   }
 }
@@ -69,9 +70,12 @@ std::string describe_verification(const VerifiedBranch& branch) {
   if (branch.points.empty()) return fmt::format("branch {}: no point to verify\n", branch.number);
   double power = 0;
   long timed = 0;
+  double growth = 0;
   for (const Verification& point : branch.points) {
     power = std::max(power, point.power_error);
-    timed += std::isnan(point.Y_time) ? 0 : 1;
+    if (std::isnan(point.Y_time)) continue;
+    ++timed;
+    growth = std::max(growth, point.growth);
   }
   std::string text = fmt::format(
       "branch {}: {} points solved anew; power in and out differ by {:.1e}; Y with harmonics up to {} "
@@ -79,7 +83,8 @@ std::string describe_verification(const VerifiedBranch& branch) {
       branch.number, branch.points.size(), power, branch.points.front().highest,
       largest(branch, &Verification::Y_harmonics));
   if (timed > 0) {
-    text += fmt::format("; {} integrated in time: by {}", timed, largest(branch, &Verification::Y_time));
+    text += fmt::format("; {} integrated in time: by {}; disturbances grow by at most {:.6g} a period", timed,
+                        largest(branch, &Verification::Y_time), growth);
   }
   return text + "\n";
 }

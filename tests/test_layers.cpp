@@ -8,9 +8,11 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,62 +25,22 @@ namespace fs = std::filesystem;
 
 enum class Layer { types, continuation, mechanics, problems, files, command_line };
 
-const std::set<std::string, std::less<>> mechanics{"annular_plate",
-                                                   "chain_sector",
-                                                   "complex_factors",
-                                                   "contact",
-                                                   "contact_force",
-                                                   "contact_modes",
-                                                   "dynamic_stiffness",
-                                                   "elements",
-                                                   "extended_sector",
-                                                   "finite_sector",
-                                                   "first_crossing",
-                                                   "full_receptance",
-                                                   "harmonic_system",
-                                                   "hysteresis_loop",
-                                                   "interval",
-                                                   "interval_response",
-                                                   "lowest_frequency",
-                                                   "matrix_market",
-                                                   "modal_model",
-                                                   "odd_motion",
-                                                   "physical_scale",
-                                                   "precise",
-                                                   "reduced_pair",
-                                                   "ring",
-                                                   "ring_motion",
-                                                   "ring_record",
-                                                   "ring_response",
-                                                   "ring_sector",
-                                                   "ring_stability",
-                                                   "ritz_space",
-                                                   "sector",
-                                                   "sector_modes",
-                                                   "sector_pair",
-                                                   "sector_reduction",
-                                                   "sector_solver",
-                                                   "shape_functions",
-                                                   "system"};
-const std::set<std::string, std::less<>> files{"case_file",
-                                               "continuation_section",
-                                               "database",
-                                               "for_each",
-                                               "geometry_section",
-                                               "output",
-                                               "results",
-                                               "runs",
-                                               "sector_files",
-                                               "sector_section",
-                                               "study_case",
-                                               "study_extras",
-                                               "study_results",
-                                               "study_run",
-                                               "study_store",
-                                               "system_section",
-                                               "toml_reader",
-                                               "uncertain_section",
-                                               "verification_results"};
+std::set<std::string, std::less<>> words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+const std::set<std::string, std::less<>> mechanics = words(R"(
+annular_plate chain_sector complex_factors contact contact_force contact_modes dynamic_stiffness
+elements extended_sector finite_sector first_crossing full_receptance harmonic_system
+hysteresis_loop interval interval_response lowest_frequency matrix_market modal_model odd_motion
+physical_scale precise reduced_pair ring ring_motion ring_record ring_response ring_sector
+ring_stability ritz_space sector sector_modes sector_pair sector_reduction sector_solver
+shape_functions system)");
+const std::set<std::string, std::less<>> files = words(R"(
+case_file certificate_results continuation_section database for_each geometry_section output results runs sector_files
+sector_section study_case study_extras study_results study_run study_store system_section
+toml_reader uncertain_section verification_results)");
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 Layer layer_of(const fs::path& file) {

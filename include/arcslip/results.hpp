@@ -43,9 +43,6 @@ std::vector<int> harmonics_of(const continuation::Problem& problem);
 /// How many harmonics friction is balanced in, one line, or nothing where it is one.
 std::string describe_harmonics(const TracedBranch& traced);
 
-/// What a certificate proves, one line or two, or the segment that it cannot prove, one line.
-std::string describe_certificate(std::size_t number, const TracedBranch& traced);
-
 /// The line above such rows.
 std::string special_table_header(const TracedBranch& traced);
 

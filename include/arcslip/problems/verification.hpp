@@ -20,6 +20,7 @@ struct Verification {
   int highest;         ///< harmonic of the second solution
   double Y_harmonics;  ///< of the second solution
   double Y_time;       ///< by time integration
+  double growth;       ///< of the worst disturbance in a period, |mu|: stable below 1; by time integration
 };
 
 struct VerifyOptions {
