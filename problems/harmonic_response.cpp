@@ -176,7 +176,7 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
   const Index m = contacts();
   const Index n = harmonics();
   const std::vector<ContactForce>& friction = forces(u, p, regime, false);
-  values.resize(std::ssize(observables()));
+  values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs) + (n > 1 ? 3 * n : 0));
   Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
   HarmonicVector base(n);  // of the first contact
   HarmonicVector damper(n);
