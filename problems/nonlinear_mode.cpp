@@ -19,6 +19,9 @@ struct NonlinearMode::Order {
   ContactMatrix compliance;      // C_h
   ContactMatrix compliance_eta;  // of the damping -2 zeta eta as well
   ContactMatrix compliance_zeta;
+  double norm = 1;  // 1 + |C_B K|^2 + |C_D K|^2, of the terms that may cancel in C_h K
+  double norm_eta = 0;
+  double norm_zeta = 0;
 };
 
 NonlinearMode::NonlinearMode(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
@@ -53,13 +56,23 @@ const std::vector<ContactForce>& NonlinearMode::forces(const Vector& u, const Ve
 
 NonlinearMode::Order NonlinearMode::order(Index which, const Vector& u) const {
   const double h = system_.orders[at(which)];
-  const double mass = -2 * u(damping) * u(frequency);
-  const DampedReceptance base = system_.base[at(which)].damped(h * u(frequency), mass);
-  const DampedReceptance damper = system_.damper[at(which)].damped(h * u(frequency), mass);
-  const ContactMatrix by_mass = base.compliance_mass + damper.compliance_mass;
-  return {which, base.compliance + damper.compliance,
-          h * (base.compliance_eta + damper.compliance_eta) - 2 * u(damping) * by_mass,
-          -2 * u(frequency) * by_mass};
+  Order order{which, ContactMatrix::Zero(contacts(), contacts()), ContactMatrix::Zero(contacts(), contacts()),
+              ContactMatrix::Zero(contacts(), contacts())};
+  for (const ContactModes* structure : {&system_.base[at(which)], &system_.damper[at(which)]}) {
+    const DampedReceptance found = structure->damped(h * u(frequency), -2 * u(damping) * u(frequency));
+    const ContactMatrix by_eta = h * found.compliance_eta - 2 * u(damping) * found.compliance_mass;
+    const ContactMatrix by_zeta = -2 * u(frequency) * found.compliance_mass;
+    order.compliance += found.compliance;
+    order.compliance_eta += by_eta;
+    order.compliance_zeta += by_zeta;
+    for (Index j = 0; j < contacts(); ++j) {
+      const double square = std::pow(system_.contacts[at(j)].stiffness, 2);
+      order.norm += square * found.compliance.col(j).squaredNorm();
+      order.norm_eta += 2 * square * std::real(found.compliance.col(j).dot(by_eta.col(j)));
+      order.norm_zeta += 2 * square * std::real(found.compliance.col(j).dot(by_zeta.col(j)));
+    }
+  }
+  return order;
 }
 
 bool NonlinearMode::evaluate(const Vector& u, const Vector& p, int regime,
@@ -86,7 +99,7 @@ void NonlinearMode::fill_row(const Order& order, Index contact, const std::vecto
     column(row + 1) = value.imag();
   };
   const double size = std::hypot(p(amplitude), u.tail(u.size() - 2).norm());
-  const double weight = 1 / size;
+  const double weight = 1 / (std::sqrt(order.norm) * size);
   Complex residual = motion(u, p, contact)(order.which);
   Complex by_log_S = 0;
   for (Index j = 0; j < contacts(); ++j) {
@@ -111,8 +124,9 @@ void NonlinearMode::fill_row(const Order& order, Index contact, const std::vecto
     store(weight / load(u, p) * by_log_S, out.parameter_jacobian->col(preload));
   }
   if (out.jacobian == nullptr) return;
-  Complex by_eta = by_log_S * (2 * system_.preload_growth * u(frequency) / load(u, p));
-  Complex by_zeta = 0;
+  Complex by_eta = by_log_S * (2 * system_.preload_growth * u(frequency) / load(u, p)) -
+                   residual * (0.5 * order.norm_eta / order.norm);
+  Complex by_zeta = -residual * (0.5 * order.norm_zeta / order.norm);
   for (Index j = 0; j < contacts(); ++j) {
     by_eta += order.compliance_eta(contact, j) * friction[at(j)].harmonics(order.which);
     by_zeta += order.compliance_zeta(contact, j) * friction[at(j)].harmonics(order.which);

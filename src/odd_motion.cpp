@@ -3,6 +3,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 namespace arcslip {
@@ -55,6 +56,29 @@ double OddMotion::change(double theta, double step) const {
   return sum;
 }
 
+/// Of some angles within half a period the one where the motion is steepest.
+double OddMotion::steepest() const {
+  constexpr int candidates = 8;
+  double angle = 0;
+  double slope = -1;
+  for (int i = 0; i < candidates; ++i) {
+    const double here = std::abs(slopes(i * pi / candidates).first);
+    if (here > slope) std::tie(angle, slope) = std::pair(i * pi / candidates, here);
+  }
+  return angle;
+}
+
+/// The zero of dr/dtheta between two angles at which its signs differ.
+double OddMotion::turning_point(double low, double high) const {
+  std::uintmax_t most = 100;
+  return boost::math::tools::newton_raphson_iterate(
+      [&](double theta) {
+        const Slopes at = slopes(theta);
+        return std::pair(at.first, at.second);
+      },
+      0.5 * (low + high), low, high, 52, most);
+}
+
 Angles OddMotion::turning_points() const {
   double third = 0;  // bound of |d3r/dtheta3|
   for (std::size_t a = 0; a < orders_.size(); ++a)
@@ -62,29 +86,13 @@ Angles OddMotion::turning_points() const {
   Angles found;
   if (!(third > 0)) return found;
 
-  // A beginning where the motion does not turn, so that no turning point is counted at both ends.
-  constexpr int candidates = 8;
-  double begin = 0;
-  double steepest = -1;
-  for (int i = 0; i < candidates; ++i) {
-    const double slope = std::abs(slopes(i * pi / candidates).first);
-    if (slope > steepest) std::tie(begin, steepest) = std::pair(i * pi / candidates, slope);
-  }
-  const auto root = [&](double low, double high) {
-    std::uintmax_t most = 100;
-    return boost::math::tools::newton_raphson_iterate(
-        [&](double theta) {
-          const Slopes at = slopes(theta);
-          return std::pair(at.first, at.second);
-        },
-        0.5 * (low + high), low, high, 52, most);
-  };
   struct Cell {
     double low;
     double high;
   };
   constexpr int parts = 4;
   constexpr double narrow = 1e-8;
+  const double begin = steepest();  // no turning point is counted at both ends
   std::array<Cell, 64> open;  // what is not searched, the leftmost last: halving 1 down to 1e-8 leaves 27
   std::size_t count = 0;
   for (int i = parts; i-- > 0;) open[count++] = {begin + i * pi / parts, begin + (i + 1) * pi / parts};
@@ -99,7 +107,7 @@ Angles OddMotion::turning_points() const {
       if (low == 0) {
         found.push(cell.low);
       } else if (low * slopes(cell.high).first < 0) {
-        found.push(root(cell.low, cell.high));
+        found.push(turning_point(cell.low, cell.high));
       }
       continue;
     }

@@ -287,7 +287,9 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
                       fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2));
   const bool forced = use.balanced && use.parameter != "R";
   if (system.sectors->path() == SectorPath::full && !forced)
-    section.fail("path", R"(expected "reduced" for all but forced responses and their curves, got "full")");
+    section.fail(
+        "path",
+        R"(expected "reduced" for a study, nonlinear modes, limit cycles and one-way responses, got "full")");
   read_contacts(document, section, use, system);
   system.force = section.number("force", positive(), 1);
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());

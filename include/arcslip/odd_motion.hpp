@@ -55,6 +55,9 @@ class OddMotion {
   Maximum maximum() const;
 
  private:
+  double steepest() const;
+  double turning_point(double low, double high) const;
+
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;
 };

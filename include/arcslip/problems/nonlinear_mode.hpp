@@ -6,8 +6,9 @@
 //
 //   r_h + C_h(eta, zeta) K f_h(r) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h.
 //
-// eta is then the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first
-// harmonic, whose phase is 0. Where zeta = 0 the motion needs no help: a limit cycle.
+// solved relative to |r| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. eta is then
+// the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first harmonic,
+// whose phase is 0. Where zeta = 0 the motion needs no help: a limit cycle.
 //
 // Unknowns: eta, zeta, then Re and Im of all harmonics of all contacts but that one, in the order of
 // HarmonicResponse. Parameters: R, P. Regimes and borders are those of HarmonicResponse.
