@@ -92,8 +92,9 @@ ComplexVector sticking_multipliers(const SystemParameters& s, double eta) {
   const auto nodes = static_cast<double>(s.elements);
   std::vector<Complex> all;
   for (Index l = 0; l < s.elements; ++l) {
-    const DynamicStiffness base = dynamic_stiffness(
-        reduce(make(s.mass_ratio, s.stiffness_ratio(), l, s.elements), l, s.elements), base_damping_factor(s));
+    const DynamicStiffness base =
+        dynamic_stiffness(reduce(make(s.mass_ratio, s.stiffness_ratio(), l, s.elements), l, s.elements),
+                          base_damping_factor(s));
     const DynamicStiffness damper =
         dynamic_stiffness(reduce(make(1, 1, l, s.elements), l, s.elements), damper_damping_factor(s));
     const Index j = base.mass.rows();
@@ -124,11 +125,11 @@ ComplexVector sticking_multipliers(const SystemParameters& s, double eta) {
 }  // namespace
 
 TEST_CASE("Multipliers of the turned flow are those of a brute-force monodromy", "[ring]") {
-  const Case c = GENERATE(Case{small_beams(4), 3.7, 0.03},                  //
-                          Case{small_rods(5), 2.3, 0.03},                   // two lengths of the wave
-                          Case{held(small_rods(5)), 2.3, 0.1},              //
-                          Case{driven(small_rods(5), -0.002), 2.3, 0.03},   // friction holds it
-                          Case{driven(small_rods(5), -0.02), 2.3, 0.03});   // it does not
+  const Case c = GENERATE(Case{small_beams(4), 3.7, 0.03},                 //
+                          Case{small_rods(5), 2.3, 0.03},                  // two lengths of the wave
+                          Case{held(small_rods(5)), 2.3, 0.1},             //
+                          Case{driven(small_rods(5), -0.002), 2.3, 0.03},  // friction holds it
+                          Case{driven(small_rods(5), -0.02), 2.3, 0.03});  // it does not
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingState state = settled_state(motion, c);
   const RingStability stability = floquet_stability(motion, state);

@@ -3,8 +3,8 @@
 // Stability of a settled response by the Floquet multipliers of the exact piecewise-linear flow.
 //
 // The multipliers nu of G (ring_response.hpp) take 1/N of the n periods that those of the period need. G
-// commutes with the flow Phi over one period T, and G^N = Phi^n, so a disturbance that both leave alone but for
-// a factor, nu for G and mu for Phi, has
+// commutes with the flow Phi over one period T, and G^N = Phi^n, so a disturbance that both leave alone but
+// for a factor, nu for G and mu for Phi, has
 //
 //   nu^N = mu^n,   |mu| = |nu|^{N/n},   and mu = nu^N where n = 1
 //
@@ -14,13 +14,16 @@
 //   nu = e^{lambda nT/N} e^{-2 pi j l/N},   mu = e^{lambda T}
 //
 // where l, its wave number, has a meaning only together with lambda: (lambda + j m w*, l + m n) is the same
-// wave. Where no contact slips and q is constant, l is the wave number of a linear mode. For n > 1 the n values
-// of mu that one nu allows differ in phase alone, so that nu decides on stability. nu = 1 is a fold or a branch
-// point of travelling responses; at any other nu of modulus 1 a response branches off that travels no more.
+// wave. Where no contact slips and q is constant, l is the wave number of a linear mode. For n > 1 the n
+// values of mu that one nu allows differ in phase alone, so that nu decides on stability. nu = 1 is a fold or
+// a branch point of travelling responses; at any other nu of modulus 1 a response branches off that travels
+// no more.
 //
 // What says nothing of stability is left out: the multiplier 1 of the neutral drift, and, where no contact
 // slips, the sliders, which then are constants of the motion. The slider of a contact that slips at the start
-// is no free state; it and what the other sliders forget give multipliers 0.
+// is no free state; it and what the other sliders forget give multipliers 0. Where no contact slips and the
+// damper is free, a pair of |mu| = 1 remains: base against damper as rigid bodies on the springs of the
+// contacts, which no damping proportional to stiffness reaches.
 
 #include "arcslip/ring_response.hpp"
 
