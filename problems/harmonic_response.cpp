@@ -60,22 +60,33 @@ HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vec
 
 HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value) const {
   const double h = system_.orders[at(which)];
-  ContactReceptance base = system_.base[at(which)].at(h * eta_value);
+  const ContactReceptance base = system_.base[at(which)].at(h * eta_value);
   const ContactReceptance damper = system_.damper[at(which)].at(h * eta_value);
-  Order order{which,
-              base.compliance + damper.compliance,
-              h * (base.compliance_eta + damper.compliance_eta),
-              base.free,
-              h * base.free_eta,
-              1,
-              0};
+  ContactMatrix stuck = base.compliance + damper.compliance;  // 1 + C_h K
+  ContactMatrix stuck_eta = h * (base.compliance_eta + damper.compliance_eta);
   for (Index j = 0; j < contacts(); ++j) {
-    const double square = std::pow(system_.contacts[at(j)].stiffness, 2);
-    order.norm += square * order.compliance.col(j).squaredNorm();
-    order.norm_eta += 2 * square * std::real(order.compliance.col(j).dot(order.compliance_eta.col(j)));
+    stuck.col(j) *= system_.contacts[at(j)].stiffness;
+    stuck_eta.col(j) *= system_.contacts[at(j)].stiffness;
   }
+  stuck.diagonal().array() += 1.0;
+  const Eigen::PartialPivLU<ContactMatrix> factors(stuck);
+  const ContactMatrix inverse = factors.inverse();
+  const ContactMatrix inverse_eta = -inverse * stuck_eta * inverse;
+  Order order{which,     factors,          {}, {}, 1 / std::sqrt(1 + inverse.squaredNorm()), 0,
+              base.free, h * base.free_eta};
+  order.weight_eta =
+      -std::pow(order.weight, 3) * (inverse.conjugate().cwiseProduct(inverse_eta)).sum().real();
+  order.left = order.weight * inverse;
+  order.left_eta = order.weight * inverse_eta + order.weight_eta * inverse;
   return order;
 }
+
+/// F by contact and order, and what its derivatives by the unknowns consist of.
+struct HarmonicResponse::Rows {
+  std::vector<HarmonicVector> residual;       // of each contact
+  std::vector<HarmonicVector> left;           // of each pair of contacts, row by row, over |r|
+  std::array<double, most_harmonics> weight;  // over |r|
+};
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
                                 const continuation::Evaluation& out) const {
@@ -85,50 +96,80 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
-  for (Index a = 0; a < harmonics(); ++a) {
-    const Order at_order = order(a, p(eta));
-    for (Index i = 0; i < contacts(); ++i) fill_row(at_order, i, friction, u, p, out);
-  }
+  thread_local Rows rows;
+  rows.residual.resize(at(contacts()), HarmonicVector(harmonics()));
+  rows.left.resize(at(contacts() * contacts()), HarmonicVector(harmonics()));
+  for (HarmonicVector& row : rows.residual) row.resize(harmonics());
+  for (HarmonicVector& row : rows.left) row.resize(harmonics());
+  for (Index a = 0; a < harmonics(); ++a) fill_order(order(a, p(eta)), friction, u, p, rows, out);
+  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, *out.jacobian);
   return true;
 }
 
-void HarmonicResponse::fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction,
-                                const Vector& u, const Vector& p, const continuation::Evaluation& out) const {
-  const Index n = harmonics();
-  const Index row = 2 * (contact * n + order.which);
-  const auto store = [row](Complex value, auto&& column) {
-    column(row) = value.real();
-    column(row + 1) = value.imag();
-  };
-  const double size = u.norm();
-  const double weight = 1 / (std::sqrt(order.norm) * size);
-  Complex residual = Complex(u(row), u(row + 1)) + order.free(contact);
-  for (Index j = 0; j < contacts(); ++j)
-    residual += order.compliance(contact, j) * friction[at(j)].harmonics(order.which);
-  if (out.residual != nullptr) store(weight * residual, *out.residual);
-
-  if (out.parameter_jacobian != nullptr) {
-    Complex by_eta = order.free_eta(contact) - residual * (0.5 * order.norm_eta / order.norm);
-    Complex by_log_S = 0;
-    for (Index j = 0; j < contacts(); ++j) {
-      by_eta += order.compliance_eta(contact, j) * friction[at(j)].harmonics(order.which);
-      by_log_S += order.compliance(contact, j) * friction[at(j)].by_log_threshold(order.which);
-    }
-    const double log_S_by_eta = 2 * system_.preload_growth * p(eta) / load(p);
-    store(weight * (by_eta + by_log_S * log_S_by_eta), out.parameter_jacobian->col(eta));
-    store(weight / load(p) * by_log_S, out.parameter_jacobian->col(preload));
-  }
-  if (out.jacobian == nullptr) return;
-  const Complex shrink = residual / (size * size);
+/// The rows of one harmonic but for their derivatives by the unknowns.
+void HarmonicResponse::fill_order(const Order& order, const std::vector<ContactForce>& friction,
+                                  const Vector& u, const Vector& p, Rows& rows,
+                                  const continuation::Evaluation& out) const {
+  const double per_size = 1 / u.norm();
+  ContactVector f(contacts());
+  ContactVector f_log_S = ContactVector::Zero(contacts());
+  ContactVector gap(contacts());  // r - f + y_0
   for (Index j = 0; j < contacts(); ++j) {
-    for (Index b = 0; b < n; ++b) {
-      const Index column = 2 * (j * n + b);
-      const Complex c = order.compliance(contact, j);
-      const Complex linear = c * friction[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
-      const Complex conjugate = c * friction[at(j)].conjugate(order.which, b);
-      store(weight * (linear + conjugate - shrink * u(column)), out.jacobian->col(column));
-      store(weight * (Complex(0, 1) * (linear - conjugate) - shrink * u(column + 1)),
-            out.jacobian->col(column + 1));
+    const double k = system_.contacts[at(j)].stiffness;
+    const Index row = 2 * (j * harmonics() + order.which);
+    f(j) = friction[at(j)].harmonics(order.which) / k;
+    gap(j) = Complex(u(row), u(row + 1)) - f(j) + order.free(j);
+    if (out.parameter_jacobian != nullptr) f_log_S(j) = friction[at(j)].by_log_threshold(order.which) / k;
+  }
+  const ContactVector residual = (per_size * order.weight) * (f + order.stuck.solve(gap));
+  const auto store = [&](const ContactVector& values, auto&& column) {
+    for (Index i = 0; i < contacts(); ++i) {
+      column(2 * (i * harmonics() + order.which)) = values(i).real();
+      column(2 * (i * harmonics() + order.which) + 1) = values(i).imag();
+    }
+  };
+  if (out.residual != nullptr) store(residual, *out.residual);
+  if (out.parameter_jacobian != nullptr) {
+    const ContactVector by_log_S = per_size * (order.weight * f_log_S - order.left * f_log_S);
+    const ContactVector by_eta =
+        per_size * (order.weight_eta * f + order.left_eta * gap + order.left * order.free_eta);
+    store(by_eta + by_log_S * (2 * system_.preload_growth * p(eta) / load(p)),
+          out.parameter_jacobian->col(eta));
+    store(by_log_S / load(p), out.parameter_jacobian->col(preload));
+  }
+  rows.weight[at(order.which)] = order.weight * per_size;
+  for (Index i = 0; i < contacts(); ++i) {
+    rows.residual[at(i)](order.which) = residual(i);
+    for (Index j = 0; j < contacts(); ++j)
+      rows.left[at(i * contacts() + j)](order.which) = order.left(i, j) * per_size;
+  }
+}
+
+/// Column by column, in which the harmonics of a contact's rows follow one another.
+void HarmonicResponse::fill_jacobian(const Rows& rows, const std::vector<ContactForce>& friction,
+                                     const Vector& u, Matrix& jacobian) const {
+  const Index n = harmonics();
+  const double per_square = 1 / u.squaredNorm();
+  const Complex j{0, 1};
+  const auto weight = Eigen::Map<const Eigen::ArrayXd>(rows.weight.data(), n);
+  for (Index column = 0; column < contacts() * n; ++column) {
+    const Index from = column / n;
+    const Index order = column % n;
+    const double per_k = 1 / system_.contacts[at(from)].stiffness;
+    const auto linear = friction[at(from)].linear.col(order).array() * per_k;
+    const auto conjugate = friction[at(from)].conjugate.col(order).array() * per_k;
+    for (Index i = 0; i < contacts(); ++i) {
+      const auto part = [&](Index real_column) {
+        return Eigen::Map<Eigen::ArrayXcd>(
+            reinterpret_cast<Complex*>(jacobian.col(real_column).data() + 2 * i * n), n);
+      };
+      const auto& left = rows.left[at(i * contacts() + from)];
+      const auto own = (i == from ? 1.0 : 0.0) * weight - left.array();  // of f
+      const auto residual = rows.residual[at(i)].array();
+      part(2 * column) = own * (linear + conjugate) - residual * (u(2 * column) * per_square);
+      part(2 * column + 1) = own * (linear - conjugate) * j - residual * (u(2 * column + 1) * per_square);
+      part(2 * column)(order) += left(order);
+      part(2 * column + 1)(order) += j * left(order);
     }
   }
 }

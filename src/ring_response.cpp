@@ -72,6 +72,25 @@ Vector newton_step(const RingMotion& motion, const Matrix& derivative, const Vec
   return step;
 }
 
+/// One round of Newton's method. Where an event that a short step moves keeps G(s) from coming nearer to s,
+/// the ring is marched instead, for the n periods in which every node takes every place.
+RingState improved(RingMotion& motion, const RingState& state, const StateDerivative& here) {
+  constexpr int most_halvings = 6;
+  constexpr double progress = 0.9;
+  const double gap = step_length(motion, state, here.next);
+  const Vector step = newton_step(motion, here.derivative, stacked(here.next) - stacked(state));
+  RingState base = state;
+  base.slip = here.next.slip;
+  double part = 1;
+  for (int halving = 0; halving <= most_halvings; ++halving, part /= 2) {
+    RingState trial = moved(base, part * step);
+    if (step_length(motion, trial, next_state(motion, trial)) < progress * gap) return trial;
+  }
+  RingState marched = here.next;
+  for (Index i = 1; i < motion.ring().nodes(); ++i) marched = next_state(motion, marched);
+  return marched;
+}
+
 }  // namespace
 
 RingTangent::RingTangent(const RingMotion& motion)
@@ -186,25 +205,11 @@ SettledMotion march_until_settled(RingMotion& motion, RingState state, double to
 }
 
 SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int rounds) {
-  constexpr int most_halvings = 6;
   SettledMotion result{std::move(guess), 0, 0, false};
   StateDerivative here = next_derivative(motion, result.state);
   result.error = step_error(motion, result.state, here.next);
   while (result.error > tolerance && result.rounds < rounds) {
-    const Vector residual = stacked(here.next) - stacked(result.state);
-    const Vector step = newton_step(motion, here.derivative, residual);
-    RingState base = result.state;
-    base.slip = here.next.slip;
-    double part = 1;
-    for (int halving = 0;; ++halving, part /= 2) {
-      const RingState trial = moved(base, part * step);
-      const RingState next = next_state(motion, trial);
-      const double gap = step_length(motion, trial, next);
-      if (gap < step_length(motion, result.state, here.next) || halving == most_halvings) {
-        result.state = trial;
-        break;
-      }
-    }
+    result.state = improved(motion, result.state, here);
     here = next_derivative(motion, result.state);
     result.error = step_error(motion, result.state, here.next);
     ++result.rounds;

@@ -167,11 +167,7 @@ TEST_CASE("A stiff contact with many harmonics approaches Den Hartog's Coulomb f
     const HarmonicResponse problem(oscillator(highest, stiffness, 0));
     return std::abs(observed(problem, problem.guess(one.r, one.friction), "R_peak") / one.amplitude - 1);
   };
-  for (const Case& one : {Case{0.9, 0.2, 5.1100404230},
-                          {0.8, 0.2, 2.7114152554},
-                          {0.9, 0.4, 4.6203419164},
-                          {0.8, 0.4, 2.5017878810},
-                          {1.1, 0.2, 4.5909249073}}) {
+  for (const Case& one : {Case{0.9, 0.4, 4.6203419164}, {1.1, 0.2, 4.5909249073}}) {
     CAPTURE(one.r, one.friction);
     const double soft = error(one, 15, 1e2);
     const double stiff = error(one, 15, 1e5);

@@ -34,7 +34,7 @@ struct RingSegment {
   Matrix position;  ///< D x (order + 1)
   Matrix relative;  ///< N x (order + 1): r
 
-  /// Values and derivatives in time of the rows of `series` at start + t.
+  /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
   static Vector value(const Matrix& series, double ratio);
   Vector rate(const Matrix& series, double ratio) const;
 };
@@ -53,12 +53,12 @@ class RingObserver {
 
 /// What a motion has cost.
 struct RingCount {
-  long steps = 0;
+  long steps = 0;                        ///< Taylor series summed
   long events = 0;                       ///< changes between stick and slip, each contact counted
   std::set<std::vector<bool>> patterns;  ///< of sticking contacts, the least of each one's rotations
 };
 
-/// First harmonic and others of the friction force and relative displacement of node 1, phasors.
+/// One harmonic of the relative displacement and the friction force of node 1, phasors.
 struct ContactHarmonic {
   int order;
   Complex relative;  ///< r_h
@@ -113,7 +113,7 @@ class RingMotion {
 /// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
 Index series_order(double reach);
 
-/// Rows of B of the contacts that stick, times k for the force.
+/// Rows of B of the contacts that stick.
 Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip);
 
 }  // namespace arcslip

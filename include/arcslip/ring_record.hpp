@@ -1,6 +1,7 @@
 #pragma once
 
-// What is read off a motion of the ring, by Gauss quadrature on its polynomial pieces, to rounding.
+// What is read off a motion of the ring, by Gauss quadrature on its polynomial pieces, to rounding. A record
+// refers to its motion and must not outlive it.
 
 #include "arcslip/ring_motion.hpp"
 

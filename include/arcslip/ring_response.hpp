@@ -67,7 +67,8 @@ struct SettledMotion {
 /// periodic, but no travelling wave, and is never settled in this sense.
 SettledMotion march_until_settled(RingMotion& motion, RingState state, double tolerance, int rounds);
 
-/// Newton's method on G(s) = s from a guess. Steps are halved while they do not bring G(s) nearer to s.
+/// Newton's method on G(s) = s from a guess. Steps are halved while they do not bring G(s) nearer to s; where
+/// none does, the ring is marched for n periods, which may lead away from an unstable response.
 SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance = 1e-12, int rounds = 40);
 
 }  // namespace arcslip

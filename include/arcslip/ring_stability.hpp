@@ -21,7 +21,9 @@
 //
 // What says nothing of stability is left out: the multiplier 1 of the neutral drift, and, where no contact
 // slips, the sliders, which then are constants of the motion. The slider of a contact that slips at the start
-// is no free state; it and what the other sliders forget give multipliers 0.
+// is no free state; it and what the other sliders forget give multipliers 0. Where no contact slips and the
+// damper is free, a pair of |mu| = 1 remains: base against damper as rigid bodies on the springs of the
+// contacts, which no damping proportional to stiffness reaches.
 
 #include "arcslip/ring_response.hpp"
 

@@ -6,12 +6,16 @@
 //
 //   r_h + C_h(eta) K f_h(r) = -y_0 delta_h1,   C_h = C_B + C_D at (h eta, h a),   K = diag(k_i).
 //
-// Solved is each row relative to |r| and to sqrt(1 + |C_h K|^2). Then u_h = -C_D,h K f_h, y_h = u_h - r_h.
+// Solved is f_h + (1 + C_h K)^{-1} (r_h - f_h + y_0 delta_h1) = 0 relative to |r| and to sqrt(1 + |(1 + C_h
+// K)^{-1}|^2): where the contacts stick, the error of r itself, however much larger C_h K is for their common
+// motion than for their differences. Then u_h = -C_D,h K f_h, y_h = u_h - r_h.
 //
 // Unknowns: Re r_1, Im r_1, Re r_3, ... of the first contact, then of the next. Parameters: eta, P. Regimes:
 // which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i, for which
 // (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
 // less, is no border: the engine crosses such a corner as it finds it.
+
+#include <Eigen/LU>
 
 #include "arcslip/contact_force.hpp"
 #include "arcslip/continuation/problem.hpp"
@@ -77,19 +81,23 @@ class HarmonicResponse : public continuation::Problem {
   const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
                                           bool derivatives) const;
 
-  /// One harmonic of the linear part, with derivatives in eta.
+  /// One harmonic of F, weight f + left (r - f + y_0) but for |r|, with derivatives in eta.
   struct Order {
     Index which;
-    ContactMatrix compliance;  // C_h
-    ContactMatrix compliance_eta;
+    Eigen::PartialPivLU<ContactMatrix> stuck;  // 1 + C_h K
+    ContactMatrix left;                        // weight (1 + C_h K)^{-1}
+    ContactMatrix left_eta;
+    double weight;  // 1/sqrt(1 + |(1 + C_h K)^{-1}|^2)
+    double weight_eta;
     ContactVector free;  // y_0, 0 above the first
     ContactVector free_eta;
-    double norm;  // 1 + |C_h K|^2
-    double norm_eta;
   };
   Order order(Index which, double eta_value) const;
-  void fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction, const Vector& u,
-                const Vector& p, const continuation::Evaluation& out) const;
+  struct Rows;
+  void fill_order(const Order& order, const std::vector<ContactForce>& friction, const Vector& u,
+                  const Vector& p, Rows& rows, const continuation::Evaluation& out) const;
+  void fill_jacobian(const Rows& rows, const std::vector<ContactForce>& friction, const Vector& u,
+                     Matrix& jacobian) const;
 
   double load(const Vector& p) const;  // P + P_2 eta^2
   double threshold(Index contact, const Vector& p) const;
