@@ -37,8 +37,14 @@ ContactReceptance ContactModes::at(double eta) const {
     const ModalDenominator d(eta, mode.frequency, loss_);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
-    response.compliance.noalias() += (inverse * mode.shape) * mode.shape.adjoint();
-    response.compliance_eta.noalias() += (slope * mode.shape) * mode.shape.adjoint();
+    for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
+      const Complex column = std::conj(mode.shape(j));
+      for (Index i = 0; i < contacts_; ++i) {
+        const Complex product = mode.shape(i) * column;
+        response.compliance(i, j) += inverse * product;
+        response.compliance_eta(i, j) += slope * product;
+      }
+    }
     response.free += (mode.load * inverse) * mode.shape;
     response.free_eta += (mode.load * slope) * mode.shape;
   }

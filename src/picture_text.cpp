@@ -79,6 +79,7 @@ std::string axis_title(const std::string& name, bool is_friction) {
   static const std::map<std::string, std::string, std::less<>> words = {
       {"eta", "frequency"},
       {"P", "preload"},
+      {"zeta", "damping ratio"},
       {"zeta_B", "base damping"},
       {"R_over_S", "relative amplitude"},
       {"mass_ratio", "mass ratio"},

@@ -5,6 +5,8 @@
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/power_balance.hpp"
+#include "arcslip/ring_record.hpp"
+#include "arcslip/ring_response.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
 #include "random_systems.hpp"
@@ -114,6 +116,28 @@ TEST_CASE("At the best preload of figure 8 nine harmonics give Y = 0.00843, many
   const double many = Y(151);
   CHECK_THAT(many, WithinRel(Y(201), 1e-6));
   CHECK_THAT(many, WithinRel(0.0083267, 1e-5));
+}
+
+TEST_CASE("The ring of figure 8 in time has the amplitude of many harmonics at the best preload",
+          "[harmonics]") {
+  const HarmonicResponse problem = balanced(figure_8(1), 63);
+  const Guess at = problem.guess(3.841, 1);
+  const HarmonicVector r = problem.motion(at.unknowns, 0);
+  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
+  std::vector<ContactHarmonic> harmonics;
+  for (Index a = 0; a < problem.harmonics(); ++a) {
+    const auto place = static_cast<std::size_t>(a);
+    harmonics.push_back({problem.system().orders[place], r(a), friction.forces[place](0)});
+  }
+  RingMotion motion(build_ring(figure_8(1)), 3.841, 1);
+  const SettledMotion settled = shoot(motion, motion.travelling(harmonics), 1e-9);
+  REQUIRE(settled.settled);
+  RingState state = settled.state;
+  HarmonicRecord record(motion, {1, 3});
+  motion.advance(state, motion.period(), &record);
+  CHECK_THAT(observed(problem, at, "Y"), WithinRel(std::abs(record.base()(0)), 1e-4));
+  CHECK_THAT(observed(problem, at, "R_h3"), WithinRel(std::abs(record.relative()(1)), 1e-3));
+  CHECK_THAT(std::abs(record.base()(0)), WithinRel(0.0083267258, 1e-8));
 }
 
 TEST_CASE("Branches of nine harmonics lose no energy, whatever the preload", "[harmonics]") {
