@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -153,6 +154,22 @@ TEST_CASE("Branches of nine harmonics lose no energy, whatever the preload", "[h
       CHECK(power.friction >= 0);
       CHECK(power.error() < 1e-6);  // the residual 1e-10 over the damping ratio 1e-4
     }
+  }
+}
+
+TEST_CASE("Branches of random systems in five harmonics reach their end and lose no energy", "[harmonics]") {
+  RandomSystems draw(1);
+  for (int i = 0; i < 20; ++i) {
+    const SystemParameters parameters = draw.system();
+    const auto [low, high] = resonance_range(parameters);
+    const HarmonicResponse problem = balanced(parameters, 5);
+    const Branch branch = response(problem, parameters.preload, low, high);
+    CAPTURE(i, branch.explanation);
+    REQUIRE(branch.complete());
+    double worst = 0;
+    for (const BranchPoint& point : branch.points)
+      worst = std::max(worst, power_balance(problem, point.unknowns, point.parameters, point.regime).error());
+    CHECK(worst < 1e-4);  // the residual 1e-10 over damping ratios down to 1e-6
   }
 }
 
