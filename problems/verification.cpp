@@ -39,6 +39,34 @@ HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) 
   return HarmonicResponse(build_harmonic_system(parameters));
 }
 
+/// The points of a branch of HarmonicResponse or ForcedResponse as those of the former.
+class BalancedPoints {
+ public:
+  BalancedPoints(const SystemParameters& parameters, const std::vector<int>& orders,
+                 const continuation::Branch& branch)
+      : problem_(balanced(parameters, orders)) {
+    if (branch.points.front().unknowns.size() == 1) scalar_.emplace(build_system(parameters));
+  }
+
+  const HarmonicResponse& problem() const { return problem_; }
+
+  Guess at(const BranchPoint& point) const {
+    Guess at{point.unknowns, point.parameters, point.regime};
+    if (!scalar_) return at;
+    const Complex r = scalar_->motion(point.unknowns, point.parameters, point.regime);
+    at.unknowns = Eigen::Vector2d(r.real(), r.imag());
+    return at;
+  }
+
+ private:
+  HarmonicResponse problem_;
+  std::optional<ForcedResponse> scalar_;
+};
+
+double power_error(const HarmonicResponse& problem, const Guess& at) {
+  return power_balance(problem, at.unknowns, at.parameters, at.regime).error();
+}
+
 /// The same motion in the harmonics of another problem, those that are new being zero.
 Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
   Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
@@ -112,33 +140,30 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 
 }  // namespace
 
+double largest_power_error(const SystemParameters& parameters, const std::vector<int>& orders,
+                           const continuation::Branch& branch) {
+  if (branch.points.empty()) return 0;
+  const BalancedPoints known(parameters, orders, branch);
+  double largest = 0;
+  for (const BranchPoint& point : branch.points)
+    largest = std::max(largest, power_error(known.problem(), known.at(point)));
+  return largest;
+}
+
 std::vector<Verification> verify(const SystemParameters& parameters, const std::vector<int>& orders,
                                  const continuation::Branch& branch, const VerifyOptions& options) {
-  const HarmonicResponse problem = balanced(parameters, orders);
+  const BalancedPoints known(parameters, orders, branch);
+  const HarmonicResponse& problem = known.problem();
   const int highest = std::min(2 * orders.back() + 13, 2 * most_harmonics - 1);
   const HarmonicResponse more = balanced(parameters, odd_up_to(highest));
   const std::optional<Ring> ring = options.in_time ? assembled(parameters) : std::nullopt;
-  const std::optional<ForcedResponse> scalar = branch.points.front().unknowns.size() == 1
-                                                   ? std::optional(ForcedResponse(build_system(parameters)))
-                                                   : std::nullopt;
   std::vector<Verification> all;
   const std::vector<std::size_t> points = chosen(branch, options);
   for (const std::size_t i : points) {
     if (options.progress && !options.progress(all.size(), points.size())) break;
     const BranchPoint& point = branch.points[i];
-    Guess at{point.unknowns, point.parameters, point.regime};
-    if (scalar) {
-      const Complex r = scalar->motion(point.unknowns, point.parameters, point.regime);
-      at.unknowns = Vector(2);
-      at.unknowns << r.real(), r.imag();
-    }
-    Verification one{i,
-                     first_harmonic(problem, at),
-                     power_balance(problem, at.unknowns, at.parameters, at.regime).error(),
-                     highest,
-                     none,
-                     none,
-                     none};
+    const Guess at = known.at(point);
+    Verification one{i, first_harmonic(problem, at), power_error(problem, at), highest, none, none, none};
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {

@@ -12,6 +12,7 @@
 #include "arcslip/sector_pair.hpp"
 #include "certificate_results.hpp"
 #include "full_receptance.hpp"
+#include "verification_results.hpp"
 
 namespace arcslip {
 namespace {
@@ -179,6 +180,10 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
     summary[is_full(system) ? "full_solves" : "reduction"] = modes_to_json(system);
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
+  if (why_not_verifiable(*traced.request).empty()) {
+    summary["power_error"] = problems::largest_power_error(traced.request->problem.system,
+                                                           harmonics_of(*traced.base), traced.branch);
+  }
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
   summary["work"] = {{"evaluations", work.evaluations},

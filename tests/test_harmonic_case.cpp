@@ -35,6 +35,17 @@ TEST_CASE("The case of three numbers of harmonics has the peaks that it says", "
   CHECK_THAT(text, ContainsSubstring("nan"));  // what one harmonic has no value for
 }
 
+TEST_CASE("The summary of every forced response says how far its power is balanced", "[harmonics]") {
+  for (const char* name : {"figure_8", "harmonics", "preload_response"}) {
+    const Run run(name);
+    const nlohmann::ordered_json summary = summarize(run.input, run.traced, 0);
+    for (const auto& branch : summary["branches"]) {
+      CAPTURE(name, branch["branch"].dump());
+      CHECK(branch["power_error"].get<double>() < 1e-6);  // the residual 1e-10 over the damping ratio 1e-4
+    }
+  }
+}
+
 TEST_CASE("The case of a nonlinear mode runs from its frequency in stick to that of the base alone",
           "[cases]") {
   const Run run("nonlinear_mode");

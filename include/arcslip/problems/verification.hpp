@@ -12,6 +12,11 @@
 
 namespace arcslip::problems {
 
+/// The largest error of PowerBalance at the points of a branch, which is one of HarmonicResponse, or of
+/// ForcedResponse, with the system of `parameters` in `orders`.
+double largest_power_error(const SystemParameters& parameters, const std::vector<int>& orders,
+                           const continuation::Branch& branch);
+
 /// NaN where a method has no result.
 struct Verification {
   std::size_t point;   ///< of the branch
@@ -32,7 +37,7 @@ struct VerifyOptions {
   std::function<bool(std::size_t, std::size_t)> progress = {};
 };
 
-/// `branch` is one of HarmonicResponse, or of ForcedResponse, with the system of `parameters` in `orders`.
+/// Solves special points of such a branch, and some others, anew.
 std::vector<Verification> verify(const SystemParameters& parameters, const std::vector<int>& orders,
                                  const continuation::Branch& branch, const VerifyOptions& options = {});
 
