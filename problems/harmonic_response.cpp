@@ -58,7 +58,7 @@ HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vec
   return sum;
 }
 
-HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value) const {
+HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value, int regime) const {
   const double h = system_.orders[at(which)];
   const ContactReceptance base = system_.base[at(which)].at(h * eta_value);
   const ContactReceptance damper = system_.damper[at(which)].at(h * eta_value);
@@ -67,6 +67,10 @@ HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value) c
   for (Index j = 0; j < contacts(); ++j) {
     stuck.col(j) *= system_.contacts[at(j)].stiffness;
     stuck_eta.col(j) *= system_.contacts[at(j)].stiffness;
+  }
+  if (regime == 0 && which > 0) {  // r_h = 0, also where C_h has an undamped resonance
+    stuck.setZero();
+    stuck_eta.setZero();
   }
   stuck.diagonal().array() += 1.0;
   const Eigen::PartialPivLU<ContactMatrix> factors(stuck);
@@ -101,7 +105,7 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   rows.left.resize(at(contacts() * contacts()), HarmonicVector(harmonics()));
   for (HarmonicVector& row : rows.residual) row.resize(harmonics());
   for (HarmonicVector& row : rows.left) row.resize(harmonics());
-  for (Index a = 0; a < harmonics(); ++a) fill_order(order(a, p(eta)), friction, u, p, rows, out);
+  for (Index a = 0; a < harmonics(); ++a) fill_order(order(a, p(eta), regime), friction, u, p, rows, out);
   if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, *out.jacobian);
   return true;
 }

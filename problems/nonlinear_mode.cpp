@@ -54,10 +54,11 @@ const std::vector<ContactForce>& NonlinearMode::forces(const Vector& u, const Ve
   return all;
 }
 
-NonlinearMode::Order NonlinearMode::order(Index which, const Vector& u) const {
+NonlinearMode::Order NonlinearMode::order(Index which, const Vector& u, int regime) const {
   const double h = system_.orders[at(which)];
   Order order{which, ContactMatrix::Zero(contacts(), contacts()), ContactMatrix::Zero(contacts(), contacts()),
               ContactMatrix::Zero(contacts(), contacts())};
+  if (regime == 0 && which > 0) return order;  // r_h = 0, also where C_h has an undamped resonance
   for (const ContactModes* structure : {&system_.base[at(which)], &system_.damper[at(which)]}) {
     const DampedReceptance found = structure->damped(h * u(frequency), -2 * u(damping) * u(frequency));
     const ContactMatrix by_eta = h * found.compliance_eta - 2 * u(damping) * found.compliance_mass;
@@ -84,7 +85,7 @@ bool NonlinearMode::evaluate(const Vector& u, const Vector& p, int regime,
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
   for (Index a = 0; a < harmonics(); ++a) {
-    const Order at_order = order(a, u);
+    const Order at_order = order(a, u, regime);
     for (Index i = 0; i < contacts(); ++i) fill_row(at_order, i, friction, u, p, out);
   }
   return true;

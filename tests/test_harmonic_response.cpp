@@ -173,6 +173,20 @@ TEST_CASE("Branches of random systems in five harmonics reach their end and lose
   }
 }
 
+TEST_CASE(
+    "A harmonic that moves both rings as rigid bodies has an undamped resonance, which stick does not feel",
+    "[harmonics]") {
+  // of 9 nodes harmonic 9 moves all alike; nothing damps the stuck rings against each other at eta = 0.6126
+  for (const double preload : {1.0, 50.0}) {
+    SystemParameters parameters = rods(preload);
+    parameters.elements = 9;
+    const HarmonicResponse problem = balanced(parameters, 9);
+    const Branch branch = response(problem, preload, 0.5, 20);
+    CAPTURE(preload, branch.explanation);
+    CHECK(branch.complete());
+  }
+}
+
 TEST_CASE("All derivatives with several harmonics are exact", "[harmonics]") {
   RandomSystems draw(5);
   for (int i = 0; i < 12; ++i) {

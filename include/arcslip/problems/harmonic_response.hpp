@@ -92,7 +92,7 @@ class HarmonicResponse : public continuation::Problem {
     ContactVector free;  // y_0, 0 above the first
     ContactVector free_eta;
   };
-  Order order(Index which, double eta_value) const;
+  Order order(Index which, double eta_value, int regime) const;
   struct Rows;
   void fill_order(const Order& order, const std::vector<ContactForce>& friction, const Vector& u,
                   const Vector& p, Rows& rows, const continuation::Evaluation& out) const;

@@ -77,7 +77,7 @@ class NonlinearMode : public continuation::Problem {
     double amplitude;  // a
     double load;       // |psi^H l|
   };
-  Order order(Index which, const Vector& u) const;
+  Order order(Index which, const Vector& u, int regime) const;
   HarmonicVector motion(const Vector& u, const Vector& p, Index contact) const;
   double load(const Vector& u, const Vector& p) const;
   double threshold(Index contact, const Vector& u, const Vector& p) const;
