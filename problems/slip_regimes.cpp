@@ -27,7 +27,8 @@ SlipBorder slip_border(const std::vector<int>& orders, const HarmonicVector& mot
   SlipBorder border{sign * (square - threshold * threshold) / sum, HarmonicVector(motion.size()),
                     -slope * square};
   for (Index a = 0; a < motion.size(); ++a) {
-    border.by_motion(a) = std::polar(slope * top.value, -orders[static_cast<std::size_t>(a)] * top.angle);
+    border.by_motion(a) =
+        slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);
   }
   return border;
 }
