@@ -32,7 +32,7 @@ double HarmonicResponse::load(const Vector& p) const {
   return p(preload) + system_.preload_growth * p(eta) * p(eta);
 }
 
-double HarmonicResponse::threshold(Index contact, const Vector& p) const {
+double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
   return system_.contacts[at(contact)].slip_per_preload * load(p);
 }
 
@@ -41,7 +41,7 @@ const std::vector<ContactForce>& HarmonicResponse::forces(const Vector& u, const
   thread_local std::vector<ContactForce> all;
   all.resize(at(contacts()));
   for (Index i = 0; i < contacts(); ++i) {
-    all[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness, threshold(i, p),
+    all[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness, slip_threshold(i, p),
                    slips(regime, i), derivatives);
   }
   return all;
@@ -53,7 +53,7 @@ HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vec
   for (Index i = 0; i < contacts(); ++i) {
     for (Index a = 0; a < harmonics(); ++a) sum.forces[at(a)](i) = of_contacts[at(i)].harmonics(a);
     sum.energy +=
-        of_contacts[at(i)].energy * system_.contacts[at(i)].stiffness * std::pow(threshold(i, p), 2);
+        of_contacts[at(i)].energy * system_.contacts[at(i)].stiffness * std::pow(slip_threshold(i, p), 2);
   }
   return sum;
 }
@@ -186,7 +186,7 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
 double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
                                 continuation::Gradient* gradient) const {
   const SlipBorder at_border =
-      slip_border(system_.orders, motion(u, border), threshold(border, p), slips(regime, border));
+      slip_border(system_.orders, motion(u, border), slip_threshold(border, p), slips(regime, border));
   if (gradient != nullptr) {
     gradient->unknowns.setZero();
     for (Index a = 0; a < harmonics(); ++a) {
@@ -239,13 +239,13 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
     for (Index i = 0; i < m; ++i) {
       const Complex r = motion(u, i)(0);
       const double amplitude = std::abs(r);
-      const double ratio = amplitude / threshold(i, p);
+      const double ratio = amplitude / slip_threshold(i, p);
       const double energy = friction[at(i)].energy;
       if (i > 0) {
         values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)),
             energy;
       } else {
-        values.head<9>() << amplitude, threshold(0, p), ratio, std::abs(base(0)), std::abs(damper(0)),
+        values.head<9>() << amplitude, slip_threshold(0, p), ratio, std::abs(base(0)), std::abs(damper(0)),
             lag(base(0)), lag(damper(0)), lag(r), energy;
       }
     }
@@ -323,7 +323,7 @@ continuation::Guess HarmonicResponse::guess(double eta_value, double preload_val
   for (Index i = 0; i < contacts(); ++i) {
     guess.unknowns(2 * i * harmonics()) = r(i).real();
     guess.unknowns(2 * i * harmonics() + 1) = r(i).imag();
-    holding = std::max(holding, std::abs(r(i)) / threshold(i, guess.parameters));
+    holding = std::max(holding, std::abs(r(i)) / slip_threshold(i, guess.parameters));
   }
   if (holding <= 1) return guess;
 

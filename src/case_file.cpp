@@ -7,7 +7,9 @@
 #include <limits>
 #include <tuple>
 
+#include "arcslip/problems/floquet_response.hpp"
 #include "arcslip/runs.hpp"
+#include "arcslip/sector_pair.hpp"
 #include "continuation_section.hpp"
 #include "for_each.hpp"
 #include "sector_section.hpp"
@@ -21,9 +23,9 @@ using continuation::PointType;
 using nlohmann::ordered_json;
 using problems::LibraryModel;
 
-const std::vector<std::string> branch_keys = {"parameter", "parameters",    "from",      "to",    "eta",
-                                              "start",     "all_solutions", "switching", "curve", "window",
-                                              "response",  "for_each",      "extrema_of"};
+const std::vector<std::string> branch_keys = {
+    "parameter", "parameters", "from",   "to",       "eta",      "start",      "all_solutions",
+    "switching", "curve",      "window", "response", "for_each", "extrema_of", "stability"};
 const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
 
 const LibraryModel* read_model(const TomlDocument& document) {
@@ -70,6 +72,7 @@ class BranchSection {
     }
     read_range(branch);
     read_extrema(branch);
+    branch.problem.stability = section_.boolean("stability", false);
     return branch;
   }
 
@@ -174,6 +177,40 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseB
   }
 }
 
+/// Whether stiffness is complex, which has no motion in time.
+bool is_structural(const SystemParameters& system) {
+  if (!system.sectors) return system.base_damping_kind == DampingKind::structural;
+  const SectorPart* damper = system.sectors->damper();
+  return system.sectors->base().loss(system.base_damping).structural != 0 ||
+         (damper != nullptr && damper->loss(system.damper_damping).structural != 0);
+}
+
+/// Refuses stability of what has no exponents.
+void check_stability(const TomlSection& section, const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  const SystemParameters& system = problem.system;
+  if (!problem.stability) return;
+  if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
+  if (branch.curve) section.fail("stability", "not beside curve");
+  if (problem.response != Response::forced || system.cubic_stiffness != 0)
+    section.fail("stability", "only for the forced response without cubic springs");
+  if (is_structural(system))
+    section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
+  if (system.sectors && system.sectors->path() == SectorPath::full)
+    section.fail("stability", R"(needs the modes of path = "reduced")");
+  check_waves(section, "stability", system, problems::even_orders(system));
+}
+
+/// The value of the second parameter at which the first points of a curve are looked for.
+void find_seed(const TomlSection& section, CaseBranch& branch) {
+  const continuation::TraceOptions& options = branch.options;
+  branch.curve->seed = fixed_value(branch.problem, options.parameter);
+  const auto [low, high] = std::minmax({options.from, options.to});
+  if (branch.curve->seed >= low && branch.curve->seed <= high) return;
+  section.fail("from", fmt::format("the curve is looked for at {} = {:g}, which is not between {:g} and {:g}",
+                                   options.parameter, branch.curve->seed, low, high));
+}
+
 /// The eta that the branches pass; 0 where they are unknown beforehand.
 std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
                                     const CaseBranch& common, const std::string& parameter) {
@@ -232,16 +269,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& settings
           .fail("harmonics", "\"auto\" is only for the forced response");
     if (model == nullptr && parameter != "eta" && !branch.problem.is_limit_cycle())
       branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());
-    if (branch.curve) {
-      branch.curve->seed = fixed_value(branch.problem, branch.options.parameter);
-      const double low = std::min(branch.options.from, branch.options.to);
-      const double high = std::max(branch.options.from, branch.options.to);
-      if (!(branch.curve->seed >= low && branch.curve->seed <= high)) {
-        section.fail("from",
-                     fmt::format("the curve is looked for at {} = {:g}, which is not between {:g} and {:g}",
-                                 branch.options.parameter, branch.curve->seed, low, high));
-      }
-    }
+    if (branch.curve) find_seed(section, branch);
+    check_stability(section, branch);
     result.branches.push_back(std::move(branch));
   }
   check_extrema(section, result.branches.front());

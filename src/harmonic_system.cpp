@@ -1,5 +1,6 @@
 #include "arcslip/harmonic_system.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -61,7 +62,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     SystemParameters wave = parameters;
     wave.wave_number = h * parameters.wave_number % parameters.elements;
     wave.eta_low = h * parameters.eta_low;
-    wave.eta_high = h * parameters.eta_high;
+    wave.eta_high = std::max(h, 1) * parameters.eta_high;
     if (h == 1) {
       system = one_harmonic(contact_system(parameters));
       continue;
@@ -71,6 +72,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));
+    system.contacts = std::move(of_order.contacts);
   }
   system.preload_growth = parameters.preload_growth;
   return system;

@@ -10,6 +10,7 @@
 #include "arcslip/continuation/newton.hpp"
 #include "arcslip/continuation/switching.hpp"
 #include "arcslip/problems/cubic_response.hpp"
+#include "arcslip/problems/floquet_response.hpp"
 #include "arcslip/problems/forced_response.hpp"
 #include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/limit_cycle.hpp"
@@ -50,7 +51,9 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
 /// The problem of a system with friction: of the type, which has the system's contacts and harmonics.
 template <class Type>
 std::shared_ptr<Type> build_problem(const SystemParameters& system) {
-  if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
+  if constexpr (std::is_same_v<Type, problems::FloquetResponse>) {
+    return std::make_shared<Type>(build_harmonic_system(system), problems::build_even_system(system));
+  } else if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
     return std::make_shared<Type>(build_harmonic_system(system));
   } else {
     return std::make_shared<Type>(build_system(system));
@@ -61,6 +64,7 @@ std::shared_ptr<Type> build_problem(const SystemParameters& system) {
 template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
   if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
+  if (request.stability) return use(std::type_identity<problems::FloquetResponse>{});
   if (needs_contact_system(request.system) || request.system.harmonics.size() > 1 ||
       request.harmonics_tolerance)
     return use(std::type_identity<problems::HarmonicResponse>{});
@@ -319,6 +323,7 @@ std::string why_not_certifiable(const CaseBranch& request) {
   if (problem.is_limit_cycle()) return "limit cycles";
   if (problem.response == Response::one_way) return "a one-way response";
   if (problem.is_mode()) return "nonlinear modes";
+  if (problem.stability) return "branches with stability";
   if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance) return "several harmonics";
   if (needs_contact_system(problem.system)) return "several contacts or the full path of a sector";
   if (problem.system.cubic_stiffness != 0) return "cubic springs";

@@ -143,15 +143,7 @@ void read_harmonics(const TomlSection& section, const SystemUse& use, ProblemReq
     section.fail("harmonics", "expected 1 for a study, limit cycles and one-way responses");
   if (several && problem.system.cubic_stiffness != 0)
     section.fail("harmonics", "expected 1 beside cubic_stiffness");
-  for (std::size_t i = 1; problem.system.sectors && i < orders.size(); ++i) {
-    const Index wave = orders[i] * problem.system.wave_number % problem.system.elements;
-    try {
-      problem.system.sectors->check({wave, problem.system.elements});
-    } catch (const SectorError& error) {
-      section.fail("harmonics",
-                   fmt::format("harmonic {}, which travels as {} waves: {}", orders[i], wave, error.what()));
-    }
-  }
+  check_waves(section, "harmonics", problem.system, orders);
 }
 
 void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
@@ -187,6 +179,19 @@ void read_settings(const TomlSection& section, const SystemUse& use,
 }
 
 }  // namespace
+
+void check_waves(const TomlSection& section, const std::string& key, const SystemParameters& system,
+                 const std::vector<int>& orders) {
+  if (!system.sectors) return;
+  for (const int h : orders) {
+    const Index wave = h * system.wave_number % system.elements;
+    try {
+      system.sectors->check({wave, system.elements});
+    } catch (const SectorError& error) {
+      section.fail(key, fmt::format("harmonic {}, which travels as {} waves: {}", h, wave, error.what()));
+    }
+  }
+}
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names = {"rods", "beams", "sector"};

@@ -33,6 +33,10 @@ struct SystemUse {
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem);
 
+/// Refuses sectors that cannot travel as the waves of these harmonics, in the name of a key.
+void check_waves(const TomlSection& section, const std::string& key, const SystemParameters& system,
+                 const std::vector<int>& orders);
+
 /// Adds the defaults that were taken to the section as JSON.
 void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& section);
 

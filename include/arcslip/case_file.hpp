@@ -46,6 +46,8 @@ struct ProblemRequest {
   /// Where harmonics are added while tracing: the largest one left out, relative to R.
   std::optional<double> harmonics_tolerance;
 
+  bool stability = false;  ///< whether its points come with their Floquet exponents
+
   bool is_limit_cycle() const { return response == Response::limit_cycle; }
   bool is_mode() const { return response == Response::nonlinear_mode; }
   bool is_free() const { return is_limit_cycle() || is_mode(); }  ///< whether eta is an unknown

@@ -63,6 +63,9 @@ class ContactModes {
   Index contacts() const { return contacts_; }
   const std::vector<ContactMode>& modes() const { return modes_; }
   const Loss& loss() const { return loss_; }
+  bool is_solved() const {
+    return receptance_ != nullptr;
+  }  ///< whether its response is not that of the modes
 
  private:
   Index contacts_;

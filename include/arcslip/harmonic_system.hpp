@@ -1,6 +1,6 @@
 #pragma once
 
-// Base, damper and their contacts in several odd harmonics. Under the travelling wave node i repeats node 1
+// Base, damper and their contacts in several harmonics. Under the travelling wave node i repeats node 1
 // with the delay (i - 1) a/w, so that harmonic h travels with the propagation constant h a at the frequency
 // h eta, and each has its own compliance, whatever N is:
 //
@@ -15,7 +15,7 @@ namespace arcslip {
 struct SystemParameters;
 
 struct HarmonicSystem {
-  std::vector<int> orders;           ///< h, odd and ascending from 1
+  std::vector<int> orders;           ///< h, ascending: of a response odd and from 1
   std::vector<ContactModes> base;    ///< of each order, the first with the travelling load
   std::vector<ContactModes> damper;  ///< of each order, without load
   std::vector<SectorContact> contacts;

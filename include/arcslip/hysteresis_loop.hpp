@@ -43,11 +43,16 @@ class HysteresisLoop {
 
   int slips() const { return slips_; }  ///< arcs of slip in half a period
 
- private:
+  /// An arc of stick, in theta.
   struct Arc {
     double begin;
     double width;
   };
+
+  /// Those of half a period.
+  std::span<const Arc> stick() const { return {stick_.data(), sticks_}; }
+
+ private:
   void march();
   double way_to_slip(double from, double longest, double room) const;
 

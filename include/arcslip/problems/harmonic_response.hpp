@@ -69,6 +69,9 @@ class HarmonicResponse : public continuation::Problem {
   /// r_h of a contact, of the unknowns.
   HarmonicVector motion(const Vector& u, Index contact) const;
 
+  /// S of a contact.
+  double slip_threshold(Index contact, const Vector& p) const;
+
   /// What friction does to the base; the damper feels the opposite.
   struct Friction {
     std::vector<ContactVector> forces;  ///< of each harmonic, the force on the base's contacts
@@ -100,7 +103,6 @@ class HarmonicResponse : public continuation::Problem {
                      Matrix& jacobian) const;
 
   double load(const Vector& p) const;  // P + P_2 eta^2
-  double threshold(Index contact, const Vector& p) const;
 
   HarmonicSystem system_;
 };
