@@ -1,6 +1,7 @@
 #include "arcslip/continuation/hill.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -104,6 +105,23 @@ FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficient
     }
   }
   return result;
+}
+
+double doubling_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h) {
+  const Index odd = twice_h + 1 - twice_h % 2;
+  Matrix hill = hill_matrix(coefficients, w, odd);
+  const Index n = coefficients.front().rows();
+  for (Index row = 0; row <= odd; ++row)  // to the size of -j i w, which the far ones approach
+    hill.middleRows(row * n, n) /=
+        std::hypot(1, w * (static_cast<double>(row) - 0.5 * static_cast<double>(odd)));
+  return hill.determinant();
+}
+
+Index significant(const ComplexVector& coefficients) {
+  const double least = 1e-12 * coefficients.cwiseAbs().maxCoeff();
+  Index count = coefficients.size();
+  while (count > 1 && !(std::abs(coefficients(count - 1)) > least)) --count;
+  return std::min(count + 2, coefficients.size());
 }
 
 }  // namespace arcslip::continuation

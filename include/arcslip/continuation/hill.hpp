@@ -29,4 +29,12 @@ struct FloquetExponents {
 /// exactly where a rate vanishes. Costs two eigenvalue problems of about (2 h + 1) n.
 FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h);
 
+/// prod (1 + mu) but for a positive factor: Hill's determinant of i = +-1/2, +-3/2, ..., which has a simple
+/// zero where a rate of the same `twice_h` passes mu = -1.
+double doubling_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h);
+
+/// How many of the coefficients c_0, c_1, ... of a smooth periodic solution its exponents depend on: those
+/// above 1e-12 of the largest and two more, since what is left out counts by its square.
+Index significant(const ComplexVector& coefficients);
+
 }  // namespace arcslip::continuation
