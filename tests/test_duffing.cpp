@@ -5,6 +5,7 @@
 #include "arcslip/continuation/newton.hpp"
 #include "catch.hpp"
 #include "library_cases.hpp"
+#include "monodromy.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
@@ -188,4 +189,58 @@ TEST_CASE("Without damping and next to no force the oscillator's frequency is th
   CHECK_THAT(amplitude_of(23, row.frequency), WithinRel(row.amplitude, 1e-8));
   const double one_harmonic = std::sqrt(1 + 0.75 * row.amplitude * row.amplitude);
   CHECK_THAT(amplitude_of(1, one_harmonic), WithinRel(row.amplitude, 1e-8));
+}
+
+TEST_CASE("Duffing's response is unstable from fold to fold, where a real exponent vanishes", "[hill]") {
+  const double harmonics = GENERATE(1, 3, 9);
+  const double force = GENERATE(0.18, 0.3);
+  CAPTURE(harmonics, force);
+  const Instance duffing("duffing", {{"harmonics", harmonics}, {"force", force}});
+  const Branch branch = response(duffing);
+  int folds = 0;
+  for (const BranchPoint& point : branch.points) {
+    CAPTURE(point.parameters(0), point.eigenvalues);
+    REQUIRE(point.eigenvalues.size() == 2);
+    CHECK_THAT(point.eigenvalues.sum().real(), WithinAbs(-damping, 1e-9));  // Liouville
+    if (point.type == PointType::fold) {
+      ++folds;
+      CHECK(point.eigenvalues.cwiseAbs().minCoeff() < 1e-8);  // as sharp as the fold is located
+    } else {
+      CHECK((point.type == PointType::regular || point.type == PointType::start ||
+             point.type == PointType::end));
+      CHECK(point.unstable == (folds == 1 ? 1 : 0));
+    }
+  }
+  CHECK(folds == 2);
+}
+
+TEST_CASE("Duffing's exponents are those of the monodromy matrix, also where symmetry is lost", "[hill]") {
+  // At this force the response loses its symmetry over a range below W = 1: an exponent vanishes away from
+  // folds.
+  const Instance duffing("duffing", {{"harmonics", 25}, {"force", 8}, {"k3", 1}, {"delta", 0.1}});
+  TraceOptions options = over("W", 2.5, 0.9);
+  options.max_step = 0.05;
+  const Branch branch = duffing.trace(options);
+  REQUIRE(branch.complete());
+  int unstable = 0;
+  for (const BranchPoint& point : branch.points) {
+    const double W = point.parameters(0);
+    const auto slope = [&](double t) {
+      double q = 0;
+      for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
+        const double turn = static_cast<double>(2 * k + 1) * W * t;
+        q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
+      }
+      return Eigen::Matrix2d{{0, 1}, {-1 - 3 * q * q, -0.1}};
+    };
+    const double period = 2 * M_PI / W;
+    const ComplexVector found = (point.eigenvalues * period).array().exp();
+    const Matrix brute = monodromy(slope, period, 1000);
+    CAPTURE(W, found, brute.eigenvalues());
+    // Near a double multiplier the values are as the square root of the error; their sum is not.
+    CHECK(std::abs(found.sum() - brute.trace()) < 1e-5);
+    WARN(to_string(point.type) << W << " " << point.eigenvalues.transpose() << " d "
+                               << std::abs(found.sum() - brute.trace()));
+    unstable += point.unstable;
+  }
 }
