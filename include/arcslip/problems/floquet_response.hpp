@@ -20,7 +20,7 @@ class FloquetResponse : public HarmonicResponse {
   /// sigma of DisturbanceFlow, lambda = 2 pi sigma.
   bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
 
-  continuation::PointType pair_crossing() const override { return continuation::PointType::hopf; }
+  continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
  private:
   DisturbanceFlow odd_;
