@@ -263,7 +263,9 @@ class Search {
   void eigenvalues() {
     const auto after = static_cast<int>((eigenvalues_at_upper_.real().array() > 0).count());
     if (signs_.unstable < 0 || eigenvalues_at_upper_.size() == 0) return;
-    for (int i = std::min(signs_.unstable, after); i < std::max(signs_.unstable, after); ++i) {
+    const int way = after > signs_.unstable ? 1 : -1;
+    const int first = way > 0 ? signs_.unstable : signs_.unstable - 1;  // crosses before the others
+    for (int i = first; i != first + after - signs_.unstable; i += way) {
       const auto value = [&](Stepper& stepper) {
         watch_.look(stepper.probed_point());
         return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;

@@ -77,7 +77,9 @@ class Decision {
     table_.require({parameter, "S", "R_over_S", "Y", "beta", "alpha", "psi", "dissipated"});
     std::vector<Picture> all;
     for (const char* name : {"amplitude", "relative", "phases", "phase_difference", "dissipated"})
-      all.push_back({name, name, settings(parameter, table_.has("unstable") ? "stability" : "regimes", quote("")), "branches.csv"});
+      all.push_back({name, name,
+                     settings(parameter, table_.has("unstable") ? "stability" : "regimes", quote("")),
+                     "branches.csv"});
     return all;
   }
 
