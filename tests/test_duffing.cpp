@@ -181,6 +181,7 @@ TEST_CASE("Without damping and next to no force the oscillator's frequency is th
       const double pull = sign * 0.02 * row.amplitude * square / (1 + square);  // a per cent of the amplitude
       const Branch branch = trace(*duffing.problem, guess, over("force", pull, 1e-5 * pull));
       REQUIRE(branch.stop == Stop::reached_end);
+      CHECK(of_type(branch, PointType::neimark_sacker).empty());  // its pairs are on the axis all along
       const Vector& end = branch.points.back().unknowns;
       for (Index i = 0; i < end.size(); i += 2) mean += 0.5 * end(i);
     }
