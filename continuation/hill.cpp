@@ -62,8 +62,6 @@ void add_candidates(const std::vector<ComplexMatrix>& coefficients, double w, In
   const Eigen::EigenSolver<Matrix> solver(hill);
   const ComplexVector values = solver.eigenvalues();
   const ComplexMatrix vectors = solver.eigenvectors();
-  // A system without damping has real parts that are rounding alone.
-  const double rounding = 1e-14 * hill.cwiseAbs().rowwise().sum().maxCoeff();
   for (Index v = 0; v < values.size(); ++v) {
     if (values(v).imag() < 0) continue;
     Candidate candidate{values(v), twice_h % 2 != 0, 0, 0};
@@ -76,7 +74,6 @@ void add_candidates(const std::vector<ComplexMatrix>& coefficients, double w, In
     }
     candidate.mean = std::abs(candidate.mean) / vectors.col(v).squaredNorm();
     candidate.spread /= vectors.col(v).squaredNorm();
-    if (candidate.count() == 2 && std::abs(candidate.rate.real()) < rounding) candidate.rate.real(0);
     candidates.push_back(candidate);
   }
 }

@@ -127,6 +127,7 @@ bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regi
     coefficients[static_cast<std::size_t>(k)](1, 0) -= 3 * p(cubic) * square;
   }
   values = continuation::floquet_exponents(coefficients, 2 * p(frequency), 2 * pairs - 1).rates;
+  if (values(0).imag() != 0) values.real().setConstant(-0.5 * p(damping));  // Liouville, without rounding
   return values.allFinite();
 }
 

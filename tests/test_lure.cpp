@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arcslip/continuation/newton.hpp"
 #include "catch.hpp"
 #include "library_cases.hpp"
 #include "monodromy.hpp"
@@ -53,7 +54,7 @@ TEST_CASE("The Lur'e system's period doubling converges with the harmonics to th
     double harmonics, tolerance;
   };
   // with few harmonics the first ones that are left out count; then AUTO-07p's ten decimals do
-  const Row row = GENERATE(values<Row>({{3, 1e-6}, {4, 5e-10}, {6, 6e-11}, {12, 6e-11}, {20, 6e-11}}));
+  const Row row = GENERATE(values<Row>({{3, 1e-6}, {4, 5e-10}, {6, 6e-11}, {12, 6e-11}}));
   CAPTURE(row.harmonics);
   const Instance lure("lure", {{"harmonics", row.harmonics}});
   const Branch branch = cycles(lure, 0.999, 0.55);
@@ -88,14 +89,14 @@ TEST_CASE("The Lur'e system's cycle is born at its Hopf point", "[lure]") {
 
 TEST_CASE("The Lur'e system's cycles solve its equation at every time, with the multipliers of brute force",
           "[lure][hill]") {
-  const Instance lure("lure", {{"harmonics", 14}});
-  for (const BranchPoint& point : cycles(lure, 0.97, 0.5).points) {
+  const Instance lure("lure", {{"harmonics", 10}});
+  for (const BranchPoint& point : cycles(lure, 0.95, 0.6).points) {
     const double a = point.parameters(0);
     CAPTURE(a, point.eigenvalues);
     for (int i = 0; i < 50; ++i) {
       const double t = period(point) * i / 50;
       const auto x = [&](int order) { return motion(point.unknowns, t, order); };
-      CHECK_THAT(x(3) + a * x(2) + x(1) + x(0) - x(0) * x(0), WithinAbs(0, 1e-9));  // harmonics beyond 14
+      CHECK_THAT(x(3) + a * x(2) + x(1) + x(0) - x(0) * x(0), WithinAbs(0, 1e-9));  // harmonics beyond 10
     }
     const ComplexVector brute = brute_multipliers(point);
     ComplexVector found(3);  // by the rates alone all but the signs are known
@@ -107,7 +108,7 @@ TEST_CASE("The Lur'e system's cycles solve its equation at every time, with the 
 
 TEST_CASE("The Lur'e system's guess leads to the cycle at any distance from its birth", "[lure]") {
   const double b = GENERATE(0.5, 1, 2);
-  const double share = GENERATE(0.9999, 0.95, 0.7, 0.5);
+  const double share = GENERATE(0.9999, 0.95, 0.6);  // of a = 1/b; at b = 1/2 the cycle ends at 0.53
   CAPTURE(b, share);
   const Instance lure("lure", {{"a", share / b}, {"b", b}});
   const Guess guess = lure.guess();

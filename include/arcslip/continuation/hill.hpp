@@ -25,7 +25,7 @@ struct FloquetExponents {
 };
 
 /// `coefficients` A_0, A_1, ..., n x n, those that are left out being zero; `twice_h` = 2 h >= 1 makes i
-/// whole if even; the other i go one half further. A solution by the same harmonics has a fold, or mu = -1,
+/// whole if even; the other i go one half further. A solution by the same terms has a fold, or mu = -1,
 /// exactly where a rate vanishes. Costs two eigenvalue problems of about (2 h + 1) n.
 FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h);
 
