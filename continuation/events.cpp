@@ -270,12 +270,11 @@ class Search {
         watch_.look(stepper.probed_point());
         return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;
       };
-      const int before = after > signs_.unstable ? -1 : 1;
       watch_.look(stepper_.here());
       const double here = watch_.eigenvalues()(i).real();
       if (here == 0 || eigenvalues_at_upper_(i).real() == 0)
         continue;  // on the axis all along, or split there
-      const Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
+      const Zero zero = locate(stepper_, {upper_, here, -way, eigenvalues_at_upper_(i).real()}, value);
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);
       const Complex at_zero = watch_.eigenvalues()(i);

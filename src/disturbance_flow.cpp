@@ -54,15 +54,24 @@ Matrix chebyshev_derivative(const Vector& x) {
   return derivative;
 }
 
+/// The lowest frequency but 0 of all harmonics.
+double slowest_rate(const HarmonicSystem& system) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const auto* structures : {&system.base, &system.damper}) {
+    for (const ContactModes& structure : *structures) {
+      for (const ContactMode& mode : structure.modes()) {
+        if (mode.frequency > 0) slowest = std::min(slowest, mode.frequency);
+      }
+    }
+  }
+  return slowest;
+}
+
 /// The modes that count: what moves the contacts by less than rounding at a very high rate, as the second
 /// modes of short elements, would only drown the rates of the others.
-std::vector<ContactMode> noticeable(const ContactModes& structure) {
+std::vector<ContactMode> noticeable(const ContactModes& structure, double slowest) {
   constexpr double fast = 1e5;  // over the slowest one
   constexpr double stiff = 1e-13;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const ContactMode& mode : structure.modes()) {
-    if (mode.frequency > 0) slowest = std::min(slowest, mode.frequency);
-  }
   const auto flexibility = [&](const ContactMode& mode) {
     return mode.shape.squaredNorm() / (mode.frequency * mode.frequency + slowest * slowest);
   };
@@ -90,10 +99,11 @@ DisturbanceFlow::DisturbanceFlow(const HarmonicSystem& system, std::vector<int> 
   springs_.resize(std::ssize(system.contacts));
   for (Index i = 0; i < springs_.size(); ++i)
     springs_(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
+  const double slowest = slowest_rate(system);
   for (Index a = 0; a < std::ssize(orders_); ++a) {
     std::vector<Oscillator> rigid;
     for (const auto* structures : {&system.base, &system.damper}) {
-      for (const Oscillator& mode : oscillators(a, (*structures)[static_cast<std::size_t>(a)]))
+      for (const Oscillator& mode : oscillators(a, (*structures)[static_cast<std::size_t>(a)], slowest))
         (mode.frequency > 0 ? modes_ : rigid).push_back(mode);
     }
     for (const Oscillator& mode : joined(rigid)) modes_.push_back(mode);
@@ -110,12 +120,13 @@ DisturbanceFlow::DisturbanceFlow(const HarmonicSystem& system, std::vector<int> 
 
 /// The modes of one structure in one harmonic.
 std::vector<DisturbanceFlow::Oscillator> DisturbanceFlow::oscillators(Index order,
-                                                                      const ContactModes& structure) const {
+                                                                      const ContactModes& structure,
+                                                                      double slowest) const {
   const Loss& loss = structure.loss();
   if (loss.structural != 0 || structure.is_solved())
     throw std::invalid_argument("DisturbanceFlow: stability needs modes with viscous or modal damping");
   std::vector<Oscillator> all;
-  for (const ContactMode& mode : noticeable(structure)) {
+  for (const ContactMode& mode : noticeable(structure, slowest)) {
     all.push_back({order, mode.frequency, loss.part_eta(mode.frequency), mode.shape});
     Index largest = 0;
     const double size = mode.shape.cwiseAbs().maxCoeff(&largest);

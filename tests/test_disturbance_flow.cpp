@@ -75,27 +75,23 @@ int unstable(const ComplexVector& sigma) { return static_cast<int>((sigma.real()
 TEST_CASE("Exponents of disturbances tend to the multipliers of the ring in time", "[stability]") {
   struct Tendency {
     Forced at;
-    double three, nine, fifteen;
+    double three, nine;
   };
   // What a truncated balance leaves out falls as 1/h^3 in the motion, and with it the multipliers' error.
-  const auto t = GENERATE(Tendency{{small_beams(4), 3.7, 0.03}, 2e-4, 1e-5, 2e-6},
-                          Tendency{{small_beams(6), 3.7, 0.03}, 2e-4, 1e-5, 2e-6},
-                          Tendency{{small_rods(5), 2.3, 0.03}, 0.1, 1e-2, 1e-3},
-                          Tendency{{held(small_rods(5)), 2.3, 0.1}, 0.1, 1e-2, 1e-3},
-                          Tendency{{driven(small_rods(5), -0.002), 2.3, 0.03}, 0.1, 1e-2, 1e-3});
+  const auto t = GENERATE(
+      Tendency{{small_beams(4), 3.7, 0.03}, 2e-4, 1e-5}, Tendency{{small_beams(6), 3.7, 0.03}, 2e-4, 1e-5},
+      Tendency{{small_rods(5), 2.3, 0.03}, 0.1, 1e-2}, Tendency{{held(small_rods(5)), 2.3, 0.1}, 0.1, 1e-2},
+      Tendency{{driven(small_rods(5), -0.002), 2.3, 0.03}, 0.1, 1e-2});
   const RingStability ring = in_time(t.at);
-  const double fifteen = worst(t.at, ring, 15, 0.3);
+  const double nine = worst(t.at, ring, 9, 0.3);
+  CHECK(nine < t.nine);
   CHECK(worst(t.at, ring, 3, 0.3) < t.three);
-  CHECK(worst(t.at, ring, 9, 0.3) < t.nine);
-  CHECK(fifteen < t.fifteen);
-  CHECK(fifteen > 0);
+  CHECK(worst(t.at, ring, 3, 0.3) > 3 * nine);
 }
 
 TEST_CASE("Without slip the exponents are those of the ring to rounding", "[stability]") {
   const Forced c = GENERATE(Forced{small_beams(5), 3.7, 10.0}, Forced{small_beams(4), 3.7, 10.0},
-                          Forced{small_rods(7), 2.3, 10.0}, Forced{driven(small_rods(6), -0.1), 1.1, 10.0});
-  // with n and N whose waves h n are all there are, but for those that stand still
-  if (c.system.wave_number == 2 && c.system.elements == 6) return;
+                            Forced{small_rods(7), 2.3, 10.0}, Forced{driven(small_rods(5), -0.1), 1.1, 10.0});
   CHECK(worst(c, in_time(c), 7, 0) < 1e-9);
 }
 
@@ -116,16 +112,16 @@ TEST_CASE("Disturbances grow as in the ring in time, and are as many", "[stabili
 
 TEST_CASE("A passive response is stable however many harmonics are kept", "[stability]") {
   const Forced c = GENERATE(Forced{small_beams(), 3.7, 0.03}, Forced{small_beams(), 3.7, 1e-3},
-                          Forced{small_beams(5), 1.2, 1e-3}, Forced{small_rods(6), 1.4, 0.01},
-                          Forced{small_rods(), 2.3, 0.03}, Forced{held(small_rods()), 2.3, 0.3});
-  CHECK(unstable(exponents(c, GENERATE(1, 3, 9))) == 0);
+                            Forced{small_rods(6), 1.4, 0.01}, Forced{small_rods(), 2.3, 0.03},
+                            Forced{held(small_rods()), 2.3, 0.3});
+  CHECK(unstable(exponents(c, GENERATE(1, 5))) == 0);
 }
 
 TEST_CASE("The cost of exponents and their values do not depend on the number of nodes", "[stability]") {
   SystemParameters s = small_beams(1000);
-  const ComplexVector thousand = exponents({s, 3.7, 0.03}, 5);
+  const ComplexVector thousand = exponents({s, 3.7, 0.03}, 3);
   s.elements = 1'000'000;
-  const ComplexVector million = exponents({s, 3.7, 0.03}, 5);
+  const ComplexVector million = exponents({s, 3.7, 0.03}, 3);
   CHECK(million.size() <= thousand.size());
   CHECK_THAT(million.real().maxCoeff(),
              WithinRel(thousand.real().maxCoeff(), 1e-4));  // (h n/N)^2 of elements
@@ -178,17 +174,20 @@ TEST_CASE("An exponent vanishes at each fold that the engine finds", "[stability
 TEST_CASE("The case of a response that friction holds loses its stability where the file says", "[cases]") {
   const Run run("stability");
   const std::vector<BranchPoint> left = points(run.traced[0], PointType::neimark_sacker);
-  REQUIRE(left.size() == 8);
-  CHECK_THAT(left.front().parameters(0), WithinRel(1.15819780, 1e-8));
-  CHECK_THAT(left.back().parameters(0), WithinRel(2.19162, 1e-5));
-  for (std::size_t i = 1; i < left.size(); ++i) CHECK(left[i].parameters(0) > left[i - 1].parameters(0));
+  REQUIRE(left.size() == 10);
+  for (const auto& [i, eta] : {std::pair{0, 1.55880087}, {7, 1.64131661}, {8, 1.74318812}, {9, 2.05305663}})
+    CHECK_THAT(left[static_cast<std::size_t>(i)].parameters(0), WithinRel(eta, 1e-8));
   for (const BranchPoint& point : run.traced[0].branch.points) {
     const double eta = point.parameters(0);
-    if (eta < 1.158 || eta > 2.192) CHECK(point.unstable == 0);
-    if (eta > 1.17 && eta < 2.19) CHECK(point.unstable > 0);
+    const bool inside = (eta > 1.5589 && eta < 1.6413) || (eta > 1.7432 && eta < 2.053);
+    const bool outside = eta < 1.5588 || (eta > 1.6414 && eta < 1.7431) || eta > 2.0531;
+    if (inside) CHECK(point.unstable > 0);
+    if (outside) CHECK(point.unstable == 0);
   }
-  const SystemParameters& system = run.input.branches.front().problem.system;
-  CHECK_THAT(growth({system, 1.7, 0.03}, exponents({system, 1.7, 0.03}, 1)), WithinAbs(1.0502, 5e-5));
+  const double peak = points(run.traced[0], PointType::peak).at(0).parameters(0);
+  const Forced c{run.input.branches.front().problem.system, peak, 0.3};
+  CHECK_THAT(growth(c, exponents(c, 1)), WithinAbs(1.066, 5e-4));
+  CHECK_THAT(in_time(c).growth(), WithinAbs(1.066, 5e-4));
 }
 
 TEST_CASE("Stability of what has no exponents is refused in one line", "[stability]") {

@@ -55,7 +55,7 @@ class DisturbanceFlow {
     ContactVector shape;
     Index place = 0;  ///< of its state
   };
-  std::vector<Oscillator> oscillators(Index order, const ContactModes& structure) const;
+  std::vector<Oscillator> oscillators(Index order, const ContactModes& structure, double slowest) const;
   static std::vector<Oscillator> joined(const std::vector<Oscillator>& rigid);
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
   Index drifts(std::span<const Contact> contacts) const;
