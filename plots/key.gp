@@ -45,7 +45,7 @@ way_sample(i) = i <= styles ? sample : 0.25
 way_lines = 1
 line_width[1] = 0
 do for [i = 1:ways] {
-  entry = is_shown(i) ? way_sample(i) + 1.08 * text_width(way_title[i]) + gap : 0
+  entry = is_shown(i) ? way_sample(i) + 1.15 * text_width(way_title[i]) + gap : 0
   if (line_width[way_lines] + entry - gap > width - 0.2) {
     way_lines = way_lines + 1
     line_width[way_lines] = 0

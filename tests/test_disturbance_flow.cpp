@@ -184,9 +184,9 @@ TEST_CASE("The case of a response that friction holds loses its stability where 
     if (inside) CHECK(point.unstable > 0);
     if (outside) CHECK(point.unstable == 0);
   }
-  const double peak = points(run.traced[0], PointType::peak).at(0).parameters(0);
-  const Forced c{run.input.branches.front().problem.system, peak, 0.3};
-  CHECK_THAT(growth(c, exponents(c, 1)), WithinAbs(1.066, 5e-4));
+  const BranchPoint peak = points(run.traced[0], PointType::peak).at(0);
+  const Forced c{run.input.branches.front().problem.system, peak.parameters(0), 0.3};
+  CHECK_THAT(growth(c, peak.eigenvalues), WithinAbs(1.066, 5e-4));
   CHECK_THAT(in_time(c).growth(), WithinAbs(1.066, 5e-4));
 }
 
