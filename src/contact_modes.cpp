@@ -26,29 +26,44 @@ ContactModes ContactModes::solved_by(Receptance receptance) const {
   return solved;
 }
 
+void ContactReceptance::set_zero(Index contacts) {
+  compliance.setZero(contacts, contacts);
+  compliance_eta.setZero(contacts, contacts);
+  free.setZero(contacts);
+  free_eta.setZero(contacts);
+}
+
 ContactReceptance ContactModes::at(double eta) const {
-  if (receptance_) return receptance_(eta);
   ContactReceptance response;
-  response.compliance.setZero(contacts_, contacts_);
-  response.compliance_eta.setZero(contacts_, contacts_);
-  response.free.setZero(contacts_);
-  response.free_eta.setZero(contacts_);
+  response.set_zero(contacts_);
+  add(eta, response);
+  return response;
+}
+
+void ContactModes::add(double eta, ContactReceptance& sum) const {
+  if (receptance_) {
+    const ContactReceptance response = receptance_(eta);
+    sum.compliance += response.compliance;
+    sum.compliance_eta += response.compliance_eta;
+    sum.free += response.free;
+    sum.free_eta += response.free_eta;
+    return;
+  }
   for (const ContactMode& mode : modes_) {
     const ModalDenominator d(eta, mode.frequency, loss_);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
     for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
-      const Complex column = std::conj(mode.shape(j));
+      const Complex column = inverse * std::conj(mode.shape(j));
+      const Complex column_eta = slope * std::conj(mode.shape(j));
       for (Index i = 0; i < contacts_; ++i) {
-        const Complex product = mode.shape(i) * column;
-        response.compliance(i, j) += inverse * product;
-        response.compliance_eta(i, j) += slope * product;
+        sum.compliance(i, j) += mode.shape(i) * column;
+        sum.compliance_eta(i, j) += mode.shape(i) * column_eta;
       }
     }
-    response.free += (mode.load * inverse) * mode.shape;
-    response.free_eta += (mode.load * slope) * mode.shape;
+    sum.free += (mode.load * inverse) * mode.shape;
+    sum.free_eta += (mode.load * slope) * mode.shape;
   }
-  return response;
 }
 
 DampedReceptance ContactModes::damped(double eta, double mass) const {

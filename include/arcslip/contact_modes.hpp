@@ -26,6 +26,8 @@ struct ContactReceptance {
   ContactMatrix compliance_eta;  ///< dC/deta
   ContactVector free;            ///< y_0, m: the response without contact
   ContactVector free_eta;        ///< dy_0/deta
+
+  void set_zero(Index contacts);
 };
 
 /// Compliance of m contacts where there is more damping proportional to mass, with its derivatives.
@@ -56,6 +58,9 @@ class ContactModes {
 
   /// O(m^2) operations for each mode, or what `receptance` costs.
   ContactReceptance at(double eta) const;
+
+  /// Adds what `at` gives to `sum`, of this size.
+  void add(double eta, ContactReceptance& sum) const;
 
   /// The compliance where mu of the loss is larger by `mass`.
   DampedReceptance damped(double eta, double mass) const;
