@@ -15,6 +15,41 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// The inverse in place of a matrix so small that calls would cost more than arithmetic.
+void invert(ContactMatrix& a) {
+  const Index m = a.rows();
+  std::array<Index, most_contacts> rows;
+  for (Index k = 0; k < m; ++k) {
+    Index& best = rows[at(k)] = k;
+    for (Index i = k + 1; i < m; ++i) {
+      if (std::norm(a(i, k)) > std::norm(a(best, k))) best = i;
+    }
+    if (best != k) a.row(k).swap(a.row(best));
+    const Complex pivot = std::conj(a(k, k)) / std::norm(a(k, k));
+    a(k, k) = 0;
+    for (Index j = 0; j < m; ++j) {
+      if (j == k) continue;
+      const Complex factor = a(k, j) * pivot;
+      a.col(j) -= factor * a.col(k);
+      a(k, j) = factor;
+    }
+    a.col(k) *= -pivot;
+    a(k, k) = pivot;
+  }
+  for (Index k = m; k-- > 0;) {
+    if (rows[at(k)] != k) a.col(k).swap(a.col(rows[at(k)]));
+  }
+}
+
+/// Puts values of the contacts into the rows of one of n harmonics.
+template <class Column>
+void store(const ContactVector& values, Index which, Index n, Column&& column) {
+  for (Index i = 0; i < values.size(); ++i) {
+    column(2 * (i * n + which)) = values(i).real();
+    column(2 * (i * n + which) + 1) = values(i).imag();
+  }
+}
+
 }  // namespace
 
 HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
@@ -101,9 +136,8 @@ void HarmonicResponse::set_order(Index which, double eta_value, int regime, Orde
   }
   joint.compliance.diagonal().array() += 1.0;
   joint.free_eta *= h;
-  order.stuck.compute(joint.compliance);
-  order.inverse.resize(m, m);
-  for (Index j = 0; j < m; ++j) order.inverse.col(j) = order.stuck.solve(ContactVector::Unit(m, j));
+  order.inverse = joint.compliance;
+  invert(order.inverse);
   order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
 }
 
@@ -131,7 +165,7 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   rows.own.resize(harmonics(), contacts() * contacts());
   for (Index a = 0; a < harmonics(); ++a) {
     set_order(a, p(eta), regime, rows.order);
-    fill_order(rows.order, friction, u, p, rows, out);
+    fill_order(rows.order, friction, u, p, rows, out.parameter_jacobian);
   }
   if (out.residual != nullptr) *out.residual = rows.residual;
   if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
@@ -139,49 +173,48 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
-void HarmonicResponse::fill_order(const Order& order, const std::vector<ContactForce>& friction,
-                                  const Vector& u, const Vector& p, Rows& rows,
-                                  const continuation::Evaluation& out) const {
+void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u,
+                                  const Vector& p, Rows& rows, Matrix* parameter_jacobian) const {
   const Index m = contacts();
-  ContactVector f(m);
-  ContactVector f_log_S = ContactVector::Zero(m);
-  ContactVector gap(m);  // r - f + y_0
+  const Index which = order.which;
+  for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
   for (Index j = 0; j < m; ++j) {
-    const double k = system_.contacts[at(j)].stiffness;
-    const Index row = 2 * (j * harmonics() + order.which);
-    f(j) = friction[at(j)].harmonics(order.which) / k;
-    gap(j) = Complex(u(row), u(row + 1)) - f(j) + order.joint.free(j);
-    if (out.parameter_jacobian != nullptr) f_log_S(j) = friction[at(j)].by_log_threshold(order.which) / k;
+    const Index row = 2 * (j * harmonics() + which);
+    order.f(j) = friction[at(j)].harmonics(which) / system_.contacts[at(j)].stiffness;
+    order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + order.joint.free(j);
   }
-  const ContactVector held = order.stuck.solve(gap);
+  order.held.noalias() = order.inverse * order.gap;
+  order.gap.noalias() -= order.joint.compliance * order.held;
+  order.held.noalias() += order.inverse * order.gap;  // as exact as by factors
   const double weight = order.weight / u.norm();
-  const ContactVector residual = weight * (f + held);
-  const auto store = [&](const ContactVector& values, auto&& column) {
-    for (Index i = 0; i < m; ++i) {
-      column(2 * (i * harmonics() + order.which)) = values(i).real();
-      column(2 * (i * harmonics() + order.which) + 1) = values(i).imag();
-    }
-  };
-  store(residual, rows.residual);
-  if (out.parameter_jacobian != nullptr) {
-    Complex slope = 0;  // of the weight's logarithm, over its square
-    for (Index j = 0; j < m; ++j) {
-      const ContactVector turned = order.joint.compliance_eta * order.inverse.col(j);
-      slope += order.inverse.col(j).dot(order.inverse * turned);
-    }
-    const ContactVector by_log_S = weight * (f_log_S - order.inverse * f_log_S);
-    const ContactVector moved = order.joint.free_eta - order.joint.compliance_eta * held;
-    const ContactVector by_eta =
-        (order.weight * order.weight * slope.real()) * residual + weight * (order.inverse * moved);
-    store(by_eta + by_log_S * (2 * system_.preload_growth * p(eta) / load(p)),
-          out.parameter_jacobian->col(eta));
-    store(by_log_S / load(p), out.parameter_jacobian->col(preload));
-  }
-  rows.weight(order.which) = weight;
+  order.residual = weight * (order.f + order.held);
+  store(order.residual, which, harmonics(), rows.residual);
+  rows.weight(which) = weight;
   for (Index j = 0; j < m; ++j) {
     for (Index i = 0; i < m; ++i)
-      rows.own(order.which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
+      rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
   }
+  if (parameter_jacobian == nullptr) return;
+
+  ContactVector& column = order.gap;
+  Complex slope = 0;  // of the weight's logarithm, over its square
+  for (Index j = 0; j < m; ++j) {
+    order.f.noalias() = order.joint.compliance_eta * order.inverse.col(j);
+    column.noalias() = order.inverse * order.f;
+    slope += order.inverse.col(j).dot(column);
+  }
+  for (Index j = 0; j < m; ++j)
+    order.f(j) = friction[at(j)].by_log_threshold(which) / system_.contacts[at(j)].stiffness;
+  column = order.f;
+  column.noalias() -= order.inverse * order.f;  // by ln S
+  column *= weight / load(p);
+  store(column, which, harmonics(), parameter_jacobian->col(preload));
+  order.f = order.joint.free_eta;
+  order.f.noalias() -= order.joint.compliance_eta * order.held;
+  column *= 2 * system_.preload_growth * p(eta);
+  column += (order.weight * order.weight * slope.real()) * order.residual;
+  column.noalias() += weight * (order.inverse * order.f);
+  store(column, which, harmonics(), parameter_jacobian->col(eta));
 }
 
 /// Column by column, in which the harmonics of a contact's rows follow one another.

@@ -56,10 +56,8 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
     for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
       const Complex column = inverse * std::conj(mode.shape(j));
       const Complex column_eta = slope * std::conj(mode.shape(j));
-      for (Index i = 0; i < contacts_; ++i) {
-        sum.compliance(i, j) += mode.shape(i) * column;
-        sum.compliance_eta(i, j) += mode.shape(i) * column_eta;
-      }
+      sum.compliance.col(j) += column * mode.shape;
+      sum.compliance_eta.col(j) += column_eta * mode.shape;
     }
     sum.free += (mode.load * inverse) * mode.shape;
     sum.free_eta += (mode.load * slope) * mode.shape;

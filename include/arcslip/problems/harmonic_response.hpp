@@ -15,8 +15,6 @@
 // (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
 // less, is no border: the engine crosses such a corner as it finds it.
 
-#include <Eigen/LU>
-
 #include "arcslip/contact_force.hpp"
 #include "arcslip/continuation/problem.hpp"
 #include "arcslip/continuation/trace.hpp"
@@ -87,15 +85,15 @@ class HarmonicResponse : public continuation::Problem {
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (r - f + y_0)) but for |r|.
   struct Order {
     Index which;
-    ContactReceptance joint;                   // 1 + C_h K in place of C_h, and y_0, 0 above the first
-    Eigen::PartialPivLU<ContactMatrix> stuck;  // 1 + C_h K
-    ContactMatrix inverse;
-    double weight;  // 1/sqrt(1 + |inverse|^2)
+    ContactReceptance joint;  // 1 + C_h K in place of C_h, and y_0, 0 above the first
+    ContactMatrix inverse;    // (1 + C_h K)^{-1}
+    double weight;            // 1/sqrt(1 + |inverse|^2)
+    ContactVector f, gap, held, residual;  // work space
   };
   void set_order(Index which, double eta_value, int regime, Order& order) const;
   struct Rows;
-  void fill_order(const Order& order, const std::vector<ContactForce>& friction, const Vector& u,
-                  const Vector& p, Rows& rows, const continuation::Evaluation& out) const;
+  void fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+                  Rows& rows, Matrix* parameter_jacobian) const;
   void fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u, int regime,
                      Matrix& jacobian) const;
 
