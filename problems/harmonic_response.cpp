@@ -147,7 +147,7 @@ struct HarmonicResponse::Rows {
   Vector residual;
   Vector weight;      // of each order, over |r|
   ComplexMatrix own;  // derivative by f: orders x pairs of contacts, that of the column first
-  ComplexVector sum;         // of f by Re r_h and Im r_h
+  ComplexVector sum;  // of f by Re r_h and Im r_h
   ComplexVector difference;
 };
 

@@ -147,6 +147,27 @@ TEST_CASE("The loop of any odd motion is what small steps of the slider give", "
   CHECK(inner > 10);
 }
 
+TEST_CASE("A slip that has only just begun where the motion turns back is found", "[harmonics]") {
+  const std::vector<int> orders{1, 3, 5};
+  RandomSystems draw(9);
+  int begun = 0;
+  for (int i = 0; i < 300; ++i) {
+    const HarmonicVector r = random_motion(draw, orders, 0.7);
+    const OddMotion motion(orders, r);
+    const Angles turns = motion.turning_points();
+    for (int k = 0; k + 1 < turns.count; ++k) {
+      const double S = 0.5 * std::abs(motion.value(turns[k + 1]) - motion.value(turns[k]));
+      if (!(S < motion.maximum().value)) continue;
+      const HarmonicVector below = force_of(orders, r, S * (1 - 2e-16 * draw.uniform(1, 40)));
+      const HarmonicVector above = force_of(orders, r, S * (1 + 1e-14));
+      begun += static_cast<int>(HysteresisLoop(motion, S * (1 - 1e-14)).slips() !=
+                                HysteresisLoop(motion, S * (1 + 1e-14)).slips());
+      CHECK_THAT((below - above).norm(), WithinAbs(0, 1e-12));  // continuous in S
+    }
+  }
+  CHECK(begun > 100);
+}
+
 TEST_CASE("The derivative of the loop is that of automatic differentiation", "[harmonics]") {
   // The force of a motion that turns twice a period, in closed form, by dual numbers through both angles.
   using Dual = boost::math::differentiation::autodiff_fvar<double, 1>;

@@ -56,7 +56,7 @@ class OddMotion {
 
  private:
   double steepest() const;
-  double turning_point(double low, double high) const;
+  double turning_point(double low, double high, bool rises) const;
 
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;

@@ -85,9 +85,9 @@ class HarmonicResponse : public continuation::Problem {
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (r - f + y_0)) but for |r|.
   struct Order {
     Index which;
-    ContactReceptance joint;  // 1 + C_h K in place of C_h, and y_0, 0 above the first
-    ContactMatrix inverse;    // (1 + C_h K)^{-1}
-    double weight;            // 1/sqrt(1 + |inverse|^2)
+    ContactReceptance joint;               // 1 + C_h K in place of C_h, and y_0, 0 above the first
+    ContactMatrix inverse;                 // (1 + C_h K)^{-1}
+    double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
   };
   void set_order(Index which, double eta_value, int regime, Order& order) const;
