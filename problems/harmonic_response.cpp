@@ -15,32 +15,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The inverse in place of a matrix so small that calls would cost more than arithmetic.
-void invert(ContactMatrix& a) {
-  const Index m = a.rows();
-  std::array<Index, most_contacts> rows;
-  for (Index k = 0; k < m; ++k) {
-    Index& best = rows[at(k)] = k;
-    for (Index i = k + 1; i < m; ++i) {
-      if (std::norm(a(i, k)) > std::norm(a(best, k))) best = i;
-    }
-    if (best != k) a.row(k).swap(a.row(best));
-    const Complex pivot = std::conj(a(k, k)) / std::norm(a(k, k));
-    a(k, k) = 0;
-    for (Index j = 0; j < m; ++j) {
-      if (j == k) continue;
-      const Complex factor = a(k, j) * pivot;
-      a.col(j) -= factor * a.col(k);
-      a(k, j) = factor;
-    }
-    a.col(k) *= -pivot;
-    a(k, k) = pivot;
-  }
-  for (Index k = m; k-- > 0;) {
-    if (rows[at(k)] != k) a.col(k).swap(a.col(rows[at(k)]));
-  }
-}
-
 /// Puts values of the contacts into the rows of one of n harmonics.
 template <class Column>
 void store(const ContactVector& values, Index which, Index n, Column&& column) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -24,6 +25,31 @@ ContactModes ContactModes::solved_by(Receptance receptance) const {
   ContactModes solved = *this;
   solved.receptance_ = std::move(receptance);
   return solved;
+}
+
+void invert(ContactMatrix& a) {
+  const Index m = a.rows();
+  std::array<Index, most_contacts> rows;
+  for (Index k = 0; k < m; ++k) {
+    Index& best = rows[static_cast<std::size_t>(k)] = k;
+    for (Index i = k + 1; i < m; ++i) {
+      if (std::norm(a(i, k)) > std::norm(a(best, k))) best = i;
+    }
+    if (best != k) a.row(k).swap(a.row(best));
+    const Complex pivot = std::conj(a(k, k)) / std::norm(a(k, k));
+    a(k, k) = 0;
+    for (Index j = 0; j < m; ++j) {
+      if (j == k) continue;
+      const Complex factor = a(k, j) * pivot;
+      a.col(j) -= factor * a.col(k);
+      a(k, j) = factor;
+    }
+    a.col(k) *= -pivot;
+    a(k, k) = pivot;
+  }
+  for (Index k = m; k-- > 0;) {
+    if (rows[static_cast<std::size_t>(k)] != k) a.col(k).swap(a.col(rows[static_cast<std::size_t>(k)]));
+  }
 }
 
 void ContactReceptance::set_zero(Index contacts) {

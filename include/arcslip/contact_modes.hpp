@@ -20,6 +20,9 @@ inline constexpr int most_contacts = 13;
 using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
 using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
 
+/// Inverts in place, by elimination with partial pivoting: calls would cost more than arithmetic.
+void invert(ContactMatrix& a);
+
 /// Response at m contacts for a given eta, with its derivatives in eta.
 struct ContactReceptance {
   ContactMatrix compliance;  ///< C, m x m: motion of the contact of the row per force on that of the column
