@@ -271,6 +271,8 @@ class Search {
       const int before = after > signs_.unstable ? -1 : 1;
       watch_.look(stepper_.here());
       const double here = watch_.eigenvalues()(i).real();
+      if (here == 0 || eigenvalues_at_upper_(i).real() == 0)
+        continue;  // on the axis all along, or split there
       const Zero zero = locate(stepper_, {upper_, here, before, eigenvalues_at_upper_(i).real()}, value);
       if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
       value(stepper_);

@@ -20,12 +20,14 @@ std::string_view to_string(PointType type) {
     case PointType::bogdanov_takens: return "bogdanov_takens";
     case PointType::zero_hopf: return "zero_hopf";
     case PointType::hopf_hopf: return "hopf_hopf";
+    case PointType::neimark_sacker: return "neimark_sacker";
+    case PointType::period_doubling: return "period_doubling";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::hopf_hopf); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::period_doubling); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

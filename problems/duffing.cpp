@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 
+#include "arcslip/continuation/hill.hpp"
 #include "arcslip/problems/model.hpp"
 
 namespace arcslip::problems {
@@ -107,6 +108,27 @@ double DuffingOscillator::observe(const Vector& u, const Vector& /*p*/, int /*re
   gradient.parameters.setZero();
   if (norm > 0) gradient.unknowns.segment(first, length) = factor / norm * u.segment(first, length);
   return factor * norm;
+}
+
+bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regime*/,
+                                    ComplexVector& values) const {
+  if (!u.allFinite() || !p.allFinite()) return false;
+  ComplexVector half(count());
+  for (Index k = 0; k < count(); ++k) half(k) = 0.5 * Complex(u(2 * k), -u(2 * k + 1));
+  const Index pairs = continuation::significant(half);
+  // q = sum c_m e^{jmWt} over odd m, c in their order; q^2 has the harmonics 2k.
+  ComplexVector c(2 * pairs);
+  c << half.head(pairs).conjugate().reverse(), half.head(pairs);
+  std::vector<ComplexMatrix> coefficients(static_cast<std::size_t>(2 * pairs), ComplexMatrix::Zero(2, 2));
+  coefficients[0] << 0, 1, -1, -p(damping);
+  for (Index k = 0; k < 2 * pairs; ++k) {
+    const auto upper = c.tail(2 * pairs - k).array();
+    const Complex square = (upper * upper.reverse()).sum();
+    coefficients[static_cast<std::size_t>(k)](1, 0) -= 3 * p(cubic) * square;
+  }
+  values = continuation::floquet_exponents(coefficients, 2 * p(frequency), 2 * pairs - 1).rates;
+  if (values(0).imag() != 0) values.real().setConstant(-0.5 * p(damping));  // Liouville, without rounding
+  return values.allFinite();
 }
 
 LibraryModel duffing_model() {

@@ -10,6 +10,7 @@
 #include "arcslip/problems/enz.hpp"
 #include "arcslip/problems/freudenstein_roth.hpp"
 #include "arcslip/problems/lorenz84.hpp"
+#include "arcslip/problems/lure.hpp"
 #include "arcslip/problems/pp2.hpp"
 
 namespace arcslip::problems {
@@ -18,7 +19,7 @@ const std::vector<LibraryModel>& library() {
   static const std::vector<LibraryModel> models{
       ab_model(),      bratu_model(), bratu_2d_model(),          cusp_model(),
       duffing_model(), enz_model(),   freudenstein_roth_model(), lorenz84_model(),
-      pp2_model()};
+      lure_model(),    pp2_model()};
   return models;
 }
 

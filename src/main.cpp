@@ -37,7 +37,7 @@ A case file; what follows "optional" need not be given:
   title = "Two beams"
   [system]
   model = "beams"            # or "rods"; or a model of the library with its parameters:
-                             # ab bratu bratu_2d cusp duffing enz freudenstein_roth lorenz84 pp2
+                             # ab bratu bratu_2d cusp duffing enz freudenstein_roth lorenz84 lure pp2
   wave_number = 1            # n
   elements = 30              # N > 2n
   mass_ratio = 5.0           # M*

@@ -217,11 +217,13 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
     row.clear();
   };
   const TracedBranch& first = traced.front();
-  const bool equilibrium = first.base->is_equilibrium() && !first.curve;
+  const bool stability = !first.curve && std::any_of(traced.begin(), traced.end(), [](const auto& one) {
+    return !one.branch.points.empty() && one.branch.points.front().unstable >= 0;
+  });
   fmt::format_to(out, "branch,point,type,regime");
   const std::vector<std::string> header = all_names(traced);
   for (const std::string& name : header) fmt::format_to(out, ",{}", name);
-  fmt::format_to(out, "{},arclength,iterations,residual", equilibrium ? ",unstable" : "");
+  fmt::format_to(out, "{},arclength,iterations,residual", stability ? ",unstable" : "");
   const PhysicalColumns physical_header(first);
   for (const std::string& name : physical_header.names()) fmt::format_to(out, ",{}", name);
   fmt::format_to(out, "\n");
@@ -240,7 +242,7 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
       const std::vector<double>& values = columns.values(point);
       for (const Index place : places)
         fmt::format_to(out, ",{:.17g}", place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
-      if (equilibrium) fmt::format_to(out, ",{}", point.unstable);
+      if (stability) fmt::format_to(out, ",{}", point.unstable);
       fmt::format_to(out, ",{:.17g},{},{:.17g}", point.arclength, point.iterations, point.residual);
       for (const double value : physical.values(values)) fmt::format_to(out, ",{:.17g}", value);
       fmt::format_to(out, "\n");

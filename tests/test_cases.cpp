@@ -233,6 +233,11 @@ TEST_CASE("Duffing's case has the folds of NLvib's example for every number of h
   check_folds({"system.harmonics=1", "system.force=0.3"}, 1.489393339365, 1.161865303909);
 }
 
+TEST_CASE("The Lur'e system's case has the period doubling of AUTO", "[cases]") {
+  const Run run("lure");
+  check(run.traced[0], PointType::period_doubling, {{{"a", 0.6303020062}, {"T", 6.3640713394}}});
+}
+
 // ---- Friction ----
 
 TEST_CASE("Two points of codimension two that lie within one step are both found", "[cases]") {

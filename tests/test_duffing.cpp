@@ -5,6 +5,7 @@
 #include "arcslip/continuation/newton.hpp"
 #include "catch.hpp"
 #include "library_cases.hpp"
+#include "monodromy.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
@@ -180,6 +181,7 @@ TEST_CASE("Without damping and next to no force the oscillator's frequency is th
       const double pull = sign * 0.02 * row.amplitude * square / (1 + square);  // a per cent of the amplitude
       const Branch branch = trace(*duffing.problem, guess, over("force", pull, 1e-5 * pull));
       REQUIRE(branch.stop == Stop::reached_end);
+      CHECK(of_type(branch, PointType::neimark_sacker).empty());  // its pairs are on the axis all along
       const Vector& end = branch.points.back().unknowns;
       for (Index i = 0; i < end.size(); i += 2) mean += 0.5 * end(i);
     }
@@ -188,4 +190,48 @@ TEST_CASE("Without damping and next to no force the oscillator's frequency is th
   CHECK_THAT(amplitude_of(23, row.frequency), WithinRel(row.amplitude, 1e-8));
   const double one_harmonic = std::sqrt(1 + 0.75 * row.amplitude * row.amplitude);
   CHECK_THAT(amplitude_of(1, one_harmonic), WithinRel(row.amplitude, 1e-8));
+}
+
+TEST_CASE("Duffing's response is unstable from fold to fold, where a real exponent vanishes", "[hill]") {
+  const double harmonics = GENERATE(1, 3, 9);
+  const double force = GENERATE(0.18, 0.3);
+  CAPTURE(harmonics, force);
+  const Instance duffing("duffing", {{"harmonics", harmonics}, {"force", force}});
+  const Branch branch = response(duffing);
+  int folds = 0;
+  for (const BranchPoint& point : branch.points) {
+    CAPTURE(point.parameters(0), point.eigenvalues);
+    REQUIRE(point.eigenvalues.size() == 2);
+    CHECK_THAT(point.eigenvalues.sum().real(), WithinAbs(-damping, 1e-9));  // Liouville
+    if (point.type == PointType::fold) {
+      ++folds;
+      CHECK(point.eigenvalues.cwiseAbs().minCoeff() < 1e-8);  // as sharp as the fold is located
+    } else {
+      CHECK((point.type == PointType::regular || point.type == PointType::start ||
+             point.type == PointType::end));
+      CHECK(point.unstable == (folds == 1 ? 1 : 0));
+    }
+  }
+  CHECK(folds == 2);
+}
+
+TEST_CASE("Duffing's exponents are those of the monodromy matrix", "[hill]") {
+  const double force = GENERATE(0.18, 0.5);
+  const Instance duffing("duffing", {{"harmonics", 15}, {"force", force}});
+  for (const BranchPoint& point : response(duffing).points) {
+    const double W = point.parameters(0);
+    const auto variation = [&](double t) {
+      double q = 0;
+      for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
+        const double turn = static_cast<double>(2 * k + 1) * W * t;
+        q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
+      }
+      return Eigen::Matrix2d{{0, 1}, {-1 - 3 * cubic * q * q, -damping}};
+    };
+    const double period = 2 * M_PI / W;
+    const ComplexVector found = (point.eigenvalues * period).array().exp();
+    CAPTURE(W, found);
+    // Next to each other multipliers are as the square root of an error, their sum is not.
+    CHECK(std::abs(found.sum() - monodromy(variation, period, 500).trace()) < 1e-7);  // 80 steps a radian
+  }
 }

@@ -178,7 +178,7 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
 TEST_CASE("plot draws the branches of every problem of the library", "[plots]") {
   if (!has_gnuplot()) return;
   const std::string problem =
-      GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "bratu", "duffing");
+      GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing");
   CAPTURE(problem);
   const TemporaryFolder folder;
   run(problem, folder.path("r"));
@@ -188,10 +188,12 @@ TEST_CASE("plot draws the branches of every problem of the library", "[plots]") 
   CHECK(outcome.out == folder.path("r/branch.png") + "\n" + folder.path("r/branch.svg") + "\n");
   require_pictures(folder.path("r"), 8'000, {"branch"}, results);
   const std::string svg = read(folder.path("r/branch.svg"));
-  const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2";
+  const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2" ||
+                               problem == "duffing" || problem == "lure";
   CHECK((svg.find(">stable<") != std::string::npos) == loses_stability);
   CHECK((svg.find(">Hopf<") != std::string::npos) ==
         (problem == "ab" || problem == "lorenz84" || problem == "pp2"));
+  CHECK((svg.find(">period\u00a0doubling<") != std::string::npos) == (problem == "lure"));
 }
 
 TEST_CASE("plot gives the branches that one request led to no names, and those of several theirs",

@@ -241,9 +241,29 @@ TEST_CASE("A library model's rows hold its parameters, its unknowns, and for equ
   CHECK(unstable == std::vector<std::string>{"0", "2", "1", "2", "0"});
 }
 
-TEST_CASE("A problem that is no equilibrium, and a curve, have no column of unstable eigenvalues") {
+TEST_CASE("A periodic solution's rows tell how many multipliers lie outside the unit circle") {
   const TemporaryFolder folder;
-  for (const std::string name : {"duffing", "cusp_curve"}) {
+  REQUIRE(arcslip_program("run " + case_named("lure") + " --quiet -o " + folder.path("r")).status == 0);
+  const auto rows = read_csv(folder.path("r/branches.csv"));
+  const std::vector<std::string> header = {"branch",   "point",     "type",       "regime",
+                                           "a",        "b",         "A1",         "T",
+                                           "unstable", "arclength", "iterations", "residual"};
+  REQUIRE(rows.front() == header);
+  bool doubled = false;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i][2] == "period_doubling") {
+      CHECK_FALSE(doubled);
+      doubled = true;
+    } else {
+      CHECK(rows[i][8] == (doubled ? "1" : "0"));
+    }
+  }
+  CHECK(doubled);
+}
+
+TEST_CASE("A problem without stability, and a curve, have no column of unstable eigenvalues") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"bratu", "cusp_curve"}) {
     REQUIRE(arcslip_program("run " + case_named(name) + " --quiet -o " + folder.path(name)).status == 0);
     const auto header = read_csv(folder.path(name + "/branches.csv")).front();
     CHECK(std::find(header.begin(), header.end(), "unstable") == header.end());

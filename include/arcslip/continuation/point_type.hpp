@@ -23,7 +23,9 @@ enum class PointType {
   cusp,             ///< of a curve of folds: its quadratic coefficient vanishes
   bogdanov_takens,  ///< a double zero eigenvalue
   zero_hopf,        ///< a zero eigenvalue beside an imaginary pair
-  hopf_hopf         ///< two imaginary pairs
+  hopf_hopf,        ///< two imaginary pairs
+  neimark_sacker,   ///< a pair of multipliers of a periodic solution crosses the unit circle
+  period_doubling   ///< one of its multipliers passes -1
 };
 
 /// As written to files: its name; `switch` for regime_switch.

@@ -55,7 +55,7 @@ class Problem {
   virtual bool is_equilibrium() const { return false; }
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
-  /// takes those of a dense equilibrium's Jacobian.
+  /// takes those of a dense equilibrium's Jacobian; a periodic solution has the rates of hill.hpp.
   virtual bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const;
 
   /// What a pair of these that crosses the imaginary axis is called.

@@ -36,6 +36,12 @@ class DuffingOscillator : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// The rates (hill.hpp) of y'' + delta y' + (1 + 3 k3 q^2) y = 0 over half a period of q, in the same odd
+  /// harmonics and in the even ones that go with them, so that one vanishes exactly at a fold. Where another
+  /// multiplier passes 1 the motion loses its symmetry.
+  bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
+  continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
+
  private:
   Index count() const { return basis_.cols() / 2; }  // of harmonics
   Matrix linear_part(const Vector& p) const;
