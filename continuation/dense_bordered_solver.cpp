@@ -46,29 +46,51 @@ double DenseBorderedSolver::factor() {
   return sign;
 }
 
+/// Column by column, from which the earlier columns are eliminated four at a time.
 double DenseBorderedSolver::factor_small() {
   const Index n = matrix_.rows();
   factors_ = matrix_;
   double sign = 1;
-  for (Index k = 0; k < n; ++k) {
-    Index best = k;
-    for (Index i = k + 1; i < n; ++i) {
-      if (std::abs(factors_(i, k)) > std::abs(factors_(best, k))) best = i;
+  for (Index j = 0; j < n; ++j) {
+    double* const x = factors_.col(j).data();
+    for (Index k = 0; k < j; ++k) std::swap(x[k], x[pivots_[static_cast<std::size_t>(k)]]);
+    eliminate(j);
+    Index best = j;
+    for (Index i = j + 1; i < n; ++i) {
+      if (std::abs(x[i]) > std::abs(x[best])) best = i;
     }
-    pivots_[static_cast<std::size_t>(k)] = best;
-    if (best != k) {
-      for (Index c = 0; c < n; ++c) std::swap(factors_(k, c), factors_(best, c));
+    pivots_[static_cast<std::size_t>(j)] = best;
+    if (best != j) {
+      for (Index c = 0; c <= j; ++c) std::swap(factors_(j, c), factors_(best, c));
       sign = -sign;
     }
-    const double pivot = factors_(k, k);
+    const double pivot = x[j];
     if (pivot == 0 || !std::isfinite(pivot)) return 0;
     sign *= sign_of(pivot);
-    for (Index i = k + 1; i < n; ++i) {
-      const double factor = factors_(i, k) /= pivot;
-      for (Index c = k + 1; c < n; ++c) factors_(i, c) -= factor * factors_(k, c);
-    }
+    for (Index i = j + 1; i < n; ++i) x[i] /= pivot;
   }
   return sign;
+}
+
+void DenseBorderedSolver::eliminate(Index j) {
+  const Index n = matrix_.rows();
+  double* const x = factors_.col(j).data();
+  Index k = 0;
+  for (; k + 4 <= j; k += 4) {
+    const double* const a = factors_.col(k).data();
+    const double* const b = a + n;
+    const double* const c = b + n;
+    const double* const d = c + n;
+    const double by_a = x[k];
+    const double by_b = x[k + 1] -= a[k + 1] * by_a;
+    const double by_c = x[k + 2] -= a[k + 2] * by_a + b[k + 2] * by_b;
+    const double by_d = x[k + 3] -= a[k + 3] * by_a + b[k + 3] * by_b + c[k + 3] * by_c;
+    for (Index i = k + 4; i < n; ++i) x[i] -= a[i] * by_a + b[i] * by_b + c[i] * by_c + d[i] * by_d;
+  }
+  for (; k < j; ++k) {
+    const double* const a = factors_.col(k).data();
+    for (Index i = k + 1; i < n; ++i) x[i] -= a[i] * x[k];
+  }
 }
 
 void DenseBorderedSolver::solve(Vector& right_hand_side) {

@@ -199,7 +199,8 @@ bool Stepper::finish(bool lands, double value) {
   if (!acceptable(signals_, limits_, max_step_)) return false;
 
   next_bend_ = (slope_to_ - slope_from_) / distance_;
-  if ((slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm()) next_bend_.setZero();
+  const bool straight = (slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm();
+  if (straight || slope_to_.dot(slope_from_) < 0) next_bend_.setZero();  // rounding, or a corner in between
   corrector_.set_tangent(there_, here_);
   // Either a branch point lies in between, or the corrector jumped to a piece that runs the other way.
   if (there_.orientation * here_.orientation < 0 && !find_crossing()) {

@@ -15,9 +15,31 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Puts values of the contacts into the rows of one of n harmonics.
+template <class Column>
+void store(const ContactVector& values, Index which, Index n, Column&& column) {
+  for (Index i = 0; i < values.size(); ++i) {
+    column(2 * (i * n + which)) = values(i).real();
+    column(2 * (i * n + which) + 1) = values(i).imag();
+  }
+}
+
 }  // namespace
 
 HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
+
+/// Forces of all contacts with what they were found for: work space of a thread.
+struct HarmonicResponse::Forces {
+  std::vector<int> orders;
+  Vector unknowns;
+  int regime = 0;
+  std::vector<ContactForce> of_contacts;
+};
+
+HarmonicResponse::Forces& HarmonicResponse::last_forces() {
+  thread_local Forces last;
+  return last;
+}
 
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index contact) const {
   HarmonicVector r(harmonics());
@@ -38,13 +60,25 @@ double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
 
 const std::vector<ContactForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
                                                           bool derivatives) const {
-  thread_local std::vector<ContactForce> all;
-  all.resize(at(contacts()));
+  Forces& last = last_forces();
+  last.orders = system_.orders;
+  last.unknowns = u;
+  last.regime = regime;
+  last.of_contacts.resize(at(contacts()));
   for (Index i = 0; i < contacts(); ++i) {
-    all[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness, slip_threshold(i, p),
-                   slips(regime, i), derivatives);
+    last.of_contacts[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness,
+                                slip_threshold(i, p), slips(regime, i), derivatives);
   }
-  return all;
+  return last.of_contacts;
+}
+
+/// max |r| of a contact: known where the forces were last found, as at each point that a corrector ends on.
+OddMotion::Maximum HarmonicResponse::maximum(const Vector& u, Index contact) const {
+  const Forces& last = last_forces();
+  if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u)
+    return last.of_contacts[at(contact)].maximum;
+  const HarmonicVector r = motion(u, contact);
+  return OddMotion(system_.orders, r).maximum();
 }
 
 HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vector& p, int regime) const {
@@ -58,122 +92,131 @@ HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vec
   return sum;
 }
 
-HarmonicResponse::Order HarmonicResponse::order(Index which, double eta_value, int regime) const {
+void HarmonicResponse::set_order(Index which, double eta_value, int regime, Order& order) const {
+  const Index m = contacts();
   const double h = system_.orders[at(which)];
-  const ContactReceptance base = system_.base[at(which)].at(h * eta_value);
-  const ContactReceptance damper = system_.damper[at(which)].at(h * eta_value);
-  ContactMatrix stuck = base.compliance + damper.compliance;  // 1 + C_h K
-  ContactMatrix stuck_eta = h * (base.compliance_eta + damper.compliance_eta);
-  for (Index j = 0; j < contacts(); ++j) {
-    stuck.col(j) *= system_.contacts[at(j)].stiffness;
-    stuck_eta.col(j) *= system_.contacts[at(j)].stiffness;
-  }
+  ContactReceptance& joint = order.joint;
+  order.which = which;
+  joint.set_zero(m);
+  system_.base[at(which)].add(h * eta_value, joint);
+  system_.damper[at(which)].add(h * eta_value, joint);
   if (regime == 0 && which > 0) {  // r_h = 0, also where C_h has an undamped resonance
-    stuck.setZero();
-    stuck_eta.setZero();
+    joint.compliance.setZero();
+    joint.compliance_eta.setZero();
   }
-  stuck.diagonal().array() += 1.0;
-  const Eigen::PartialPivLU<ContactMatrix> factors(stuck);
-  const ContactMatrix inverse = factors.inverse();
-  const ContactMatrix inverse_eta = -inverse * stuck_eta * inverse;
-  Order order{which,     factors,          {}, {}, 1 / std::sqrt(1 + inverse.squaredNorm()), 0,
-              base.free, h * base.free_eta};
-  order.weight_eta =
-      -std::pow(order.weight, 3) * (inverse.conjugate().cwiseProduct(inverse_eta)).sum().real();
-  order.left = order.weight * inverse;
-  order.left_eta = order.weight * inverse_eta + order.weight_eta * inverse;
-  return order;
+  for (Index j = 0; j < m; ++j) {
+    joint.compliance.col(j) *= system_.contacts[at(j)].stiffness;
+    joint.compliance_eta.col(j) *= h * system_.contacts[at(j)].stiffness;
+  }
+  joint.compliance.diagonal().array() += 1.0;
+  joint.free_eta *= h;
+  order.inverse = joint.compliance;
+  invert(order.inverse);
+  order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
 }
 
-/// F by contact and order, and what its derivatives by the unknowns consist of.
+/// Work space of a thread: F and what its derivatives by the unknowns consist of.
 struct HarmonicResponse::Rows {
-  std::vector<HarmonicVector> residual;       // of each contact
-  std::vector<HarmonicVector> left;           // of each pair of contacts, row by row, over |r|
-  std::array<double, most_harmonics> weight;  // over |r|
+  Order order;
+  Vector residual;
+  Vector weight;      // of each order, over |r|
+  ComplexMatrix own;  // derivative by f: orders x pairs of contacts, that of the column first
+  ComplexVector sum;  // of f by Re r_h and Im r_h
+  ComplexVector difference;
 };
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
                                 const continuation::Evaluation& out) const {
   if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
   for (Index i = 0; i < contacts(); ++i) {
-    if (slips(regime, i) && motion(u, i).isZero(0)) return false;
+    if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
   thread_local Rows rows;
-  rows.residual.resize(at(contacts()), HarmonicVector(harmonics()));
-  rows.left.resize(at(contacts() * contacts()), HarmonicVector(harmonics()));
-  for (HarmonicVector& row : rows.residual) row.resize(harmonics());
-  for (HarmonicVector& row : rows.left) row.resize(harmonics());
-  for (Index a = 0; a < harmonics(); ++a) fill_order(order(a, p(eta), regime), friction, u, p, rows, out);
-  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, *out.jacobian);
+  rows.residual.resize(size());
+  rows.weight.resize(harmonics());
+  rows.own.resize(harmonics(), contacts() * contacts());
+  for (Index a = 0; a < harmonics(); ++a) {
+    set_order(a, p(eta), regime, rows.order);
+    fill_order(rows.order, friction, u, p, rows, out.parameter_jacobian);
+  }
+  if (out.residual != nullptr) *out.residual = rows.residual;
+  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
   return true;
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
-void HarmonicResponse::fill_order(const Order& order, const std::vector<ContactForce>& friction,
-                                  const Vector& u, const Vector& p, Rows& rows,
-                                  const continuation::Evaluation& out) const {
-  const double per_size = 1 / u.norm();
-  ContactVector f(contacts());
-  ContactVector f_log_S = ContactVector::Zero(contacts());
-  ContactVector gap(contacts());  // r - f + y_0
-  for (Index j = 0; j < contacts(); ++j) {
-    const double k = system_.contacts[at(j)].stiffness;
-    const Index row = 2 * (j * harmonics() + order.which);
-    f(j) = friction[at(j)].harmonics(order.which) / k;
-    gap(j) = Complex(u(row), u(row + 1)) - f(j) + order.free(j);
-    if (out.parameter_jacobian != nullptr) f_log_S(j) = friction[at(j)].by_log_threshold(order.which) / k;
+void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u,
+                                  const Vector& p, Rows& rows, Matrix* parameter_jacobian) const {
+  const Index m = contacts();
+  const Index which = order.which;
+  for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
+  for (Index j = 0; j < m; ++j) {
+    const Index row = 2 * (j * harmonics() + which);
+    order.f(j) = friction[at(j)].harmonics(which) / system_.contacts[at(j)].stiffness;
+    order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + order.joint.free(j);
   }
-  const ContactVector residual = (per_size * order.weight) * (f + order.stuck.solve(gap));
-  const auto store = [&](const ContactVector& values, auto&& column) {
-    for (Index i = 0; i < contacts(); ++i) {
-      column(2 * (i * harmonics() + order.which)) = values(i).real();
-      column(2 * (i * harmonics() + order.which) + 1) = values(i).imag();
-    }
-  };
-  if (out.residual != nullptr) store(residual, *out.residual);
-  if (out.parameter_jacobian != nullptr) {
-    const ContactVector by_log_S = per_size * (order.weight * f_log_S - order.left * f_log_S);
-    const ContactVector by_eta =
-        per_size * (order.weight_eta * f + order.left_eta * gap + order.left * order.free_eta);
-    store(by_eta + by_log_S * (2 * system_.preload_growth * p(eta) / load(p)),
-          out.parameter_jacobian->col(eta));
-    store(by_log_S / load(p), out.parameter_jacobian->col(preload));
+  order.held.noalias() = order.inverse * order.gap;
+  order.gap.noalias() -= order.joint.compliance * order.held;
+  order.held.noalias() += order.inverse * order.gap;  // as exact as by factors
+  const double weight = order.weight / u.norm();
+  order.residual = weight * (order.f + order.held);
+  store(order.residual, which, harmonics(), rows.residual);
+  rows.weight(which) = weight;
+  for (Index j = 0; j < m; ++j) {
+    for (Index i = 0; i < m; ++i)
+      rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
   }
-  rows.weight[at(order.which)] = order.weight * per_size;
-  for (Index i = 0; i < contacts(); ++i) {
-    rows.residual[at(i)](order.which) = residual(i);
-    for (Index j = 0; j < contacts(); ++j)
-      rows.left[at(i * contacts() + j)](order.which) = order.left(i, j) * per_size;
+  if (parameter_jacobian == nullptr) return;
+
+  ContactVector& column = order.gap;
+  Complex slope = 0;  // of the weight's logarithm, over its square
+  for (Index j = 0; j < m; ++j) {
+    order.f.noalias() = order.joint.compliance_eta * order.inverse.col(j);
+    column.noalias() = order.inverse * order.f;
+    slope += order.inverse.col(j).dot(column);
   }
+  for (Index j = 0; j < m; ++j)
+    order.f(j) = friction[at(j)].by_log_threshold(which) / system_.contacts[at(j)].stiffness;
+  column = order.f;
+  column.noalias() -= order.inverse * order.f;  // by ln S
+  column *= weight / load(p);
+  store(column, which, harmonics(), parameter_jacobian->col(preload));
+  order.f = order.joint.free_eta;
+  order.f.noalias() -= order.joint.compliance_eta * order.held;
+  column *= 2 * system_.preload_growth * p(eta);
+  column += (order.weight * order.weight * slope.real()) * order.residual;
+  column.noalias() += weight * (order.inverse * order.f);
+  store(column, which, harmonics(), parameter_jacobian->col(eta));
 }
 
 /// Column by column, in which the harmonics of a contact's rows follow one another.
-void HarmonicResponse::fill_jacobian(const Rows& rows, const std::vector<ContactForce>& friction,
-                                     const Vector& u, Matrix& jacobian) const {
+void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u,
+                                     int regime, Matrix& jacobian) const {
   const Index n = harmonics();
-  const double per_square = 1 / u.squaredNorm();
-  const Complex j{0, 1};
-  const auto weight = Eigen::Map<const Eigen::ArrayXd>(rows.weight.data(), n);
-  for (Index column = 0; column < contacts() * n; ++column) {
+  const Index m = contacts();
+  jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();
+  for (Index column = 0; column < m * n; ++column) {
     const Index from = column / n;
     const Index order = column % n;
+    jacobian(2 * column, 2 * column) += rows.weight(order);
+    jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
+    if (!slips(regime, from)) continue;  // f = r
     const double per_k = 1 / system_.contacts[at(from)].stiffness;
-    const auto linear = friction[at(from)].linear.col(order).array() * per_k;
-    const auto conjugate = friction[at(from)].conjugate.col(order).array() * per_k;
-    for (Index i = 0; i < contacts(); ++i) {
+    rows.sum = (friction[at(from)].linear.col(order) + friction[at(from)].conjugate.col(order)) * per_k;
+    rows.difference =
+        (friction[at(from)].linear.col(order) - friction[at(from)].conjugate.col(order)) * Complex(0, per_k);
+    rows.sum(order) -= 1;
+    rows.difference(order) -= Complex(0, 1);
+    for (Index i = 0; i < m; ++i) {
       const auto part = [&](Index real_column) {
         return Eigen::Map<Eigen::ArrayXcd>(
             reinterpret_cast<Complex*>(jacobian.col(real_column).data() + 2 * i * n), n);
       };
-      const auto& left = rows.left[at(i * contacts() + from)];
-      const auto own = (i == from ? 1.0 : 0.0) * weight - left.array();  // of f
-      const auto residual = rows.residual[at(i)].array();
-      part(2 * column) = own * (linear + conjugate) - residual * (u(2 * column) * per_square);
-      part(2 * column + 1) = own * (linear - conjugate) * j - residual * (u(2 * column + 1) * per_square);
-      part(2 * column)(order) += left(order);
-      part(2 * column + 1)(order) += j * left(order);
+      const auto own = rows.own.col(from * m + i).array();
+      part(2 * column) += own * rows.sum.array();
+      part(2 * column + 1) += own * rows.difference.array();
     }
   }
 }
@@ -186,7 +229,7 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
 double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
                                 continuation::Gradient* gradient) const {
   const SlipBorder at_border =
-      slip_border(system_.orders, motion(u, border), slip_threshold(border, p), slips(regime, border));
+      slip_border(system_.orders, maximum(u, border), slip_threshold(border, p), slips(regime, border));
   if (gradient != nullptr) {
     gradient->unknowns.setZero();
     for (Index a = 0; a < harmonics(); ++a) {

@@ -22,6 +22,7 @@ void ContactForce::set(std::span<const int> orders, const HarmonicVector& r, dou
   loop.force(harmonics);
   harmonics *= stiffness;
   energy = loop.energy() / (threshold * threshold);
+  maximum = loop.maximum();
   if (!derivatives) return;
   loop.derivative(linear, conjugate);
   linear *= stiffness;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,29 +27,67 @@ ContactModes ContactModes::solved_by(Receptance receptance) const {
   return solved;
 }
 
+void invert(ContactMatrix& a) {
+  const Index m = a.rows();
+  std::array<Index, most_contacts> rows;
+  for (Index k = 0; k < m; ++k) {
+    Index& best = rows[static_cast<std::size_t>(k)] = k;
+    for (Index i = k + 1; i < m; ++i) {
+      if (std::norm(a(i, k)) > std::norm(a(best, k))) best = i;
+    }
+    if (best != k) a.row(k).swap(a.row(best));
+    const Complex pivot = std::conj(a(k, k)) / std::norm(a(k, k));
+    a(k, k) = 0;
+    for (Index j = 0; j < m; ++j) {
+      if (j == k) continue;
+      const Complex factor = a(k, j) * pivot;
+      a.col(j) -= factor * a.col(k);
+      a(k, j) = factor;
+    }
+    a.col(k) *= -pivot;
+    a(k, k) = pivot;
+  }
+  for (Index k = m; k-- > 0;) {
+    if (rows[static_cast<std::size_t>(k)] != k) a.col(k).swap(a.col(rows[static_cast<std::size_t>(k)]));
+  }
+}
+
+void ContactReceptance::set_zero(Index contacts) {
+  compliance.setZero(contacts, contacts);
+  compliance_eta.setZero(contacts, contacts);
+  free.setZero(contacts);
+  free_eta.setZero(contacts);
+}
+
 ContactReceptance ContactModes::at(double eta) const {
-  if (receptance_) return receptance_(eta);
   ContactReceptance response;
-  response.compliance.setZero(contacts_, contacts_);
-  response.compliance_eta.setZero(contacts_, contacts_);
-  response.free.setZero(contacts_);
-  response.free_eta.setZero(contacts_);
+  response.set_zero(contacts_);
+  add(eta, response);
+  return response;
+}
+
+void ContactModes::add(double eta, ContactReceptance& sum) const {
+  if (receptance_) {
+    const ContactReceptance response = receptance_(eta);
+    sum.compliance += response.compliance;
+    sum.compliance_eta += response.compliance_eta;
+    sum.free += response.free;
+    sum.free_eta += response.free_eta;
+    return;
+  }
   for (const ContactMode& mode : modes_) {
     const ModalDenominator d(eta, mode.frequency, loss_);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
     for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
-      const Complex column = std::conj(mode.shape(j));
-      for (Index i = 0; i < contacts_; ++i) {
-        const Complex product = mode.shape(i) * column;
-        response.compliance(i, j) += inverse * product;
-        response.compliance_eta(i, j) += slope * product;
-      }
+      const Complex column = inverse * std::conj(mode.shape(j));
+      const Complex column_eta = slope * std::conj(mode.shape(j));
+      sum.compliance.col(j) += column * mode.shape;
+      sum.compliance_eta.col(j) += column_eta * mode.shape;
     }
-    response.free += (mode.load * inverse) * mode.shape;
-    response.free_eta += (mode.load * slope) * mode.shape;
+    sum.free += (mode.load * inverse) * mode.shape;
+    sum.free_eta += (mode.load * slope) * mode.shape;
   }
-  return response;
 }
 
 DampedReceptance ContactModes::damped(double eta, double mass) const {

@@ -1,10 +1,11 @@
 #include "arcslip/hysteresis_loop.hpp"
 
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
+
+#include "bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
@@ -45,12 +46,11 @@ HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
 /// How far beyond a turning point the motion has changed by `room`.
 double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
   const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
-  std::uintmax_t most = 100;
-  return boost::math::tools::newton_raphson_iterate(
+  return bracketed_newton(
       [&](double step) {
         return std::pair(motion_.change(from, step) - room, motion_.slopes(from + step).first);
       },
-      guess < longest ? guess : 0.5 * longest, 0.0, longest, 52, most);
+      guess < longest ? guess : 0.5 * longest, 0.0, longest, room > 0);
 }
 
 void HysteresisLoop::march() {

@@ -1,10 +1,11 @@
 #include "arcslip/odd_motion.hpp"
 
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 #include <utility>
+
+#include "bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
@@ -68,15 +69,14 @@ double OddMotion::steepest() const {
   return angle;
 }
 
-/// The zero of dr/dtheta between two angles at which its signs differ.
-double OddMotion::turning_point(double low, double high) const {
-  std::uintmax_t most = 100;
-  return boost::math::tools::newton_raphson_iterate(
+/// The zero of dr/dtheta between two angles at which its signs differ, where dr/dtheta `rises` or falls.
+double OddMotion::turning_point(double low, double high, bool rises) const {
+  return bracketed_newton(
       [&](double theta) {
         const Slopes at = slopes(theta);
         return std::pair(at.first, at.second);
       },
-      0.5 * (low + high), low, high, 52, most);
+      0.5 * (low + high), low, high, rises);
 }
 
 Angles OddMotion::turning_points() const {
@@ -107,7 +107,7 @@ Angles OddMotion::turning_points() const {
       if (low == 0) {
         found.push(cell.low);
       } else if (low * slopes(cell.high).first < 0) {
-        found.push(turning_point(cell.low, cell.high));
+        found.push(turning_point(cell.low, cell.high, low < 0));
       }
       continue;
     }

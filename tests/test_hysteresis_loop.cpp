@@ -147,6 +147,27 @@ TEST_CASE("The loop of any odd motion is what small steps of the slider give", "
   CHECK(inner > 10);
 }
 
+TEST_CASE("A slip that has only just begun where the motion turns back is found", "[harmonics]") {
+  const std::vector<int> orders{1, 3, 5};
+  RandomSystems draw(9);
+  int begun = 0;
+  for (int i = 0; i < 300; ++i) {
+    const HarmonicVector r = random_motion(draw, orders, 0.7);
+    const OddMotion motion(orders, r);
+    const Angles turns = motion.turning_points();
+    for (int k = 0; k + 1 < turns.count; ++k) {
+      const double S = 0.5 * std::abs(motion.value(turns[k + 1]) - motion.value(turns[k]));
+      if (!(S < motion.maximum().value)) continue;
+      const HarmonicVector below = force_of(orders, r, S * (1 - 2e-16 * draw.uniform(1, 40)));
+      const HarmonicVector above = force_of(orders, r, S * (1 + 1e-14));
+      begun += static_cast<int>(HysteresisLoop(motion, S * (1 - 1e-14)).slips() !=
+                                HysteresisLoop(motion, S * (1 + 1e-14)).slips());
+      CHECK_THAT((below - above).norm(), WithinAbs(0, 1e-12));  // continuous in S
+    }
+  }
+  CHECK(begun > 100);
+}
+
 TEST_CASE("The derivative of the loop is that of automatic differentiation", "[harmonics]") {
   // The force of a motion that turns twice a period, in closed form, by dual numbers through both angles.
   using Dual = boost::math::differentiation::autodiff_fvar<double, 1>;
@@ -229,6 +250,33 @@ TEST_CASE("The derivative of the loop is that of automatic differentiation", "[h
       }
     }
   }
+}
+
+TEST_CASE("Turning points may meet to rounding, two in an inflection or three", "[harmonics]") {
+  const std::vector<int> orders{1, 3, 5};
+  RandomSystems draw(3);
+  int found = 0;
+  for (int i = 0; i < 800; ++i) {
+    // dr/dtheta and d2r/dtheta2 vanish at theta = 0, in every fourth draw d3r/dtheta3 as well
+    const bool three = i % 4 == 0;
+    HarmonicVector r(3);
+    r(2) = three ? 0 : Complex(draw.uniform(-1, 1), draw.uniform(-0.3, 0.3));
+    r(1) = {draw.uniform(-1, 1), three ? 0 : draw.uniform(-1, 1)};
+    const double apart = draw.log_uniform(1e-18, 1e-6) * (i % 2 == 0 ? 1 : -1);
+    r(0) = {-9 * r(1).real() - 25 * r(2).real(), apart - 3 * r(1).imag() - 5 * r(2).imag()};
+    const double theta = draw.uniform(-3, 3);
+    for (Index a = 0; a < 3; ++a) r(a) *= std::polar(1.0, -orders[static_cast<std::size_t>(a)] * theta);
+    const OddMotion motion(orders, r);
+    const double top = motion.maximum().value;
+    double sampled = 0;
+    for (int k = 0; k < 1000; ++k) sampled = std::max(sampled, motion.value(k * pi / 1000));
+    for (int k = 0; k < 1000; ++k) sampled = std::max(sampled, -motion.value(k * pi / 1000));
+    CHECK_THAT(top, WithinRel(sampled, 3e-4));  // 25 (pi/1000)^2 of what the harmonics sum up to
+    const HysteresisLoop loop(motion, top * draw.uniform(0.01, 0.9));
+    found += loop.slips();
+    CHECK(loop.energy() > 0);
+  }
+  CHECK(found >= 800);
 }
 
 TEST_CASE("Turning points are found whatever harmonics a motion has", "[harmonics]") {

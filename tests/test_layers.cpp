@@ -31,7 +31,8 @@ std::set<std::string, std::less<>> words(const std::string& text) {
 }
 
 const std::set<std::string, std::less<>> mechanics = words(R"(
-annular_plate chain_sector complex_factors contact contact_force contact_modes disturbance_flow dynamic_stiffness
+annular_plate bracketed_newton chain_sector complex_factors contact contact_force contact_modes disturbance_flow
+dynamic_stiffness
 elements extended_sector finite_sector first_crossing full_receptance harmonic_system
 hysteresis_loop interval interval_response lowest_frequency matrix_market modal_model odd_motion
 physical_scale precise reduced_pair ring ring_motion ring_record ring_response ring_sector

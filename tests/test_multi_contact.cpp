@@ -291,6 +291,54 @@ TEST_CASE("All derivatives with several contacts are exact", "[contacts]") {
   CHECK(worst > 0);
 }
 
+TEST_CASE("A branch goes on where a second slip within the period turns it by more than a right angle",
+          "[contacts][harmonics]") {
+  const auto draw_modes = [](RandomSystems& draw, Index contacts, bool loaded, double damping) {
+    std::vector<ContactMode> modes;
+    const auto phasor = [&] {
+      const double phase = draw.uniform(-3, 3);
+      return std::polar(draw.uniform(0.1, 1), phase);
+    };
+    for (int k = 0; k < 4; ++k) {
+      ContactMode mode{draw.uniform(0.5, 8), ContactVector(contacts), 0};
+      for (Index i = 0; i < contacts; ++i) mode.shape(i) = phasor();
+      if (loaded) mode.load = phasor();
+      modes.push_back(mode);
+    }
+    return ContactModes(contacts, modes, Loss{.modal = 2 * damping});
+  };
+  RandomSystems draw(1);
+  int corners = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Index contacts = draw.integer(2, 4);
+    HarmonicSystem system;
+    system.orders = odd_up_to(5);
+    const double of_base = draw.log_uniform(1e-4, 0.05);
+    const double of_damper = draw.log_uniform(1e-4, 0.05);
+    for (const int h : system.orders) {
+      system.base.push_back(draw_modes(draw, contacts, h == 1, of_base));
+      system.damper.push_back(draw_modes(draw, contacts, false, of_damper));
+    }
+    for (Index k = 0; k < contacts; ++k) {
+      const double stiffness = draw.log_uniform(0.05, 50);
+      system.contacts.push_back({stiffness, draw.log_uniform(0.05, 5)});
+    }
+    const double preload = draw.log_uniform(1e-3, 2);
+    if (i != 36 && i != 39) continue;  // of which the corners are this sharp
+    const HarmonicResponse problem(system);
+    continuation::TraceOptions options = over_eta(0.4, i == 36 ? 0.6 : 1.2);
+    options.extrema_of = {"Y"};
+    const Branch branch = continuation::trace(problem, problem.guess(0.4, preload), options);
+    CAPTURE(i, branch.explanation);
+    CHECK(branch.complete());
+    for (std::size_t k = 1; k < branch.points.size(); ++k) {
+      const Vector here = branch.points[k].tangent.normalized();
+      corners += static_cast<int>(here.dot(branch.points[k - 1].tangent.normalized()) < 0);
+    }
+  }
+  CHECK(corners >= 2);
+}
+
 TEST_CASE("Systems of contacts that do not fit are refused", "[contacts]") {
   const FrictionSystem system = build_system(figure_8(1));
   const ContactModes one = spread(system.base, 1, {0});

@@ -14,6 +14,7 @@ struct ContactForce {
   ComplexMatrix linear;             ///< k G of hysteresis_loop.hpp
   ComplexMatrix conjugate;          ///< k Q
   double energy = 0;                ///< lost per cycle over k S^2
+  OddMotion::Maximum maximum{};     ///< of the motion, in slip
 
   /// The force under the motion r with these orders: k r in stick, that of HysteresisLoop in slip. All but
   /// the harmonics and the energy only with `derivatives`. Allocates nothing where the sizes are those of

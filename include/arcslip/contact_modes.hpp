@@ -20,12 +20,17 @@ inline constexpr int most_contacts = 13;
 using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
 using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
 
+/// Inverts in place, by elimination with partial pivoting: calls would cost more than arithmetic.
+void invert(ContactMatrix& a);
+
 /// Response at m contacts for a given eta, with its derivatives in eta.
 struct ContactReceptance {
   ContactMatrix compliance;  ///< C, m x m: motion of the contact of the row per force on that of the column
   ContactMatrix compliance_eta;  ///< dC/deta
   ContactVector free;            ///< y_0, m: the response without contact
   ContactVector free_eta;        ///< dy_0/deta
+
+  void set_zero(Index contacts);
 };
 
 /// Compliance of m contacts where there is more damping proportional to mass, with its derivatives.
@@ -56,6 +61,9 @@ class ContactModes {
 
   /// O(m^2) operations for each mode, or what `receptance` costs.
   ContactReceptance at(double eta) const;
+
+  /// Adds what `at` gives to `sum`, of this size.
+  void add(double eta, ContactReceptance& sum) const;
 
   /// The compliance where mu of the loss is larger by `mass`.
   DampedReceptance damped(double eta, double mass) const;

@@ -30,7 +30,7 @@ class HysteresisLoop {
   /// f = r -+ (amplitude - S). `motion` must outlive the loop and not be zero.
   HysteresisLoop(const OddMotion& motion, double slip_threshold);
 
-  double amplitude() const { return amplitude_; }  ///< max |r|
+  OddMotion::Maximum maximum() const { return {begin_, amplitude_}; }  ///< of the motion
 
   /// f_h, in the units of r.
   void force(HarmonicVector& harmonics) const;

@@ -21,7 +21,10 @@ struct Angles {
   int count = 0;
 
   double operator[](int i) const { return values[static_cast<std::size_t>(i)]; }
-  void push(double angle) { values[static_cast<std::size_t>(count++)] = angle; }
+  /// More than fit in are zeros of rounding, where all but three of them meet.
+  void push(double angle) {
+    if (count < std::ssize(values)) values[static_cast<std::size_t>(count++)] = angle;
+  }
 };
 
 class OddMotion {
@@ -56,7 +59,7 @@ class OddMotion {
 
  private:
   double steepest() const;
-  double turning_point(double low, double high) const;
+  double turning_point(double low, double high, bool rises) const;
 
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;

@@ -9,8 +9,8 @@
 
 namespace arcslip::continuation {
 
-/// Up to 16 rows, where calls would cost more than arithmetic, elimination is done in place; beyond, Eigen's
-/// blocked factorisation takes over. Nothing is allocated after construction.
+/// Up to 100 rows, where blocks do not pay, columns are eliminated one by one; beyond, Eigen's blocked
+/// factorisation takes over. Nothing is allocated after construction.
 class DenseBorderedSolver final : public BorderedSolver {
  public:
   DenseBorderedSolver(Index size, Index borders);
@@ -22,9 +22,10 @@ class DenseBorderedSolver final : public BorderedSolver {
   void solve_transposed(Vector& right_hand_side) override;
 
  private:
-  bool small() const { return matrix_.rows() <= 16; }
+  bool small() const { return matrix_.rows() <= 100; }
   void set_borders();
   double factor_small();
+  void eliminate(Index j);  // the columns before j from column j
 
   Matrix matrix_;
   Matrix factors_;             // small: unit lower and upper triangle in one

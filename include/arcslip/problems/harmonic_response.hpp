@@ -15,8 +15,6 @@
 // (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
 // less, is no border: the engine crosses such a corner as it finds it.
 
-#include <Eigen/LU>
-
 #include "arcslip/contact_force.hpp"
 #include "arcslip/continuation/problem.hpp"
 #include "arcslip/continuation/trace.hpp"
@@ -80,28 +78,29 @@ class HarmonicResponse : public continuation::Problem {
   Friction friction(const Vector& u, const Vector& p, int regime) const;
 
  private:
+  struct Forces;
+  static Forces& last_forces();
+
   /// Of each contact; valid until the thread's next call, whose work space it is.
   const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
                                           bool derivatives) const;
 
-  /// One harmonic of F, weight f + left (r - f + y_0) but for |r|, with derivatives in eta.
+  /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (r - f + y_0)) but for |r|.
   struct Order {
     Index which;
-    Eigen::PartialPivLU<ContactMatrix> stuck;  // 1 + C_h K
-    ContactMatrix left;                        // weight (1 + C_h K)^{-1}
-    ContactMatrix left_eta;
-    double weight;  // 1/sqrt(1 + |(1 + C_h K)^{-1}|^2)
-    double weight_eta;
-    ContactVector free;  // y_0, 0 above the first
-    ContactVector free_eta;
+    ContactReceptance joint;               // 1 + C_h K in place of C_h, and y_0, 0 above the first
+    ContactMatrix inverse;                 // (1 + C_h K)^{-1}
+    double weight;                         // 1/sqrt(1 + |inverse|^2)
+    ContactVector f, gap, held, residual;  // work space
   };
-  Order order(Index which, double eta_value, int regime) const;
+  void set_order(Index which, double eta_value, int regime, Order& order) const;
   struct Rows;
-  void fill_order(const Order& order, const std::vector<ContactForce>& friction, const Vector& u,
-                  const Vector& p, Rows& rows, const continuation::Evaluation& out) const;
-  void fill_jacobian(const Rows& rows, const std::vector<ContactForce>& friction, const Vector& u,
+  void fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+                  Rows& rows, Matrix* parameter_jacobian) const;
+  void fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u, int regime,
                      Matrix& jacobian) const;
 
+  OddMotion::Maximum maximum(const Vector& u, Index contact) const;
   double load(const Vector& p) const;  // P + P_2 eta^2
 
   HarmonicSystem system_;

@@ -25,4 +25,8 @@ struct SlipBorder {
 SlipBorder slip_border(const std::vector<int>& orders, const HarmonicVector& motion, double threshold,
                        bool slips);
 
+/// Of a motion whose maximum is known.
+SlipBorder slip_border(const std::vector<int>& orders, const OddMotion::Maximum& top, double threshold,
+                       bool slips);
+
 }  // namespace arcslip::problems
