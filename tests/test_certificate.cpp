@@ -2,7 +2,9 @@
 
 #include "arcslip/problems/certificate.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "case_runs.hpp"
 #include "catch.hpp"
@@ -87,6 +89,46 @@ TEST_CASE("Each fold under negative damping is proven to lie within a narrow ran
     CHECK(eta <= turn.high);
     CHECK(turn.high - turn.low < 1e-5 * eta);
   }
+}
+
+TEST_CASE("A response that turns back at the border of stick is proven through these corners",
+          "[certificate]") {
+  // Just beyond the negative damping at which slip begins to lose less than it takes
+  // (test_friction_folds.cpp).
+  SystemParameters s = rods(1);
+  s.interface_stiffness = 100;
+  s.base_damping = -1;
+  s.base_damping_kind = DampingKind::structural;
+  s.fixed_damper = true;
+  const FrictionSystem unit = build_system(s);
+  const Mode mode = unit.base.modes().at(0);
+  const double threshold = -std::numbers::pi / 8 * std::norm(mode.load_residue / unit.slip_threshold(4, 1)) /
+                           (unit.contact_stiffness * mode.residue * mode.frequency * mode.frequency);
+  const bool turns = GENERATE(false, true);
+  s.base_damping = (turns ? 1.1 : 0.9) * threshold;
+  const ForcedResponse problem(build_system(s));
+  const Branch branch = trace_over_eta(problem, 1, 2, 8);
+  const Certificate certificate = problems::certify(problem, branch, ForcedResponse::eta);
+  const auto corners = of_type(branch, PointType::corner_fold);
+  REQUIRE(corners.size() == (turns ? 2 : 0));
+  CHECK(certificate.proven() == !turns);
+  if (!turns) return;
+  REQUIRE(certificate.gap);
+  const BranchPoint& from = branch.points[certificate.gap->point];
+  const BranchPoint& to = branch.points[certificate.gap->point + 1];
+  CHECK((from.type == PointType::corner_fold || to.type == PointType::corner_fold));
+}
+
+TEST_CASE("The branch of a sector with one contact is proven as that of the ring it is cut from",
+          "[certificate]") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("sector beams --wave-number 1 -o '" + folder.path("beams") + "'").status == 0);
+  const Outcome outcome = arcslip_program("run '" + folder.path("beams/case.toml") + "' --certify -o '" +
+                                          folder.path("out") + "'");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.status == 0);
+  const auto summary = nlohmann::json::parse(read(folder.path("out/summary.json")));
+  CHECK(summary["branches"][0]["certificate"]["proven"] == true);
 }
 
 TEST_CASE("A point moved by 1e-6 is refused", "[certificate]") {
