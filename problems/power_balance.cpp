@@ -48,4 +48,23 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
   return balance;
 }
 
+double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+  const HarmonicSystem& system = problem.system();
+  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
+  double gap = 0;
+  double largest = 0;
+  for (std::size_t a = 0; a < system.orders.size(); ++a) {
+    const double frequency = system.orders[a] * p(HarmonicResponse::eta);
+    const ContactReceptance at_base = system.base[a].at(frequency);
+    const ContactVector base = at_base.free + at_base.compliance * friction.forces[a];
+    const ContactVector damper = -(system.damper[a].at(frequency).compliance * friction.forces[a]);
+    for (Index i = 0; i < problem.contacts(); ++i) {
+      const Complex relative = problem.motion(u, i)(static_cast<Index>(a));
+      gap = std::max(gap, std::abs(damper(i) - base(i) - relative));
+      largest = std::max({largest, std::abs(damper(i)), std::abs(base(i)), std::abs(relative)});
+    }
+  }
+  return gap / largest;
+}
+
 }  // namespace arcslip::problems

@@ -140,13 +140,17 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 
 }  // namespace
 
-double largest_power_error(const SystemParameters& parameters, const std::vector<int>& orders,
-                           const continuation::Branch& branch) {
-  if (branch.points.empty()) return 0;
+BalanceErrors largest_errors(const SystemParameters& parameters, const std::vector<int>& orders,
+                             const continuation::Branch& branch) {
+  BalanceErrors largest;
+  if (branch.points.empty()) return largest;
   const BalancedPoints known(parameters, orders, branch);
-  double largest = 0;
-  for (const BranchPoint& point : branch.points)
-    largest = std::max(largest, power_error(known.problem(), known.at(point)));
+  for (const BranchPoint& point : branch.points) {
+    const Guess at = known.at(point);
+    largest.power = std::max(largest.power, power_error(known.problem(), at));
+    largest.motion =
+        std::max(largest.motion, motion_error(known.problem(), at.unknowns, at.parameters, at.regime));
+  }
   return largest;
 }
 

@@ -181,8 +181,10 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   if (why_not_verifiable(*traced.request).empty()) {
-    summary["power_error"] = problems::largest_power_error(traced.request->problem.system,
-                                                           harmonics_of(*traced.base), traced.branch);
+    const problems::BalanceErrors errors =
+        problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch);
+    summary["power_error"] = errors.power;
+    summary["motion_error"] = errors.motion;
   }
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);

@@ -35,7 +35,8 @@ TEST_CASE("The case of three numbers of harmonics has the peaks that it says", "
   CHECK_THAT(text, ContainsSubstring("nan"));  // what one harmonic has no value for
 }
 
-TEST_CASE("The summary of every forced response says how far its power is balanced", "[harmonics]") {
+TEST_CASE("The summary of every forced response says how far its power and motion are balanced",
+          "[harmonics]") {
   for (const char* name : {"figure_8", "harmonics", "preload_response"}) {
     const Run run(name);
     const nlohmann::ordered_json summary = summarize(run.input, run.traced, 0);
@@ -43,6 +44,8 @@ TEST_CASE("The summary of every forced response says how far its power is balanc
       CAPTURE(name, branch["branch"].dump());
       // the residual 1e-10 over the share of the force's apparent power that is dissipated, 1e-6 and more
       CHECK(branch["power_error"].get<double>() < 1e-4);
+      // the residual over twice the damping ratio, which a resonance amplifies it by
+      CHECK(branch["motion_error"].get<double>() < 1e-10 / 2e-4);
     }
   }
 }

@@ -23,4 +23,8 @@ struct PowerBalance {
 
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);
 
+/// The largest |u - y - r| of any contact and harmonic, y of the base's equation alone and u of the damper's,
+/// over the largest of |y|, |u| and |r|.
+double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);
+
 }  // namespace arcslip::problems

@@ -12,10 +12,16 @@
 
 namespace arcslip::problems {
 
-/// The largest error of PowerBalance at the points of a branch, which is one of HarmonicResponse, or of
-/// ForcedResponse, with the system of `parameters` in `orders`.
-double largest_power_error(const SystemParameters& parameters, const std::vector<int>& orders,
-                           const continuation::Branch& branch);
+/// Invariants of a response that its equations do not hold by themselves, but where they are solved.
+struct BalanceErrors {
+  double power = 0;   ///< of PowerBalance
+  double motion = 0;  ///< motion_error
+};
+
+/// The largest at the points of a branch, which is one of HarmonicResponse, or of ForcedResponse, with the
+/// system of `parameters` in `orders`.
+BalanceErrors largest_errors(const SystemParameters& parameters, const std::vector<int>& orders,
+                             const continuation::Branch& branch);
 
 /// NaN where a method has no result.
 struct Verification {
