@@ -214,6 +214,20 @@ Index DisturbanceFlow::drifts(std::span<const Contact> contacts) const {
                        [](const Oscillator& mode) { return mode.order == 0 && mode.frequency == 0; });
 }
 
+/// rho_h of each contact, by `size` states.
+ComplexMatrix DisturbanceFlow::relative_motion(Index size) const {
+  const Index orders = std::ssize(orders_);
+  ComplexMatrix relative = ComplexMatrix::Zero(springs_.size() * orders, size);
+  for (const Oscillator& mode : modes_) {
+    for (Index i = 0; i < springs_.size(); ++i) {
+      const Index row = i * orders + mode.order;
+      relative(row, mode.place) = mode.shape(i);
+      if (parts(mode.order) == 2) relative(row, mode.place + 1) = Complex(0, 1) * mode.shape(i);
+    }
+  }
+  return relative;
+}
+
 ComplexVector DisturbanceFlow::exponents(double eta, std::span<const Contact> contacts) const {
   const Index orders = std::ssize(orders_);
   const Index inner = places_.size() - 1;
@@ -228,15 +242,8 @@ ComplexVector DisturbanceFlow::exponents(double eta, std::span<const Contact> co
     loops.emplace_back(motions.back(), contact.slip_threshold);
     size += inner * std::ssize(loops.back().stick());
   }
-  Flow flow{ComplexMatrix::Zero(springs_.size() * orders, size), {}, Matrix::Zero(size, size)};
-  for (const Oscillator& mode : modes_) {
-    for (Index i = 0; i < springs_.size(); ++i) {
-      const Index row = i * orders + mode.order;
-      flow.relative(row, mode.place) = mode.shape(i);
-      if (parts(mode.order) == 2) flow.relative(row, mode.place + 1) = Complex(0, 1) * mode.shape(i);
-    }
-  }
-  flow.force.setZero(springs_.size() * orders, size);
+  Flow flow{relative_motion(size), ComplexMatrix::Zero(springs_.size() * orders, size),
+            Matrix::Zero(size, size)};
   Index slider = modal_states_;
   std::size_t slipping = 0;
   for (Index i = 0; i < springs_.size(); ++i) {

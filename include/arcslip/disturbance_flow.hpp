@@ -60,6 +60,7 @@ class DisturbanceFlow {
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
   Index drifts(std::span<const Contact> contacts) const;
 
+  ComplexMatrix relative_motion(Index size) const;
   struct Flow;
   void add_sliders(double eta, Index contact, const HysteresisLoop& loop, Index first, Flow& flow) const;
   void add_modes(double eta, Flow& flow) const;
