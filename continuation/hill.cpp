@@ -60,7 +60,7 @@ void add_candidates(const std::vector<ComplexMatrix>& coefficients, double w, In
   const Index n = coefficients.front().rows();
   const Matrix hill = hill_matrix(coefficients, w, twice_h);
   const Eigen::EigenSolver<Matrix> solver(hill);
-  const ComplexVector values = solver.eigenvalues();
+  const ComplexVector& values = solver.eigenvalues();
   const ComplexMatrix vectors = solver.eigenvectors();
   for (Index v = 0; v < values.size(); ++v) {
     if (values(v).imag() < 0) continue;

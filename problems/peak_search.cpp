@@ -270,11 +270,11 @@ void PeakSearch::add_section(std::vector<PeakNode> nodes) {
   snap(nodes.front());
   snap(nodes.back());
   if (!peak) return;
-  const auto [low, high] = std::minmax(nodes.front().preload, nodes.back().preload);
-  nodes.erase(std::remove_if(
-                  nodes.begin() + 1, nodes.end() - 1,
-                  [low, high](const PeakNode& node) { return !(node.preload > low && node.preload < high); }),
-              nodes.end() - 1);
+  const std::pair<double, double> range = std::minmax(nodes.front().preload, nodes.back().preload);
+  const auto is_beyond = [&](const PeakNode& node) {
+    return !(node.preload > range.first && node.preload < range.second);
+  };
+  nodes.erase(std::remove_if(nodes.begin() + 1, nodes.end() - 1, is_beyond), nodes.end() - 1);
   add(PeakSite::slip, std::move(nodes));
 }
 
@@ -325,8 +325,8 @@ PeakNode PeakSearch::inside(const Meeting& meeting) const {
 }
 
 void PeakSearch::follow_from_meetings() {
-  for (std::size_t i = 0; i < meetings_.size(); ++i) {
-    if (!meetings_[i].met) follow(inside(meetings_[i]));
+  for (const Meeting& meeting : meetings_) {
+    if (!meeting.met) follow(inside(meeting));
   }
 }
 

@@ -54,6 +54,7 @@ std::vector<Entry> entries_of(const TomlDocument& document, const toml::table& t
 
 std::string keys_of(const std::vector<Entry>& entries) {
   std::vector<std::string> keys;
+  keys.reserve(entries.size());
   for (const Entry& entry : entries) keys.push_back(entry.key);
   return fmt::format("{}", fmt::join(keys, ", "));
 }

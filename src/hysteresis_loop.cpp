@@ -33,7 +33,7 @@ class ArcIntegrals {
   }
 
  private:
-  std::array<Complex, 4 * most_harmonics> values_;
+  std::array<Complex, std::size_t{4} * most_harmonics> values_;
 };
 
 }  // namespace

@@ -76,7 +76,7 @@ EnclosedCoefficient enclose_slip(const Interval& x) {
 }  // namespace
 
 EnclosedCoefficient enclose_coefficient(const Interval& x) {
-  const EnclosedCoefficient stick{{1, 0}, {0, 0}, {1, 0}};
+  EnclosedCoefficient stick{{1, 0}, {0, 0}, {1, 0}};
   if (!(x.lower() > 0)) throw NoEnclosure("S/R may not be positive");
   if (x.lower() >= 1) return stick;
   if (x.upper() <= 1) return enclose_slip(x);

@@ -63,7 +63,7 @@ class HysteresisLoop {
   double mismatch_ = 0;  // f half a period later, plus S: 0 but for the continuation
   double slipped_ = 0;
   int slips_ = 0;
-  std::array<Arc, 2 * most_harmonics> stick_;
+  std::array<Arc, std::size_t{2} * most_harmonics> stick_;
   std::size_t sticks_ = 0;
 };
 

@@ -17,7 +17,7 @@ using HarmonicVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_harmoni
 
 /// Angles in ascending order.
 struct Angles {
-  std::array<double, 2 * most_harmonics> values;
+  std::array<double, std::size_t{2} * most_harmonics> values;
   int count = 0;
 
   double operator[](int i) const { return values[static_cast<std::size_t>(i)]; }
