@@ -1,7 +1,8 @@
 // Cost of friction in many harmonics, as ratios measured in one run: that of a point of a branch, with all
 // corrector iterations and events that belong to it, over that of as many marches of the loop and transforms
-// with their derivatives alone, goal: at most 2; and that of the periodic motion of all 30 nodes in time,
-// found by Newton's method or by marching 1000 periods, over that of such a point.
+// with their derivatives alone, goal: at most 2; the time of a point's Floquet exponents; and that of the
+// periodic motion of all 30 nodes in time, found by Newton's method or by marching 1000 periods, over that of
+// such a point.
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 #include <cmath>
 
 #include "arcslip/contact_force.hpp"
-#include "arcslip/problems/harmonic_response.hpp"
+#include "arcslip/problems/floquet_response.hpp"
 #include "arcslip/ring_response.hpp"
 #include "arcslip/system.hpp"
 
@@ -84,6 +85,22 @@ void report(int highest, int contacts) {
       branch.complete() && std::isfinite(sum) ? "" : " (incomplete)");
 }
 
+/// Time of the Floquet exponents of a point, whatever the number of nodes.
+void report_stability(int highest, Index nodes) {
+  SystemParameters parameters = figure_8();
+  parameters.harmonics = odd_up_to(highest);
+  parameters.elements = nodes;
+  const problems::FloquetResponse problem(build_harmonic_system(parameters),
+                                          problems::build_even_system(parameters));
+  const continuation::Guess at = problem.guess(3.841, 1);
+  ComplexVector values;
+  constexpr int times = 20;
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < times; ++i) problem.eigenvalues(at.unknowns, at.parameters, at.regime, values);
+  fmt::print("H = {:2}, N = {:4}: {} Floquet exponents in {:.3g} ms\n", highest, nodes, values.size(),
+             1e3 * seconds_since(start) / times);
+}
+
 /// Seconds of the ring in time at figure 8's best preload, over those of a point of nine harmonics there.
 void report_time_integration() {
   SystemParameters parameters = figure_8();
@@ -114,5 +131,7 @@ void report_time_integration() {
 int main() {
   for (const int highest : {1, 3, 5, 9, 15, 21, 31}) report(highest, 1);
   for (const int contacts : {2, 4, 8}) report(9, contacts);
+  for (const int highest : {1, 3, 9, 31}) report_stability(highest, 30);
+  report_stability(9, 3000);
   report_time_integration();
 }
