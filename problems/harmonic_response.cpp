@@ -374,6 +374,7 @@ continuation::Guess HarmonicResponse::guess(double eta_value, double preload_val
   options.parameter = "P";
   options.from = 1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
   options.to = preload_value;
+  options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
   const continuation::Branch branch = trace(*this, guess, options);
   if (!branch.complete())
     throw std::invalid_argument("HarmonicResponse: no way from a high preload: " + branch.explanation);

@@ -1,12 +1,13 @@
 #include "arcslip/disturbance_flow.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "arcslip/spectrum.hpp"
 
 namespace arcslip {
 namespace {
@@ -141,13 +142,15 @@ std::vector<DisturbanceFlow::Oscillator> DisturbanceFlow::oscillators(Index orde
 std::vector<DisturbanceFlow::Oscillator> DisturbanceFlow::joined(const std::vector<Oscillator>& rigid) {
   const auto other = [&](const Oscillator& mode) { return mode.damping != rigid.front().damping; };
   if (rigid.size() < 2 || std::any_of(rigid.begin(), rigid.end(), other)) return rigid;
-  ComplexMatrix shapes(rigid.front().shape.size(), std::ssize(rigid));
-  for (Index k = 0; k < shapes.cols(); ++k) shapes.col(k) = rigid[static_cast<std::size_t>(k)].shape;
-  const Eigen::JacobiSVD<ComplexMatrix> parts(shapes, Eigen::ComputeThinU);
+  ComplexMatrix shapes(std::ssize(rigid), rigid.front().shape.size());
+  for (Index k = 0; k < shapes.rows(); ++k)
+    shapes.row(k) = rigid[static_cast<std::size_t>(k)].shape.adjoint();
+  const Eigen::ColPivHouseholderQR<ComplexMatrix> parts(shapes);
+  const ComplexMatrix upper = parts.matrixR().topRows(parts.rank()).triangularView<Eigen::Upper>();
   std::vector<Oscillator> all;
   for (Index k = 0; k < parts.rank(); ++k) {
     all.push_back(rigid.front());
-    all.back().shape = parts.matrixU().col(k) * parts.singularValues()(k);
+    all.back().shape = parts.colsPermutation() * upper.row(k).adjoint();
   }
   return all;
 }
@@ -159,20 +162,27 @@ void DisturbanceFlow::add_sliders(double eta, Index contact, const HysteresisLoo
   const Index inner = places_.size() - 1;
   Index slider = first;
   for (const HysteresisLoop::Arc& arc : loop.stick()) {
-    ComplexMatrix waves(inner + 1, orders);  // e^{jh theta}
+    Matrix cosines(inner + 1, orders);  // of h theta
+    Matrix sines(inner + 1, orders);
     for (Index i = 0; i <= inner; ++i) {
       const double theta = arc.begin + 0.5 * arc.width * (1 + places_(i));
-      for (Index a = 0; a < orders; ++a)
-        waves(i, a) = std::polar(1.0, orders_[static_cast<std::size_t>(a)] * theta);
+      for (Index a = 0; a < orders; ++a) {
+        const Complex wave = std::polar(1.0, orders_[static_cast<std::size_t>(a)] * theta);
+        cosines(i, a) = wave.real();
+        sines(i, a) = wave.imag();
+      }
     }
-    Matrix lag = (waves * flow.relative.middleRows(contact * orders, orders)).real();  // delta r, by state
+    const auto motion = flow.relative.middleRows(contact * orders, orders);
+    Matrix lag = cosines * motion.real() - sines * motion.imag();  // delta r, by state
     const double rate = 2 * eta / arc.width;
     flow.matrix.middleRows(slider, inner) = -rate * derivative_.col(0).tail(inner) * lag.row(0);
     flow.matrix.block(slider, slider, inner, inner) -= rate * derivative_.bottomRightCorner(inner, inner);
     lag.row(0).setZero();
     lag.block(1, slider, inner, inner) -= Matrix::Identity(inner, inner);
     const Matrix weighted = (springs_(contact) * arc.width / pi) * weights_.asDiagonal() * lag;
-    flow.force.middleRows(contact * orders, orders) += waves.adjoint() * weighted;
+    auto force = flow.force.middleRows(contact * orders, orders);
+    force.real() += cosines.transpose() * weighted;
+    force.imag() -= sines.transpose() * weighted;
     slider += inner;
   }
   if (orders_.front() == 0) flow.force.row(contact * orders) *= 0.5;
@@ -256,9 +266,7 @@ ComplexVector DisturbanceFlow::exponents(double eta, std::span<const Contact> co
     slider += inner * std::ssize(loop.stick());
   }
   add_modes(eta, flow);
-  ComplexVector found = flow.matrix.eigenvalues();
-  std::sort(found.begin(), found.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  ComplexVector found = spectrum(flow.matrix);
   found.conservativeResize(size - drifts(contacts));
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * flow.matrix.norm();
   for (Complex& sigma : found) {

@@ -1,8 +1,9 @@
 #include "arcslip/ring_stability.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "arcslip/spectrum.hpp"
 
 namespace arcslip {
 namespace {
@@ -42,9 +43,7 @@ RingStability floquet_stability(RingMotion& motion, const RingState& state) {
                     std::any_of(state.slip.begin(), state.slip.end(), [](int sign) { return sign != 0; });
   const Matrix free = stability.slips ? deflated(derivative, neutral_drift(ring))
                                       : Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates));
-  stability.turned = free.eigenvalues();
-  std::sort(stability.turned.begin(), stability.turned.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  stability.turned = spectrum(free);
   return stability;
 }
 

@@ -3,6 +3,7 @@
 // Kirchhoff's annular plate solved in Bessel functions [Leissa, Vibration of plates, NASA SP-160 (1969),
 // chapters 1 to 3]: w = (A J_n + B Y_n + C I_n + D K_n)(k r) cos n theta.
 
+#include <Eigen/LU>
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 

@@ -2,8 +2,6 @@
 
 // Brute force for stability: the monodromy matrix of x' = A(t) x by the classical Runge-Kutta method.
 
-#include <Eigen/Eigenvalues>
-
 #include "arcslip/types.hpp"
 
 namespace arcslip::testing {

@@ -2,20 +2,14 @@
 
 // Natural frequencies of a sector under a travelling wave, by dense matrices.
 
-#include <Eigen/Eigenvalues>
-
-#include "arcslip/sector_reduction.hpp"
-#include "sector_examples.hpp"
+#include "arcslip/finite_sector.hpp"
 
 namespace arcslip::testing {
 
-/// Ascending squares of the circular frequencies with this wave number.
-inline Vector squared_frequencies(const FiniteSector& sector, Index wave_number, Index sectors) {
-  SectorReduction reduction(sector);
-  reduction.set_forward(forward(wave_number, sectors));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> modes(
-      ComplexMatrix(reduction.stiffness()), ComplexMatrix(reduction.mass()), Eigen::EigenvaluesOnly);
-  return modes.eigenvalues();
-}
+/// Ascending squares of the circular frequencies.
+Vector squared_frequencies(const ComplexMatrix& stiffness, const ComplexMatrix& mass);
+
+/// The same of a sector with this wave number.
+Vector squared_frequencies(const FiniteSector& sector, Index wave_number, Index sectors);
 
 }  // namespace arcslip::testing

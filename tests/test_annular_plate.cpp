@@ -2,7 +2,9 @@
 
 #include "annular_plate_modes.hpp"
 #include "arcslip/matrix_market.hpp"
+#include "arcslip/sector_reduction.hpp"
 #include "catch.hpp"
+#include "sector_examples.hpp"
 #include "sector_frequencies.hpp"
 
 using namespace arcslip;

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "arcslip/continuation/hill.hpp"
+#include "arcslip/spectrum.hpp"
 #include "catch.hpp"
 #include "monodromy.hpp"
 
@@ -35,7 +36,7 @@ Matrix at(const Coefficients& A, double wt) {
 }
 
 ComplexVector brute_multipliers(const Coefficients& A, double w, int steps = 4000) {
-  return monodromy([&](double t) { return at(A, w * t); }, 2 * pi / w, steps).eigenvalues();
+  return spectrum(monodromy([&](double t) { return at(A, w * t); }, 2 * pi / w, steps));
 }
 
 ComplexVector multipliers(const FloquetExponents& floquet, double w) {

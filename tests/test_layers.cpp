@@ -37,7 +37,7 @@ elements extended_sector finite_sector first_crossing full_receptance harmonic_s
 hysteresis_loop interval interval_response lowest_frequency matrix_market modal_model odd_motion
 physical_scale precise reduced_pair ring ring_motion ring_record ring_response ring_sector
 ring_stability ritz_space sector sector_modes sector_pair sector_reduction sector_solver
-shape_functions system)");
+shape_functions spectrum system)");
 const std::set<std::string, std::less<>> files = words(R"(
 case_file certificate_results continuation_section database for_each geometry_section output results runs sector_files
 sector_section study_case study_extras study_results study_run study_store system_section

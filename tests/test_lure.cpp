@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "arcslip/continuation/newton.hpp"
+#include "arcslip/spectrum.hpp"
 #include "catch.hpp"
 #include "library_cases.hpp"
 #include "monodromy.hpp"
@@ -43,7 +44,7 @@ ComplexVector brute_multipliers(const BranchPoint& point) {
     const double slope = 2 * motion(point.unknowns, t) - 1;
     return Eigen::Matrix3d{{0, 1, 0}, {0, 0, 1}, {slope, -point.parameters(1), -point.parameters(0)}};
   };
-  return monodromy(variation, period(point), 2000).eigenvalues();
+  return spectrum(monodromy(variation, period(point), 2000));
 }
 
 }  // namespace

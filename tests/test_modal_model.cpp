@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "arcslip/dynamic_stiffness.hpp"
 #include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
+#include "sector_frequencies.hpp"
 
 using namespace arcslip;
 
@@ -149,12 +149,12 @@ TEST_CASE("The joined frequencies are the eigenvalues of the structures joined b
   difference(0) = -1;
   difference(2) = 1;
   stiffness += system.contact_stiffness * difference * difference.adjoint();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> solver(stiffness, mass);
+  const Vector squared = testing::squared_frequencies(stiffness, mass);
   const std::vector<double> joined =
       joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
   REQUIRE(joined.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) {
-    const double expected = std::sqrt(solver.eigenvalues()(static_cast<Index>(k))) / (2 * std::numbers::pi);
+    const double expected = std::sqrt(squared(static_cast<Index>(k))) / (2 * std::numbers::pi);
     CHECK_THAT(joined[k], WithinRel(expected, 1e-9));
   }
   CHECK(joined_frequencies({&system.damper}, system.contact_stiffness).size() == 2);

@@ -5,6 +5,7 @@
 #include "arcslip/dynamic_stiffness.hpp"
 #include "arcslip/ring_stability.hpp"
 #include "arcslip/sector.hpp"
+#include "arcslip/spectrum.hpp"
 #include "catch.hpp"
 #include "ring_cases.hpp"
 
@@ -136,7 +137,7 @@ TEST_CASE("Multipliers of the turned flow are those of a brute-force monodromy",
   CHECK(stability.slips);
   const Matrix brute = brute_monodromy(motion, state);
   const auto n = static_cast<int>(c.system.wave_number);
-  const ComplexVector periods = brute.eigenvalues().array().pow(n);  // over n periods
+  const ComplexVector periods = spectrum(brute).array().pow(n);  // over n periods
   ComplexVector turned(stability.turned.size() + 1);
   turned << stability.turned.array().pow(static_cast<int>(c.system.elements)), Complex(1, 0);  // 1: the drift
   // What is nearly forgotten in n periods is known no better than the root of rounding over the step.

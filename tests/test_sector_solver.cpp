@@ -1,4 +1,4 @@
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <random>
 
 #include "arcslip/dynamic_stiffness.hpp"
@@ -7,6 +7,7 @@
 #include "arcslip/sector_solver.hpp"
 #include "catch.hpp"
 #include "sector_examples.hpp"
+#include "sector_frequencies.hpp"
 
 using namespace arcslip;
 using arcslip::testing::bladed_disk;
@@ -171,13 +172,10 @@ TEST_CASE(
 
 TEST_CASE("The lumped bladed disk vibrates at the published frequencies of 0 to 6 nodal diameters") {
   const FiniteSector sector = checked(bladed_disk());
-  SectorReduction reduction(sector);
   for (Index diameters = 0; diameters <= 6; ++diameters) {
-    reduction.set_forward(forward(diameters, 24));
-    const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> modes(
-        ComplexMatrix(reduction.stiffness()), ComplexMatrix(reduction.mass()), Eigen::EigenvaluesOnly);
+    const Vector squared = testing::squared_frequencies(sector, diameters, 24);
     for (Index k = 0; k < 3; ++k) {
-      const double hertz = std::sqrt(modes.eigenvalues()(k)) / (2 * std::numbers::pi);
+      const double hertz = std::sqrt(squared(k)) / (2 * std::numbers::pi);
       CHECK_THAT(hertz, WithinRel(testing::bladed_disk_frequencies[diameters][k], 1e-8) &&
                             WithinAbs(testing::bladed_disk_frequencies[diameters][k], 1e-8));
     }
