@@ -121,7 +121,7 @@ class Search {
   /// not seen, may do so once up to there. Returns whether something was found.
   bool search_before_first() {
     const std::vector<Event> known = result_.events;
-    if (!result_.solved || known.empty() || !(known.front().s < upper_)) return false;
+    if (!result_.solved || known.empty() || !(known.front().s < upper_) || known.front().s == 0) return false;
     if (known.front().kind == Event::Kind::crossing) return false;  // a probe there would be singular
     if (!end_at(known.front().s)) return false;
     result_.events.clear();

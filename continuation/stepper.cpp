@@ -196,11 +196,14 @@ bool Stepper::finish(bool lands, double value) {
   signals_.prediction_error = (step_ - predicted_).norm();
   signals_.mismatch = (step_ - 0.5 * distance_ * (slope_from_ + slope_to_)).norm();
   if (hold_ == Hold::tangent) signals_.turn = std::acos(std::min(1.0, 1 / slope_to_.norm()));
+  const bool corner = signals_.turn > limits_.turn_limit && shortest(distance_);
+  if (corner) signals_.turn = 0;
   if (!acceptable(signals_, limits_, max_step_)) return false;
 
   next_bend_ = (slope_to_ - slope_from_) / distance_;
   const bool straight = (slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm();
-  if (straight || slope_to_.dot(slope_from_) < 0) next_bend_.setZero();  // rounding, or a corner in between
+  // rounding, or a corner in between
+  if (straight || corner || slope_to_.dot(slope_from_) < 0) next_bend_.setZero();
   corrector_.set_tangent(there_, here_);
   // Either a branch point lies in between, or the corrector jumped to a piece that runs the other way.
   if (there_.orientation * here_.orientation < 0 && !find_crossing()) {
@@ -245,8 +248,7 @@ std::optional<double> Stepper::suspected_folds() const {
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
-  // What is still unlike a curve on so short a step is rounding.
-  if (s * slope_from_.norm() < 1e-7 * max_step_) return true;
+  if (shortest(s)) return true;
   const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
@@ -263,6 +265,9 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
   }
   return true;
 }
+
+/// What is still unlike a curve on so short a step is rounding, or a corner.
+bool Stepper::shortest(double s) const { return s * slope_from_.norm() < 1e-7 * max_step_; }
 
 void Stepper::interpolate(double s, Vector& out) const {
   const double x = s / distance_;

@@ -107,6 +107,17 @@ class Corner : public Problem {
   double a_, b_;
 };
 
+/// The same in one regime, which tells nothing of the corner.
+class HiddenCorner : public Corner {
+ public:
+  using Corner::Corner;
+  std::vector<std::string> regime_names() const override { return {"all"}; }
+  int border_count(int /*regime*/) const override { return 0; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    return Corner::evaluate(u, p, u(0) < 0 ? 0 : 1, out);
+  }
+};
+
 /// u = width^2 - (p - 1)^2, above the border only between p = 1 - width and 1 + width.
 class Bump : public Corner {
  public:

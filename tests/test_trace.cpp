@@ -151,6 +151,24 @@ TEST_CASE("A corner at which the parameter turns back is a fold of its own kind"
   CHECK_THAT(branch.points.back().unknowns(0), WithinRel(0.5, 1e-10));
 }
 
+TEST_CASE("A corner of less than a right angle within a regime is passed") {
+  const double slope = GENERATE(0.05, 0.2, 5.0, 100.0);
+  const Branch branch = trace(HiddenCorner(1, slope), guess_of({-1}, -1), over("p", -1, slope));
+  REQUIRE(branch.complete());
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(1, 1e-9));
+  CHECK(of_type(branch, PointType::fold).empty());
+}
+
+TEST_CASE("A corner within a regime at which the parameter turns back is a fold") {
+  const double slope = GENERATE(-0.05, -0.5, -0.9);
+  const Branch branch = trace(HiddenCorner(1, slope), guess_of({-1}, -1), over("p", -1, 1));
+  CHECK(branch.stop == Stop::left_range);
+  const auto folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-12));
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(-1 / slope, 1e-9));
+}
+
 TEST_CASE("A border touched only between two steps is not stepped over") {
   const double width = GENERATE(0.3, 1e-2, 1e-3, 1e-4);  // the border function rises to width^2
   const Branch branch = trace(Bump(width), guess_of({-1}, 0), over("p", 0, 2));

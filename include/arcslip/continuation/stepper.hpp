@@ -87,6 +87,7 @@ class Stepper {
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
 
   /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.
+  bool shortest(double s) const;
   bool resolved(double s, const std::vector<Monitor>& at_s) const;
 
   /// Ends the step at the point last probed.
