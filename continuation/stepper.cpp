@@ -117,6 +117,29 @@ Correction Stepper::enter(int regime) {
   return result;
 }
 
+// The sign of the determinant that t closes is the same on all pieces of a branch, if t points forward. Where
+// it tells that the piece ahead is passed against here's direction, it is met behind the corner.
+bool Stepper::turn_back() {
+  const Vector arrival = here_.tangent;
+  for (double ahead = 1e-11; ahead < 1e-6; ahead *= 2) {
+    probe_ = here_;
+    probed_when_ = -1;
+    corrector_.displace(here_, ahead * arrival, probe_);
+    if (corrector_.linearise(probe_, arrival) != Correction::converged) return false;
+    if (corrector_.orientation() == here_.orientation) continue;
+    normal_ = -corrector_.direction().normalized();
+    there_ = probe_;
+    corrector_.displace(probe_, 2 * ahead * normal_, there_);
+    if (corrector_.correct(there_, probe_, normal_, 2 * ahead, false) != Correction::converged ||
+        corrector_.orientation() != here_.orientation || !(corrector_.direction().dot(arrival) < 0))
+      continue;
+    here_ = there_;
+    begin_piece(probe_);
+    return true;
+  }
+  return false;
+}
+
 void Stepper::begin_piece(const CurvePoint& origin) {
   corrector_.set_tangent(here_, origin);
   monitor(here_, here_.scale, here_.tangent, at_here_);

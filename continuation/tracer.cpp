@@ -100,6 +100,7 @@ void Tracer::step() {
   while (!try_step()) {
     ++corrector_.work().rejected_steps;
     if (length() >= options_.min_step) continue;
+    if (turn_back()) return;
     const Correction last = stepper_.last_correction();
     return stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
                 fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}",
@@ -314,6 +315,18 @@ void Tracer::cross(int border, bool several) {
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
   state_.distance = std::max(change / std::abs(stepper_.parameter_slope(state_.hold)),
                              1e-3 * length_before / stepper_.slope_length(state_.hold));
+}
+
+/// Corners within a regime that no step can pass.
+bool Tracer::turn_back() {
+  const Signs before = state_.signs;
+  const std::size_t stored = branch_.points.size();
+  if (!stepper_.turn_back()) return false;
+  if (!watch_.empty()) watch_.look(stepper_.here());
+  corner_events(before);
+  if (branch_.points.size() == stored) store(PointType::regular);
+  state_.distance = 1e-6 * options_.max_step / stepper_.slope_length(state_.hold);
+  return true;
 }
 
 /// Extrema and folds that are corners: a derivative jumps from one sign to the other.

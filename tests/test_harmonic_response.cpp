@@ -173,6 +173,21 @@ TEST_CASE("Branches of random systems in five harmonics reach their end and lose
   }
 }
 
+TEST_CASE("Corners within slip, where the branch of a negative damping turns back, are passed",
+          "[harmonics]") {
+  SystemParameters parameters = figure_8(1);
+  parameters.base_damping = -1e-2;
+  const HarmonicResponse problem = balanced(parameters, 25);
+  const Branch branch = response(problem, 1, 3.9, 4.1);
+  CAPTURE(branch.explanation);
+  REQUIRE(branch.complete());
+  CHECK(branch.points.back().regime == 0);
+  const auto turns = [](const BranchPoint& point) { return point.type == PointType::corner_fold; };
+  CHECK(std::any_of(branch.points.begin(), branch.points.end(), turns));
+  for (const BranchPoint& point : branch.points)
+    CHECK(power_balance(problem, point.unknowns, point.parameters, point.regime).error() < 1e-6);
+}
+
 TEST_CASE(
     "A harmonic that moves both rings as rigid bodies has an undamped resonance, which stick does not feel",
     "[harmonics]") {

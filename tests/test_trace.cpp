@@ -169,6 +169,16 @@ TEST_CASE("A corner within a regime at which the parameter turns back is a fold"
   CHECK_THAT(branch.points.back().unknowns(0), WithinRel(-1 / slope, 1e-9));
 }
 
+TEST_CASE("A corner within a regime is turned, too, where the branch comes back beside itself") {
+  const double slope = GENERATE(-1.1, -2.0, -20.0);
+  const Branch branch = trace(HiddenCorner(1, slope), guess_of({-1}, -1), over("p", -1, 1));
+  CHECK(branch.stop == Stop::left_range);
+  const auto folds = of_type(branch, PointType::corner_fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-8));
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(-1 / slope, 1e-9));
+}
+
 TEST_CASE("A border touched only between two steps is not stepped over") {
   const double width = GENERATE(0.3, 1e-2, 1e-3, 1e-4);  // the border function rises to width^2
   const Branch branch = trace(Bump(width), guess_of({-1}, 0), over("p", 0, 2));

@@ -92,6 +92,9 @@ class Corrector {
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();
 
+  /// Sign of det [J F_p; normal^T] as last factored.
+  double orientation() const { return border_sign_; }
+
   Work& work() { return work_; }
 
  private:

@@ -43,6 +43,10 @@ class Stepper {
   /// into it.
   Correction enter(int regime);
 
+  /// Goes past a corner within the regime, just ahead, at which the branch turns by more than a right angle.
+  /// False, and still at `here`, if there is none.
+  bool turn_back();
+
   /// Arclength per distance at `here`: 1 or more.
   double slope_length(Hold hold) const;
 
@@ -87,7 +91,6 @@ class Stepper {
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
 
   /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.
-  bool shortest(double s) const;
   bool resolved(double s, const std::vector<Monitor>& at_s) const;
 
   /// Ends the step at the point last probed.
@@ -120,7 +123,8 @@ class Stepper {
   bool find_crossing();
   bool locate_crossing(double s);
   void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
-  double arc_rate() const;                                      // arclength per distance at there_
+  bool shortest(double s) const;
+  double arc_rate() const;  // arclength per distance at there_
   void set_condition(Hold hold);
   void predict();
   bool finish(bool lands, double value);

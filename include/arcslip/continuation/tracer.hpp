@@ -45,6 +45,7 @@ class Tracer {
   void count_unstable(const Signs& before, bool turns);
   void take_target(const Target& target);
   void cross(int border, bool several);
+  bool turn_back();
   bool on_several_borders() const;
   Correction leave(int border, bool several);
   void corner_events(const Signs& before);
