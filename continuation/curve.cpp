@@ -28,6 +28,7 @@ int nearest_border(const Problem& base, const BranchPoint& point) {
     nearest = b;
   }
   if (nearest < 0) throw std::invalid_argument("curve_through: the point's regime has no borders");
+  if (!(least < 1e-6)) throw std::invalid_argument("curve_through: the point lies on no border");
   return nearest;
 }
 

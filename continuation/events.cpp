@@ -121,14 +121,14 @@ class Search {
   /// not seen, may do so once up to there. Returns whether something was found.
   bool search_before_first() {
     const std::vector<Event> known = result_.events;
-    if (!result_.solved || known.empty() || !(known.front().s < upper_) || known.front().s == 0) return false;
+    if (!result_.solved || known.empty()) return false;
+    const double first = known.front().s;
+    if (!(first > 0 && first < upper_)) return false;
     if (known.front().kind == Event::Kind::crossing) return false;  // a probe there would be singular
-    if (!end_at(known.front().s)) return false;
+    if (!end_at(first)) return false;
     result_.events.clear();
     search_inside();
-    const auto earlier = [&](const Event& event) {
-      return event.s < known.front().s - 1e-9 * stepper_.distance();
-    };
+    const auto earlier = [&](const Event& event) { return event.s < first - 1e-9 * stepper_.distance(); };
     const bool found = result_.solved && std::any_of(result_.events.begin(), result_.events.end(), earlier);
     if (!found) result_ = {true, known};
     return found;

@@ -120,18 +120,16 @@ Correction Stepper::enter(int regime) {
 // The sign of the determinant that t closes is the same on all pieces of a branch, if t points forward. Where
 // it tells that the piece ahead is passed against here's direction, it is met behind the corner.
 bool Stepper::turn_back() {
-  const Vector arrival = here_.tangent;
+  probe_ = here_;
+  probed_when_ = -1;
   for (double ahead = 1e-11; ahead < 1e-6; ahead *= 2) {
-    probe_ = here_;
-    probed_when_ = -1;
-    corrector_.displace(here_, ahead * arrival, probe_);
-    if (corrector_.linearise(probe_, arrival) != Correction::converged) return false;
+    corrector_.displace(here_, ahead * here_.tangent, probe_);
+    if (corrector_.linearise(probe_, here_.tangent) != Correction::converged) return false;
     if (corrector_.orientation() == here_.orientation) continue;
     normal_ = -corrector_.direction().normalized();
-    there_ = probe_;
     corrector_.displace(probe_, 2 * ahead * normal_, there_);
     if (corrector_.correct(there_, probe_, normal_, 2 * ahead, false) != Correction::converged ||
-        corrector_.orientation() != here_.orientation || !(corrector_.direction().dot(arrival) < 0))
+        corrector_.orientation() != here_.orientation || !(corrector_.direction().dot(here_.tangent) < 0))
       continue;
     here_ = there_;
     begin_piece(probe_);
@@ -219,7 +217,7 @@ bool Stepper::finish(bool lands, double value) {
   signals_.prediction_error = (step_ - predicted_).norm();
   signals_.mismatch = (step_ - 0.5 * distance_ * (slope_from_ + slope_to_)).norm();
   if (hold_ == Hold::tangent) signals_.turn = std::acos(std::min(1.0, 1 / slope_to_.norm()));
-  const bool corner = signals_.turn > limits_.turn_limit && shortest(distance_);
+  const bool corner = signals_.turn > limits_.turn_limit && is_tiny(distance_);
   if (corner) signals_.turn = 0;
   if (!acceptable(signals_, limits_, max_step_)) return false;
 
@@ -271,7 +269,7 @@ std::optional<double> Stepper::suspected_folds() const {
 }
 
 bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
-  if (shortest(s)) return true;
+  if (is_tiny(s)) return true;
   const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
@@ -290,7 +288,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
 }
 
 /// What is still unlike a curve on so short a step is rounding, or a corner.
-bool Stepper::shortest(double s) const { return s * slope_from_.norm() < 1e-7 * max_step_; }
+bool Stepper::is_tiny(double s) const { return s * slope_from_.norm() < 1e-7 * max_step_; }
 
 void Stepper::interpolate(double s, Vector& out) const {
   const double x = s / distance_;

@@ -147,7 +147,7 @@ bool Tracer::try_landing() {
 /// that ends before it.
 bool Tracer::find_events() {
   closing_.reset();
-  if (!watch_.empty()) watch_.look(stepper_.there());
+  watch_.look(stepper_.there());
   EventSearch search = find_first_events(stepper_, watch_, state_.signs);
   events_ = std::move(search.events);
   if (!search.solved) return false;
@@ -191,7 +191,7 @@ void Tracer::take() {
   stepper_.advance();
   if (whole) state_.distance *= factor;
   const Signs before = state_.signs;
-  if (!watch_.empty()) watch_.look(stepper_.here());
+  watch_.look(stepper_.here());
   update(state_.signs, stepper_, watch_);
   if (closing_) {
     store(PointType::end);
@@ -309,7 +309,7 @@ void Tracer::cross(int border, bool several) {
     return stop(Stop::grazing_border,
                 fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
-  if (!watch_.empty()) watch_.look(stepper_.here());
+  watch_.look(stepper_.here());
   store(PointType::regime_switch, {}, arrival);
   corner_events(before);
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
@@ -322,7 +322,7 @@ bool Tracer::turn_back() {
   const Signs before = state_.signs;
   const std::size_t stored = branch_.points.size();
   if (!stepper_.turn_back()) return false;
-  if (!watch_.empty()) watch_.look(stepper_.here());
+  watch_.look(stepper_.here());
   corner_events(before);
   if (branch_.points.size() == stored) store(PointType::regular);
   state_.distance = 1e-6 * options_.max_step / stepper_.slope_length(state_.hold);

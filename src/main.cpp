@@ -126,14 +126,7 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-int dispatch(int argc, char** argv) {
-  using namespace arcslip;
-  CLI::App app{about, "arcslip"};
-  app.set_version_flag("--version", "arcslip " ARCSLIP_VERSION);
-  app.require_subcommand(1);
-  app.footer(examples);
-
-  RunOptions options;
+CLI::App* add_run_command(CLI::App& app, arcslip::RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
   run->add_option("CASE", options.case_path, "Case file (TOML)")->required();
   run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
@@ -149,19 +142,35 @@ int dispatch(int argc, char** argv) {
       "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
       "jumped; forced responses with one contact; status 3 where a segment is not proven");
   run->footer(run_notes);
+  return run;
+}
 
-  StudyOptions studied;
+CLI::App* add_study_command(CLI::App& app, arcslip::StudyOptions& options) {
   CLI::App* study = app.add_subcommand("study", "Find the best preload of each design that [study] asks for");
-  study->add_option("CASE", studied.case_path, "Case file (TOML)")->required();
-  study->add_option("-o,--output", studied.folder, "Folder for the results; out/<case> if not given")
+  study->add_option("CASE", options.case_path, "Case file (TOML)")->required();
+  study->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
       ->type_name("DIR");
-  study->add_option("--jobs", studied.jobs, "Threads; one for each core if not given")
+  study->add_option("--jobs", options.jobs, "Threads; one for each core if not given")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
-  study->add_flag("--resume", studied.resume, "Go on with the study in DIR, if there is one");
-  add_settings(study, studied.settings);
-  study->add_flag("--quiet", studied.quiet, "Print neither progress nor the table");
+  study->add_flag("--resume", options.resume, "Go on with the study in DIR, if there is one");
+  add_settings(study, options.settings);
+  study->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
   study->footer(study_notes);
+  return study;
+}
+
+int dispatch(int argc, char** argv) {
+  using namespace arcslip;
+  CLI::App app{about, "arcslip"};
+  app.set_version_flag("--version", "arcslip " ARCSLIP_VERSION);
+  app.require_subcommand(1);
+  app.footer(examples);
+
+  RunOptions traced;
+  const CLI::App* run = add_run_command(app, traced);
+  StudyOptions studied;
+  const CLI::App* study = add_study_command(app, studied);
 
   CheckOptions checked;
   CLI::App* check = app.add_subcommand("check", "Read and validate a case file, print what would run");
@@ -186,7 +195,7 @@ int dispatch(int argc, char** argv) {
     std::cerr << "arcslip: " << error.what() << "; see arcslip --help\n";
     return status::wrong_command_line;
   }
-  if (run->parsed()) return run_command(options);
+  if (run->parsed()) return run_command(traced);
   if (study->parsed()) return study_command(studied);
   if (check->parsed()) return check_command(checked);
   if (sector->parsed()) return sector_command(sectors);

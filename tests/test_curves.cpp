@@ -251,6 +251,11 @@ TEST_CASE("A curve is not made of points that have none") {
   point.unknowns = vector_of({0});
   point.parameters = vector_of({0, 0});
   CHECK_THROWS_WITH(curve_through(problem, "mu", point), ContainsSubstring("regular"));
+  BranchPoint corner;  // within a regime
+  corner.type = PointType::corner_fold;
+  corner.unknowns = Vector::Constant(1, -0.5);
+  corner.parameters = Vector::Constant(1, -0.5);
+  CHECK_THROWS_WITH(curve_through(Corner(1, -2), "p", corner), ContainsSubstring("no border"));
   point.type = PointType::fold;
   CHECK_THROWS_WITH(curve_through(problem, "nu", point), ContainsSubstring("mu"));
   FoldProblem folds(problem, 0);

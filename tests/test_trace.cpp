@@ -20,6 +20,15 @@ Guess guess_of(std::initializer_list<double> unknowns, double parameter, int reg
   return guess;
 }
 
+/// The branch turns back once, at p = 0, and leaves its range where it came in, at u = `end`.
+void check_turned(const Branch& branch, PointType type, double error, double end, double error_of_end) {
+  CHECK(branch.stop == Stop::left_range);
+  const auto folds = of_type(branch, type);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, error));
+  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(end, error_of_end));
+}
+
 }  // namespace
 
 TEST_CASE("The branch passes both folds of the cusp and lands exactly on its last value") {
@@ -143,12 +152,8 @@ TEST_CASE("A corner of any angle is turned at the border itself") {
 
 TEST_CASE("A corner at which the parameter turns back is a fold of its own kind") {
   const Branch branch = trace(Corner(1, -2), guess_of({-1}, -1), over("p", -1, 1));
-  CHECK(branch.stop == Stop::left_range);
   CHECK(of_type(branch, PointType::fold).empty());
-  const auto folds = of_type(branch, PointType::corner_fold);
-  REQUIRE(folds.size() == 1);
-  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-14));
-  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(0.5, 1e-10));
+  check_turned(branch, PointType::corner_fold, 1e-14, 0.5, 1e-10);
 }
 
 TEST_CASE("A corner of less than a right angle within a regime is passed") {
@@ -162,21 +167,13 @@ TEST_CASE("A corner of less than a right angle within a regime is passed") {
 TEST_CASE("A corner within a regime at which the parameter turns back is a fold") {
   const double slope = GENERATE(-0.05, -0.5, -0.9);
   const Branch branch = trace(HiddenCorner(1, slope), guess_of({-1}, -1), over("p", -1, 1));
-  CHECK(branch.stop == Stop::left_range);
-  const auto folds = of_type(branch, PointType::fold);
-  REQUIRE(folds.size() == 1);
-  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-12));
-  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(-1 / slope, 1e-9));
+  check_turned(branch, PointType::fold, 1e-12, -1 / slope, 1e-9);
 }
 
 TEST_CASE("A corner within a regime is turned, too, where the branch comes back beside itself") {
   const double slope = GENERATE(-1.1, -2.0, -20.0);
   const Branch branch = trace(HiddenCorner(1, slope), guess_of({-1}, -1), over("p", -1, 1));
-  CHECK(branch.stop == Stop::left_range);
-  const auto folds = of_type(branch, PointType::corner_fold);
-  REQUIRE(folds.size() == 1);
-  CHECK_THAT(folds[0].parameters(0), WithinAbs(0, 1e-8));
-  CHECK_THAT(branch.points.back().unknowns(0), WithinRel(-1 / slope, 1e-9));
+  check_turned(branch, PointType::corner_fold, 1e-8, -1 / slope, 1e-9);
 }
 
 TEST_CASE("A border touched only between two steps is not stepped over") {

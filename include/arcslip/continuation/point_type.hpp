@@ -13,7 +13,7 @@ enum class PointType {
   end,
   regime_switch,    ///< on a border, where the branch goes on in another regime
   fold,             ///< the parameter turns back smoothly
-  corner_fold,      ///< it turns back at a border, by a jump of the tangent
+  corner_fold,      ///< it turns back at a corner, by a jump of the tangent
   branch_point,     ///< another branch crosses
   hopf,             ///< a pair of eigenvalues crosses the imaginary axis
   peak,             ///< of a tracked observable

@@ -123,7 +123,7 @@ class Stepper {
   bool find_crossing();
   bool locate_crossing(double s);
   void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
-  bool shortest(double s) const;
+  bool is_tiny(double s) const;
   double arc_rate() const;  // arclength per distance at there_
   void set_condition(Hold hold);
   void predict();
