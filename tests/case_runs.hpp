@@ -11,6 +11,7 @@
 #include "arcslip/runs.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
+#include "places.hpp"
 
 namespace arcslip::testing {
 
@@ -23,7 +24,7 @@ using Settings = std::vector<std::string>;
 /// A case with all that was traced for it.
 struct Run {
   explicit Run(const std::string& name, const Settings& settings = {})
-      : input(read_case(std::string(ARCSLIP_SOURCE_DIR) + "/problems/" + name + ".toml", settings)) {
+      : input(read_case(source_folder() + "/problems/" + name + ".toml", settings)) {
     for (const CaseBranch& request : input.branches) {
       for (TracedBranch& one : trace(request)) traced.push_back(std::move(one));
     }

@@ -11,14 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "places.hpp"
 #include "temporary_folder.hpp"
 
 namespace arcslip::testing {
 
-inline const std::string program = ARCSLIP_PROGRAM;
+inline const std::string program = program_path();
 
 inline std::string case_named(const std::string& name) {
-  return std::string(ARCSLIP_SOURCE_DIR) + "/problems/" + name + ".toml";
+  return source_folder() + "/problems/" + name + ".toml";
 }
 
 struct Outcome {

@@ -3,6 +3,7 @@
 #include "arcslip/study_case.hpp"
 #include "catch.hpp"
 #include "mistakes.hpp"
+#include "places.hpp"
 #include "temporary_folder.hpp"
 
 using namespace arcslip;
@@ -366,8 +367,7 @@ TEST_CASE("A case without a section, and a file that cannot be read, are refused
 
 TEST_CASE("Every case file that comes with the program is valid") {
   int count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + "/problems")) {
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_folder() + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
     const std::string text = arcslip::testing::read(entry.path());
     CHECK(text.front() == '#');  // opens with what it shows

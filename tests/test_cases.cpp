@@ -7,6 +7,7 @@
 #include "arcslip/study_case.hpp"
 #include "case_runs.hpp"
 #include "library_cases.hpp"
+#include "places.hpp"
 #include "temporary_folder.hpp"
 
 using namespace arcslip;
@@ -14,8 +15,7 @@ using namespace arcslip::testing;
 
 TEST_CASE("Every case is traced to its end, and every point of it solves its equations", "[cases]") {
   int cases = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + "/problems")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
     if (read(entry.path()).find("\n[branch]") == std::string::npos) continue;  // a study, see below
     ++cases;
@@ -40,8 +40,7 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
 
 TEST_CASE("Every study's case is read, and its last design has an optimum", "[cases]") {
   int cases = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + "/problems")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
     if (read(entry.path()).find("\n[study]") == std::string::npos) continue;
     ++cases;

@@ -7,6 +7,7 @@
 
 #include "arcslip/matrix_market.hpp"
 #include "catch.hpp"
+#include "places.hpp"
 #include "program.hpp"
 #include "sector_examples.hpp"
 
@@ -72,7 +73,7 @@ std::string upper_triangle(const Matrix& matrix) {
   return text;
 }
 
-const std::string folder_of_scripts = std::string(ARCSLIP_SOURCE_DIR) + "/problems/export";
+const std::string folder_of_scripts = testing::source_folder() + "/problems/export";
 
 testing::Outcome convert(const testing::TemporaryFolder& folder, const std::string& options) {
   return testing::shell(

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "places.hpp"
 
 namespace {
 
@@ -88,7 +89,7 @@ struct Line {
 };
 
 std::vector<Line> source_lines() {
-  const fs::path top = ARCSLIP_SOURCE_DIR;
+  const fs::path top = arcslip::testing::source_folder();
   std::vector<Line> lines;
   for (const char* folder : {"continuation", "include", "problems", "src"}) {
     for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {

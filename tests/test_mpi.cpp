@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "database.hpp"
+#include "places.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
 
@@ -18,8 +19,8 @@ namespace {
 Outcome in_processes(int count, const std::string& arguments) {
   return shell(
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-      "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe '" ARCSLIP_MPIEXEC "' -n " +
-      std::to_string(count) + " '" + program + "' " + arguments);
+      "PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe '" +
+      mpiexec_path() + "' -n " + std::to_string(count) + " '" + program + "' " + arguments);
 }
 
 /// How often it is said; mpirun has something to say about a status that is not 0, too.

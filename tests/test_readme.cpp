@@ -9,6 +9,7 @@
 
 #include "arcslip/case_file.hpp"
 #include "catch.hpp"
+#include "places.hpp"
 #include "sector_files.hpp"
 
 using arcslip::testing::bladed_disk;
@@ -18,7 +19,7 @@ using arcslip::testing::write_sector;
 
 namespace {
 
-const std::string source = ARCSLIP_SOURCE_DIR;
+const std::string source = arcslip::testing::source_folder();
 
 /// Each line without what it is indented by.
 std::string flush_left(const std::string& text) {

@@ -5,6 +5,7 @@
 
 #include "catch.hpp"
 #include "mistakes.hpp"
+#include "places.hpp"
 #include "program.hpp"
 #include "study_run.hpp"
 #include "study_store.hpp"
@@ -245,7 +246,7 @@ TEST_CASE("A study of rings has columns in SI units", "[study]") {
 }
 
 TEST_CASE("The study of rotor and ring finds what the case says", "[study]") {
-  const StudyCase study = read_study(std::string(ARCSLIP_SOURCE_DIR) + "/problems/rotor_ring.toml");
+  const StudyCase study = read_study(source_folder() + "/problems/rotor_ring.toml");
   REQUIRE(study.count == 2);
   const auto micrometres = [](const PhysicalScale& scale, double Y) { return 1e6 * scale.displacement(Y); };
   const double newtons_per_metre[] = {312.6, 335.1};
