@@ -192,7 +192,7 @@ void Tracer::take() {
   if (whole) state_.distance *= factor;
   const Signs before = state_.signs;
   watch_.look(stepper_.here());
-  update(state_.signs, stepper_, watch_);
+  update(state_.signs, stepper_, watch_, !events_.empty());
   if (closing_) {
     store(PointType::end);
     return stop(Stop::closed_loop, "the branch came back to its start");

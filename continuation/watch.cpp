@@ -54,16 +54,15 @@ Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   return signs;
 }
 
-void update(Signs& signs, const Stepper& stepper, const Watch& watch) {
-  const double rate = stepper.parameter_slope(Hold::tangent);
-  if (sign_of(rate) != 0) signs.parameter = sign_of(rate);
-  for (std::size_t i = 0; i < signs.observables.size(); ++i) {
-    if (const int sign = sign_of_slope(stepper, i, stepper.at_here()[i]); sign != 0)
-      signs.observables[i] = sign;
-  }
-  for (std::size_t i = 0; i < signs.functions.size(); ++i) {
-    if (const int sign = sign_of(watch.functions()[i]); sign != 0) signs.functions[i] = sign;
-  }
+void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_event) {
+  const auto take = [at_event](int& sign, int now) {
+    if (now != 0 && !(at_event && sign != 0)) sign = now;
+  };
+  take(signs.parameter, sign_of(stepper.parameter_slope(Hold::tangent)));
+  for (std::size_t i = 0; i < signs.observables.size(); ++i)
+    take(signs.observables[i], sign_of_slope(stepper, i, stepper.at_here()[i]));
+  for (std::size_t i = 0; i < signs.functions.size(); ++i)
+    take(signs.functions[i], sign_of(watch.functions()[i]));
   signs.unstable = watch.unstable();
 }
 

@@ -50,7 +50,8 @@ class Watch {
 /// The signs at the start of a piece.
 Signs signs_at_start(const Stepper& stepper, const Watch& watch);
 
-/// Takes over the signs at the end of a step.
-void update(Signs& signs, const Stepper& stepper, const Watch& watch);
+/// Takes over the signs at the end of a step. Whatever changes its sign within a step that ends at an event
+/// is an event there itself, and what vanishes there has the sign of noise: known signs stay.
+void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_event);
 
 }  // namespace arcslip::continuation
