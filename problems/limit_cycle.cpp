@@ -14,8 +14,9 @@ namespace arcslip::problems {
 
 LimitCycle::LimitCycle(FrictionSystem system) : system_(std::move(system)) {
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
-  for (const Mode& mode : system_.base.modes())
-    zeta_scale_ += mode.residue / (mode.frequency * mode.frequency);
+  for (const Mode& mode : system_.base.modes()) {
+    if (mode.frequency > 0) zeta_scale_ += mode.residue / (mode.frequency * mode.frequency);
+  }
   zeta_scale_ = std::min(0.5 * std::numbers::inv_pi * system_.contact_stiffness * zeta_scale_, 1.0);
 }
 

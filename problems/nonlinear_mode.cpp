@@ -258,11 +258,15 @@ continuation::Guess NonlinearMode::guess(double eta_value, double R_value, doubl
     throw std::invalid_argument("NonlinearMode: eta, R and the preload must be positive");
   Vector springs(contacts());
   for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[at(i)].stiffness;
-  const std::vector<JoinedMode> modes = joined_modes({&system_.base[0], &system_.damper[0]}, springs);
+  std::vector<JoinedMode> modes = joined_modes({&system_.base[0], &system_.damper[0]}, springs);
+  constexpr double still = 1e-8;  // of the most that any mode moves it: rounding, as of both moving as one
+  double most = 0;
+  for (const JoinedMode& mode : modes) most = std::max(most, std::abs(mode.relative(0)));
+  std::erase_if(modes, [&](const JoinedMode& mode) { return !(std::abs(mode.relative(0)) > still * most); });
   const auto nearest = std::min_element(modes.begin(), modes.end(), [&](const auto& one, const auto& other) {
     return std::abs(one.frequency - eta_value) < std::abs(other.frequency - eta_value);
   });
-  if (nearest == modes.end() || nearest->relative(0) == Complex(0))
+  if (nearest == modes.end())
     throw std::invalid_argument("NonlinearMode: there is no mode that moves the first contact");
   continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
   guess.parameters << R_value, preload_value;

@@ -52,6 +52,17 @@ ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector&
   return fold(product(sector_.stiffness, unfolded));
 }
 
+ExtendedSector::Real ExtendedSector::stiffness_terms(const NumberVector& unfolded) const {
+  const SparseMatrix& matrix = sector_.stiffness;
+  Real sum = 0;
+  for (Index j = 0; j < matrix.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      sum += std::abs(unfolded(entry.row())) * static_cast<Real>(std::abs(entry.value())) *
+             std::abs(unfolded(j));
+  }
+  return sum;
+}
+
 Index ExtendedSector::reduced_contact(Index contact) const {
   return map_.reduced[static_cast<std::size_t>(sector_.contacts[static_cast<std::size_t>(contact)])];
 }

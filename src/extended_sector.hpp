@@ -26,6 +26,9 @@ class ExtendedSector {
   NumberVector mass_times(const NumberVector& unfolded) const;
   NumberVector stiffness_times(const NumberVector& unfolded) const;
 
+  /// |v|^T |K| |v| of the sector's own entries, from T v: what cancels in v^H K(a) v.
+  Real stiffness_terms(const NumberVector& unfolded) const;
+
   const NumberVector& load() const { return load_; }  ///< T^H F
   Index size() const { return map_.size; }
   Index contacts() const { return std::ssize(sector_.contacts); }

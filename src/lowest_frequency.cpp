@@ -36,11 +36,8 @@ double lowest_frequency(const FiniteSector& sector, Index wave_number, Index sec
   constexpr int most = 500;
   SectorReduction reduction(sector);
   reduction.set_forward(SectorWave{wave_number, sectors}.forward());
-  const double largest =
-      (reduction.stiffness().diagonal().real().array() / reduction.mass().diagonal().real().array())
-          .maxCoeff();
   // Of what a double leaves of the largest w^2 nothing below this is more than rounding.
-  const double shift = 1e-15 * largest;
+  const double shift = 1e-15 * largest_square(reduction);
   const Eigen::SimplicialLDLT<ComplexSparseMatrix> factors(reduction.stiffness() + shift * reduction.mass());
   ComplexVector x(reduction.size());
   for (Index i = 0; i < x.size(); ++i) x(i) = std::polar(1.0, static_cast<double>(i * i));  // no symmetry

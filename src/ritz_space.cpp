@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -33,30 +34,58 @@ void RitzSpace::add(const ComplexMatrix& columns) {
   }
 }
 
-SectorModes RitzSpace::modes(double below) const {
-  const Real shift = below;
-  // Of this pencil the lowest modes are the largest and keep all their digits.
-  const NumberMatrix shifted = stiffness_ - Number(shift) * mass_;
+/// K - shift M, where `shift` < 0 is enlarged until this is definite: by no more than what matrices of a few
+/// digits need.
+RitzSpace::NumberMatrix RitzSpace::shifted(Real& shift) const {
+  constexpr Real least = 1e-15;  // of the largest w*^2
+  constexpr Real most = 1e-6;
+  const Real largest = (stiffness_.diagonal().real().array() / mass_.diagonal().real().array()).maxCoeff();
+  for (shift = std::min(shift, -least * largest);; shift *= 10) {
+    NumberMatrix definite = stiffness_ - Number(shift) * mass_;
+    if (definite.llt().info() == Eigen::Success) return definite;
+    if (-shift > most * largest)
+      throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
+  }
+}
+
+/// Whether a motion, of unit modal mass, meets no stiffness but the rounding of the matrices as they are
+/// written, perhaps with 14 digits; or one below zero that no response at `eta_low` and above can tell from
+/// 0.
+bool RitzSpace::is_free(const NumberVector& shape, Real square, double eta_low) const {
+  constexpr Real digits = 1e-14;
+  constexpr Real negligible = 1e-6;
+  const Real rounding = digits * sector_.stiffness_terms(sector_.unfold(shape));
+  const Real low = 2 * std::numbers::pi_v<Real> * static_cast<Real>(eta_low);
+  if (square < -std::max(rounding, negligible * low * low))
+    throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
+  return square <= rounding;
+}
+
+SectorModes RitzSpace::modes(double eta_low) const {
+  constexpr Real part = 0.1;
+  const Real two_pi = 2 * std::numbers::pi_v<Real>;
   if (mass_.llt().info() != Eigen::Success)
     throw SectorError("the mass matrix is not positive definite under this wave");
-  if (shifted.llt().info() != Eigen::Success)
-    throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<NumberMatrix> solver(mass_, shifted);
+  Real shift = -std::pow(part * two_pi * static_cast<Real>(eta_low), 2);
+  // Of this pencil the lowest modes are the largest and keep all their digits.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<NumberMatrix> solver(mass_, shifted(shift));
   if (solver.info() != Eigen::Success) throw SectorError("the modes of the sector were not found");
   NumberMatrix observed(sector_.contacts() + sector_.outputs(), size());  // what is seen of each vector
   for (Index i = 0; i < size(); ++i) observed.col(i) = sector_.observed(basis_.col(i).cast<Number>());
-  const Real two_pi = 2 * std::numbers::pi_v<Real>;
   SectorModes found;
   found.shapes.resize(observed.rows(), size());
   found.loads.resize(size());
+  bool free = true;  // as the lowest modes alone may be
   for (Index k = 0; k < size(); ++k) {
     const Index place = size() - 1 - k;
     const Real theta = solver.eigenvalues()(place);  // 1/(lambda - shift)
-    const NumberVector shape = solver.eigenvectors().col(place) / (std::sqrt(theta) * two_pi);
-    const Real square = std::max(shift + 1 / theta, Real(0));
-    found.frequencies.push_back(static_cast<double>(std::sqrt(square) / two_pi));
-    found.shapes.col(k) = (observed * shape).cast<Complex>();
-    found.loads(k) = Complex(shape.dot(load_));
+    const NumberVector shape = solver.eigenvectors().col(place) / std::sqrt(theta);
+    const Real square = shift + 1 / theta;
+    free = free && is_free(basis_.cast<Number>() * shape, square, eta_low);
+    if (free) found.free_squares.push_back(static_cast<double>(square / (two_pi * two_pi)));
+    found.frequencies.push_back(free ? 0 : static_cast<double>(std::sqrt(square) / two_pi));
+    found.shapes.col(k) = (observed * shape / two_pi).cast<Complex>();
+    found.loads(k) = Complex(shape.dot(load_) / two_pi);
   }
   return found;
 }

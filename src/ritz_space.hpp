@@ -17,9 +17,8 @@ class RitzSpace {
 
   Index size() const { return mass_.rows(); }
 
-  /// All modes in the space, with their residues. `below` < 0 is a shift in w*^2 that makes K - below M
-  /// definite. Throws SectorError.
-  SectorModes modes(double below) const;
+  /// All modes in the space, with their residues, for responses at `eta_low` and above. Throws SectorError.
+  SectorModes modes(double eta_low) const;
 
  private:
   using Real = ExtendedSector::Real;
@@ -28,6 +27,8 @@ class RitzSpace {
   using NumberMatrix = ExtendedSector::NumberMatrix;
 
   void widen(NumberMatrix& projection, Index column, const NumberVector& product);
+  NumberMatrix shifted(Real& shift) const;
+  bool is_free(const NumberVector& shape, Real square, double eta_low) const;
 
   ExtendedSector sector_;
   ComplexMatrix basis_;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "arcslip/sector_reduction.hpp"
-#include "complex_factors.hpp"
+#include "krylov_space.hpp"
+#include "refined_solve.hpp"
 #include "ritz_space.hpp"
 
 namespace arcslip {
@@ -16,80 +18,16 @@ namespace {
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double worst_error = 1e-6;  // beyond which modes and matrices are not the same sector
 
-double square(double x) { return x * x; }
-
-/// What shift-invert Lanczos adds to the space, block by block.
-class Krylov {
- public:
-  Krylov(const FiniteSector& sector, const SectorWave& wave, double below)
-      : reduction_(sector), shifted_(reduction_.stiffness()), factors_(shifted_) {
-    reduction_.set_forward(wave.forward());
-    factor(below);
-    const Index contacts = std::ssize(sector.contacts);
-    block_ = ComplexMatrix::Zero(reduction_.size(), contacts + 1);
-    for (Index i = 0; i < contacts; ++i)
-      block_(reduction_.reduced_dof(sector.contacts[static_cast<std::size_t>(i)]), i) = 1;
-    block_.col(contacts) = reduction_.load();
-    basis_.resize(reduction_.size(), 0);
-  }
-
-  /// The next orthonormal vectors; none where the space has all that matters.
-  const ComplexMatrix& next() {
-    ComplexMatrix images = basis_.cols() == 0 ? block_ : ComplexMatrix(reduction_.mass() * block_);
-    factors_.solve(images);
-    block_.resize(images.rows(), 0);
-    for (Index column = 0; column < images.cols(); ++column) append(images.col(column));
-    return block_;
-  }
-
-  int factorisations() const { return factors_.factorisations(); }
-
- private:
-  void factor(double below) {
-    constexpr double singular = 1e-13;
-    shifted_ = reduction_.stiffness();
-    if (factors_.factor(shifted_) && factors_.pivot_ratio() > singular) return;
-    shifted_ -= below * reduction_.mass();
-    if (!factors_.factor(shifted_)) throw SectorError("the stiffness of the sector is singular at its shift");
-  }
-
-  double norm(const ComplexVector& v) const {
-    return std::sqrt(std::max(0.0, v.dot(reduction_.mass() * v).real()));
-  }
-
-  void append(ComplexVector v) {
-    constexpr double lost = 1e-11;
-    const double before = norm(v);
-    if (!(before > 0)) return;
-    for (int pass = 0; pass < 2; ++pass) {
-      v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
-    }
-    const double after = norm(v);
-    if (!(after > lost * before)) return;
-    v /= after;
-    v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
-    v /= norm(v);
-    for (ComplexMatrix* matrix : {&basis_, &block_}) {
-      matrix->conservativeResize(Eigen::NoChange, matrix->cols() + 1);
-      matrix->rightCols<1>() = v;
-    }
-  }
-
-  SectorReduction reduction_;
-  ComplexSparseMatrix shifted_;
-  ComplexFactors factors_;
-  ComplexMatrix basis_;
-  ComplexMatrix block_;
-};
-
 /// Motions of contacts and outputs (rows) under a unit force on each of `contacts` contacts and under the
-/// load (columns).
+/// load (columns), as the matrices have them: with what stiffness their rounding gives to free motions.
 ComplexMatrix response(const SectorModes& found, Index contacts, const Loss& loss, double eta) {
   ComplexMatrix drive(static_cast<Index>(found.frequencies.size()), contacts + 1);  // of each mode
   drive << found.shapes.topRows(contacts).adjoint(), found.loads;
   for (Index k = 0; k < drive.rows(); ++k) {
-    const double frequency = found.frequencies[static_cast<std::size_t>(k)];
-    drive.row(k) /= ModalDenominator(eta, frequency, loss).value;
+    const auto mode = static_cast<std::size_t>(k);
+    Complex d = ModalDenominator(eta, found.frequencies[mode], loss).value;
+    if (mode < found.free_squares.size()) d += Complex(1, loss.at(eta)) * found.free_squares[mode];
+    drive.row(k) /= d;
   }
   return found.shapes * drive;
 }
@@ -110,9 +48,12 @@ double difference(const ComplexMatrix& motion, const ComplexMatrix& reference) {
   return worst;
 }
 
-/// The ends of the window, the modes in it that respond, and the middles between all of these.
+/// The ends of the window, the modes in it that respond, and the middles between all of these. What is free
+/// to move has no static response.
 std::vector<double> places(const SectorModes& modes, const ModesRequest& request) {
-  std::vector<double> etas = {request.eta_low};
+  constexpr double slow = 1e-3;
+  const bool from_zero = request.eta_low == 0 && !modes.free_squares.empty();
+  std::vector<double> etas = {from_zero ? slow * request.eta_high : request.eta_low};
   for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
     const double frequency = modes.frequencies[k];
     const bool responds = !modes.shapes.col(static_cast<Index>(k)).isZero(0);
@@ -135,17 +76,16 @@ double change(const SectorModes& now, const SectorModes& before, Index contacts,
   return worst;
 }
 
-SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double below) {
+SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double eta_low) {
   RitzSpace space(sector, wave);
   space.add(ComplexMatrix::Identity(dofs, dofs));
-  return space.modes(below);
+  return space.modes(eta_low);
 }
 
-SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
-                          double below) {
+SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
   constexpr double growth = 1.15;  // of the space between two looks at its modes
   constexpr int calm = 2;          // looks in a row without a change
-  Krylov krylov(sector, wave, below);
+  KrylovSpace krylov(sector, wave, request);
   RitzSpace space(sector, wave);
   SectorModes modes;
   double next_look = 6;
@@ -155,7 +95,7 @@ SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, co
     const bool exhausted = block.cols() == 0;
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
     next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
-    SectorModes found = space.modes(below);
+    SectorModes found = space.modes(request.eta_low);
     const bool same = !modes.frequencies.empty() &&
                       change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance;
     unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
@@ -188,7 +128,8 @@ class FullResponse {
     const Index contacts = extended_.contacts();
     ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
     for (Index i = 0; i < contacts; ++i)
-      motion.col(i) = solve(NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
+      motion.col(i) =
+          solve(ExtendedSector::NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
     motion.col(contacts) = solve(extended_.load(), eta);
     return motion;
   }
@@ -196,25 +137,10 @@ class FullResponse {
   int factorisations() const { return factors_.factorisations(); }
 
  private:
-  using Number = ExtendedSector::Number;
-  using NumberVector = ExtendedSector::NumberVector;
-
   /// The motions of contact and outputs under a force.
-  ComplexVector solve(const NumberVector& force, double eta) {
-    constexpr int most = 10;
-    constexpr double rounding = 1e-15;
+  ComplexVector solve(const ExtendedSector::NumberVector& force, double eta) {
     const auto [k, m] = MatrixFactors<ExtendedSector::Real>(eta, loss_);
-    NumberVector motion = NumberVector::Zero(force.size());
-    NumberVector residual = force;
-    for (int i = 0; i < most; ++i) {
-      ComplexMatrix step = residual.cast<Complex>();
-      factors_.solve(step);
-      motion += step.col(0).cast<Number>();
-      const NumberVector unfolded = extended_.unfold(motion);
-      residual = force - k * extended_.stiffness_times(unfolded) - m * extended_.mass_times(unfolded);
-      if (static_cast<long double>(step.norm()) <= rounding * motion.norm()) break;
-    }
-    return extended_.observed(motion).cast<Complex>();
+    return extended_.observed(refined_solve(extended_, factors_, k, m, force)).cast<Complex>();
   }
 
   ExtendedSector extended_;
@@ -224,8 +150,18 @@ class FullResponse {
   Loss loss_;
 };
 
-/// Compares the modes with the full solve at some places, evenly among all.
-void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+/// What the modes may differ by: where the entries of K cancel so far that long double leaves no more digits
+/// of w_k^2 - w^2, by that.
+double allowed(const SectorModes& modes, const ModesRequest& request, const Loss& loss, double rounding,
+               double eta) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const double frequency : modes.frequencies)
+    nearest = std::min(nearest, std::abs(ModalDenominator(eta, frequency, loss).value));
+  return std::max({worst_error, 1e3 * request.tolerance, rounding / nearest});
+}
+
+/// Compares the modes with the full solve at some places, evenly among all. `rounding` is that of eta_k^2.
+void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request, double rounding,
              SectorModes& result) {
   std::vector<double> etas = places(result, request);
   const std::size_t most = 4 + result.frequencies.size() / 10;
@@ -241,6 +177,9 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
   FullResponse full(sector, wave, loss);
   for (const double eta : etas) {
     const double error = difference(response(result, std::ssize(sector.contacts), loss, eta), full.at(eta));
+    if (!(error <= allowed(result, request, loss, rounding, eta)))
+      throw SectorError(
+          fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g}", error, eta));
     if (!(error <= result.error)) {
       result.error = error;
       result.error_eta = eta;
@@ -270,17 +209,13 @@ SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, con
   SectorReduction reduction(sector);
   reduction.set_forward(wave.forward());
   check_mass(sector, reduction);
-  const double below = -square(0.1 * two_pi * request.eta_low);
   const Index dofs = reduction.size();
-  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, dofs, below)
-                                                 : lanczos_modes(sector, wave, request, below);
+  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, dofs, request.eta_low)
+                                                 : lanczos_modes(sector, wave, request);
   result.dofs = dofs;
   if (!request.compared) return result;
-  compare(sector, wave, request, result);
-  if (!(result.error <= std::max(worst_error, 1e3 * request.tolerance))) {
-    throw SectorError(fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g}", result.error,
-                                  result.error_eta));
-  }
+  constexpr auto digits = static_cast<double>(std::numeric_limits<ExtendedSector::Real>::epsilon());
+  compare(sector, wave, request, digits * largest_square(reduction) / (two_pi * two_pi), result);
   return result;
 }
 

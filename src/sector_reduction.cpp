@@ -76,6 +76,11 @@ void SectorReduction::set_forward(Complex forward) {
   }
 }
 
+double largest_square(const SectorReduction& reduction) {
+  const auto stiffness = reduction.stiffness().diagonal().real().array();
+  return (stiffness / reduction.mass().diagonal().real().array()).maxCoeff();
+}
+
 void check_mass(const FiniteSector& sector, const SectorReduction& reduction) {
   constexpr double margin = 1e-12;
   ComplexSparseMatrix mass = reduction.mass();

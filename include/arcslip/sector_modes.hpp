@@ -7,8 +7,8 @@
 // Small sectors have V = I. Of larger ones V spans the responses to forces on the contacts and to the load at
 // one shift, x_1 = (K - sigma M)^{-1} [e F], and what shift-invert Lanczos makes of them, (K - sigma M)^{-1}
 // M x_1 and so on [Ericsson and Ruhe, Math. Comp. 35 (1980) 1251], with full reorthogonalisation in M, until
-// the response no longer changes. The shift is sigma = 0, so that the static response is exact, or a little
-// below where K(a) is singular. One factorisation serves all of them.
+// the response no longer changes. The shift is sigma = 0, so that the static response is exact, or below it
+// where K(a) is singular. One factorisation serves all of them.
 //
 // The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the
 // error of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the
@@ -31,7 +31,7 @@ struct SectorWave {
 
 /// Where the modes must give the response, and how exactly.
 struct ModesRequest {
-  double eta_low = 0;        ///< > 0
+  double eta_low = 0;        ///< >= 0
   double eta_high = 0;       ///< >= eta_low
   double tolerance = 1e-10;  ///< relative
   Loss loss;                 ///< with which the response is measured
@@ -41,14 +41,15 @@ struct ModesRequest {
 
 /// The modes v_k as contacts, outputs and load see them.
 struct SectorModes {
-  std::vector<double> frequencies;  ///< eta_k, ascending
-  ComplexMatrix shapes;             ///< v_k/(2 pi), a column each, at the contacts and then at the outputs
-  ComplexVector loads;              ///< v_k^H F/(2 pi)
-  Index dofs = 0;                   ///< of the reduced sector
-  double error = 0;                 ///< largest relative difference of c, y_0 and outputs from the full solve
-  double error_eta = 0;             ///< where
-  std::vector<double> check_etas;   ///< where the two were compared, at modes and between them
-  int factorisations = 0;           ///< of the shift and of the comparison
+  std::vector<double> frequencies;   ///< eta_k, ascending; 0 of motions that meet no stiffness
+  std::vector<double> free_squares;  ///< of these: what the matrices, by their rounding, have for eta_k^2
+  ComplexMatrix shapes;              ///< v_k/(2 pi), a column each, at the contacts and then at the outputs
+  ComplexVector loads;               ///< v_k^H F/(2 pi)
+  Index dofs = 0;                    ///< of the reduced sector
+  double error = 0;                ///< largest relative difference of c, y_0 and outputs from the full solve
+  double error_eta = 0;            ///< where
+  std::vector<double> check_etas;  ///< where the two were compared, at modes and between them
+  int factorisations = 0;          ///< of the shift and of the comparison
 };
 
 /// The modes as the first contact sees them, under `force` times the load.

@@ -59,6 +59,10 @@ class SectorReduction {
   ComplexVector load_;
 };
 
+/// Largest quotient of the diagonals of stiffness and mass: a bound from below of the largest w*^2, close to
+/// it. The mass is positive definite.
+double largest_square(const SectorReduction& reduction);
+
 /// Refuses a reduced mass that is not positive definite by 1e-12 of its diagonal. Throws SectorError naming a
 /// dof of `sector`, the first without which the mass of it and of those eliminated before is definite.
 void check_mass(const FiniteSector& sector, const SectorReduction& reduction);
