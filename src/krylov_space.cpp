@@ -52,10 +52,12 @@ bool KrylovSpace::is_static(const ModesRequest& request) {
 }
 
 const ComplexMatrix& KrylovSpace::next() {
+  constexpr double accuracy = 1e-12;  // of a correction, behind which the next one is negligible
   const ComplexMatrix forces = basis_.cols() == 0 ? block_ : ComplexMatrix(reduction_.mass() * block_);
   block_.resize(forces.rows(), 0);
   for (Index column = 0; column < forces.cols(); ++column) {
-    append(refined_solve(extended_, factors_, 1, -sigma_, forces.col(column).cast<ExtendedSector::Number>())
+    append(refined_solve(extended_, factors_, 1, -sigma_, forces.col(column).cast<ExtendedSector::Number>(),
+                         accuracy)
                .cast<Complex>());
   }
   return block_;

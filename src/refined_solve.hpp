@@ -1,6 +1,6 @@
 #pragma once
 
-// Solutions that have all digits of a double, of (k K(a) + m M(a)) x = f: by LU factors of that matrix, with
+// Solutions of (k K(a) + m M(a)) x = f that keep the digits of a double: by LU factors of that matrix, with
 // residuals in long double from the sector's own matrices, whose sums K(a) and M(a) cancel.
 
 #include "complex_factors.hpp"
@@ -8,9 +8,10 @@
 
 namespace arcslip {
 
-/// `factors` are those of k K(a) + m M(a) in double.
+/// `factors` are those of k K(a) + m M(a) in double. Ends with a correction of at most `accuracy`, relative.
 ExtendedSector::NumberVector refined_solve(const ExtendedSector& sector, ComplexFactors& factors,
                                            ExtendedSector::Number k, ExtendedSector::Number m,
-                                           const ExtendedSector::NumberVector& force);
+                                           const ExtendedSector::NumberVector& force,
+                                           ExtendedSector::Real accuracy);
 
 }  // namespace arcslip

@@ -139,8 +139,9 @@ class FullResponse {
  private:
   /// The motions of contact and outputs under a force.
   ComplexVector solve(const ExtendedSector::NumberVector& force, double eta) {
+    constexpr double rounding = 1e-15;
     const auto [k, m] = MatrixFactors<ExtendedSector::Real>(eta, loss_);
-    return extended_.observed(refined_solve(extended_, factors_, k, m, force)).cast<Complex>();
+    return extended_.observed(refined_solve(extended_, factors_, k, m, force, rounding)).cast<Complex>();
   }
 
   ExtendedSector extended_;

@@ -5,7 +5,9 @@
 
 #include <numbers>
 
+#include "arcslip/case_file.hpp"
 #include "arcslip/matrix_market.hpp"
+#include "arcslip/sector_pair.hpp"
 #include "catch.hpp"
 #include "places.hpp"
 #include "program.hpp"
@@ -132,6 +134,92 @@ TEST_CASE("Held dofs are left out of the matrices and of the boundaries") {
   CHECK(read(folder.path("out/ring_left.txt")) == "1\n2\n");
   CHECK(read(folder.path("out/ring_right.txt")) == "5\n6\n");
   CHECK(read(folder.path("out/ring_contact.txt")) == "2\n4\n");
+}
+
+TEST_CASE("The case file is written once, and takes the damper's table") {
+  const testing::TemporaryFolder folder;
+  write_job(folder);
+  const std::string numbers = " --contact-stiffness 2e9 --preload 12.5 --eta 0.01 3";
+  const bool damper_first = GENERATE(false, true);
+  const std::string base = "--contact LEFT:z --load GROOVE:z:4 --wave-number 2" + numbers;
+  const std::string damper = "--contact LEFT:z --name damper";
+  CHECK(convert(folder, damper_first ? damper : base).status == 0);
+  CHECK(convert(folder, damper_first ? base : damper).status == 0);
+  const std::string path = folder.path("out/case.toml");
+  const std::string text = read(path);
+  const Case input = read_case(path);
+  const SystemParameters& system = input.branches.front().problem.system;
+  CHECK(system.wave_number == 2);
+  CHECK(system.elements == 8);
+  CHECK(system.contacts.size() == 2);
+  CHECK(system.contacts.front().stiffness == 2e9);
+  CHECK(system.preload == 12.5);
+  CHECK(system.sectors->damper() != nullptr);
+  CHECK(convert(folder, base).status == 0);
+  CHECK(convert(folder, damper).status == 0);
+  CHECK(read(path) == text);
+}
+
+TEST_CASE("What the case file still wants stands in it as a comment") {
+  const testing::TemporaryFolder folder;
+  write_job(folder);
+  CHECK(convert(folder, "--contact LEFT:z --load GROOVE:z").status == 0);
+  const std::string text = read(folder.path("out/case.toml"));
+  for (const char* key : {"contact_stiffness", "preload", "from", "to"})
+    CHECK_THAT(text, ContainsSubstring(fmt::format("\n# {} = ?", key)));
+}
+
+TEST_CASE("Matrices pass through the script without being held in memory") {
+  // A ring of 2000 nodes, each tied to eight before it: 9 MB of stiffness.
+  constexpr int count = 2000;
+  const testing::TemporaryFolder folder;
+  std::string nodes = "*NODE\n";
+  std::string dofs;
+  std::string entries;
+  for (int i = 0; i < count; ++i) {
+    const double theta = angle * i / (count - 1);
+    nodes += fmt::format("{}, {:.17g}, {:.17g}, 0\n", i + 1, std::cos(theta), std::sin(theta));
+    for (int p = 0; p < 3; ++p) {
+      dofs += fmt::format("{}.{}\n", i + 1, p + 1);
+      for (int k = std::max(0, 3 * (i - 8)); k <= 3 * i + p; ++k)
+        entries += fmt::format("{} {} {:20.13e}\n", k + 1, 3 * i + p + 1, k == 3 * i + p ? 50.0 : -1.0);
+    }
+  }
+  folder.write("job.sti", entries);
+  folder.write("job.mas", entries);
+  folder.write("job.dof", dofs);
+  folder.write("job.inp", nodes + fmt::format("*NSET, NSET=LEFT\n1\n*NSET, NSET=RIGHT\n{}\n", count));
+  const testing::Outcome outcome = testing::shell(
+      fmt::format("python3 -c 'import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True); "
+                  "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "
+                  "python3 '{0}/sector_matrices.py' '{1}' --deck '{1}.inp' --sectors 8 --left LEFT --right "
+                  "RIGHT -o '{2}'",
+                  folder_of_scripts, folder.path("job"), folder.path("out")));
+  REQUIRE(outcome.status == 0);
+  // Python itself takes 10 to 15 MB, nodes and their dofs some more; all entries in a dictionary 100 MB.
+  CHECK(std::stol(outcome.out.substr(outcome.out.find('\n') + 1)) < 40'000);
+}
+
+TEST_CASE("Entries out of order, given twice or of unknown dofs are named with their line") {
+  struct Example {
+    std::string entries;
+    const char* message;
+  };
+  const auto example = GENERATE(values<Example>({
+      {"1 1 2\n1 4 1\n3 3 1\n", "job.sti:3: expected the larger of row and column in ascending order, got 3"},
+      {"1 1 2\n2 1 1\n1 2 3\n", "job.sti:3: row 1, column 2 is given twice"},
+      {"1 1 2\n1 16 1\n", "job.sti:2: expected rows and columns from 1 to 15 and a finite value"},
+      {"1 1 nan\n", "job.sti:1: expected rows and columns from 1 to 15 and a finite value"},
+      {"1 1\n", "job.sti:1: expected a row, a column and a value"},
+  }));
+  const testing::TemporaryFolder folder;
+  write_job(folder);
+  folder.write("job.sti", example.entries);
+  const testing::Outcome outcome = convert(folder, "--contact LEFT:z");
+  CHECK(outcome.status == 1);
+  CHECK(testing::is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring(example.message));
+  CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
 TEST_CASE("What cannot be converted is named in one line") {

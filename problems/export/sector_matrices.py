@@ -3,15 +3,18 @@
 
 Reads JOB.sti, JOB.mas and JOB.dof, as CalculiX stores them, and nodes and sets of nodes from a deck:
 
-  JOB.sti, JOB.mas   row column value, one triangle of a symmetric matrix, from 1
+  JOB.sti, JOB.mas   row column value, one triangle of a symmetric matrix, from 1, the larger of row and
+                     column in ascending order
   JOB.dof            node.direction of each row, directions 1, 2, 3 being x, y, z
   deck               *NODE and *NSET (also GENERATE), in files that it includes too
 
 Every displacement is turned into the cylindrical directions r, t, z of the axis, so that neighbouring sectors
-move alike but for the phase; held dofs are left out; the nodes of both boundaries are paired by r and z.
+move alike but for the phase; held dofs are left out; the nodes of both boundaries are paired by r and z. The
+matrices go through node by node: time grows as their entries do, memory as the nodes.
 
 Writes NAME_mass.mtx, NAME_stiffness.mtx, NAME_left.txt, NAME_right.txt, NAME_contact.txt, NAME_load.txt and
-NAME_dofs.txt, which says what each dof is.
+NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where --name is base. With
+--name damper its table is added to the case.
 
   sector_matrices.py rotor --deck rotor.inp --sectors 24 --left LEFT --right RIGHT --hold HUB \\
       --contact GROOVE:z --load RIM:z:1.0 --wave-number 3 --name base -o study
@@ -24,46 +27,12 @@ import os
 import sys
 
 DIRECTIONS = "rtz"
+FREE_IT = ("in the step that stores the matrices free all supports (*BOUNDARY, OP=NEW) and the cyclic symmetry "
+           "(CYCMPC=INACTIVE), and hold nodes here")
 
 
 class Wrong(Exception):
     """Input that is not as it must be."""
-
-
-def words(path):
-    """Number and comma- or blank-separated words of each line with any."""
-    with open(path, encoding="utf-8", errors="replace") as text:
-        for number, line in enumerate(text, 1):
-            found = line.replace(",", " ").split()
-            if found:
-                yield number, found
-
-
-def read_triplets(path, size):
-    """{(row, column): value} of both triangles, from 0."""
-    entries = {}
-    for number, line in words(path):
-        try:
-            row, column, value = int(line[0]) - 1, int(line[1]) - 1, float(line[2].replace("D", "e"))
-        except (ValueError, IndexError):
-            raise Wrong(f"{path}:{number}: expected a row, a column and a value") from None
-        if not (0 <= row < size and 0 <= column < size and math.isfinite(value)):
-            raise Wrong(f"{path}:{number}: expected rows and columns from 1 to {size} and a finite value")
-        if entries.get((row, column), value) != value:
-            raise Wrong(f"{path}:{number}: row {row + 1}, column {column + 1} is given twice")
-        entries[row, column] = entries[column, row] = value
-    return entries
-
-
-def read_dofs(path):
-    """(node, direction from 0) of each row."""
-    dofs = []
-    for number, line in words(path):
-        node, dot, direction = line[0].partition(".")
-        if not (node.isdigit() and dot and direction in ("1", "2", "3")):
-            raise Wrong(f"{path}:{number}: expected node.direction with a direction 1, 2 or 3, got '{line[0]}'")
-        dofs.append((int(node), int(direction) - 1))
-    return dofs
 
 
 def keyword(line):
@@ -90,66 +59,132 @@ def read_deck(path, nodes, sets):
                     included = parameters["INPUT"].strip("\"'")
                     read_deck(os.path.join(os.path.dirname(path), included), nodes, sets)
                 continue
+            if name not in ("*NODE", "*NSET"):
+                continue
             parts = [part.strip() for part in line.split(",") if part.strip()]
             members = sets.setdefault(parameters.get("NSET", "").upper(), [])
             try:
                 if name == "*NODE":
                     nodes[int(parts[0])] = tuple(map(float, (parts[1:] + ["0", "0"])[:3]))
                     members.append(int(parts[0]))
-                elif name == "*NSET" and "GENERATE" in parameters:
+                elif "GENERATE" in parameters:
                     first, last, step = (list(map(int, parts)) + [1])[:3]
                     members.extend(range(first, last + 1, step))
-                elif name == "*NSET":
+                else:
                     for part in parts:
                         members.extend([int(part)] if part.isdigit() else sets[part.upper()])
             except (ValueError, IndexError, KeyError):
                 raise Wrong(f"{path}:{number}: expected what {name} takes, got '{line.strip()}'") from None
 
 
-class Sector:
-    """The rows of a finite-element program in cylindrical directions."""
+def read_dofs(path):
+    """The nodes of a finite-element program in its order; each has three rows, for x, y and z."""
+    rows = []
+    with open(path, encoding="utf-8", errors="replace") as text:
+        for number, line in enumerate(text, 1):
+            node, dot, direction = line.strip().partition(".")
+            if not (node.isdigit() and dot and direction in ("1", "2", "3")):
+                raise Wrong(f"{path}:{number}: expected node.direction with a direction 1, 2 or 3, got "
+                            f"'{line.strip()}'")
+            rows.append((int(node), int(direction)))
+    order = [node for node, _ in rows[::3]]
+    expected = ((node, direction) for node in order for direction in (1, 2, 3))
+    for row, wanted in zip(rows + [(0, 0)] * (-len(rows) % 3), expected):
+        if row != wanted:
+            raise Wrong(f"{path}: node {wanted[0]} has not all three directions one after another: {FREE_IT}")
+    return order
 
-    def __init__(self, nodes, dofs, axis):
-        self.dofs = dofs
-        self.row = {dof: i for i, dof in enumerate(dofs)}
+
+def node_columns(path, count):
+    """For each node k, from 0: k and {i: its block with node i <= k}, nine values row by row. The file is read
+    once."""
+    last, blocks = 0, {}
+    with open(path, encoding="utf-8", errors="replace") as text:
+        for number, line in enumerate(text, 1):
+            try:
+                row, column, value = line.split()
+                row, column, value = int(row) - 1, int(column) - 1, float(value.replace("D", "e"))
+            except ValueError:
+                raise Wrong(f"{path}:{number}: expected a row, a column and a value") from None
+            if row > column:
+                row, column = column, row
+            if not (0 <= row and column < 3 * count and math.isfinite(value)):
+                raise Wrong(f"{path}:{number}: expected rows and columns from 1 to {3 * count} and a finite value")
+            k = column // 3
+            if k != last:
+                if k < last:
+                    raise Wrong(f"{path}:{number}: expected the larger of row and column in ascending order, got "
+                                f"{column + 1} after node {last + 1} of the rows")
+                yield last, blocks
+                last, blocks = k, {}
+            i = row // 3
+            block = blocks.get(i)
+            if block is None:
+                block = blocks[i] = [0.0] * 9
+            p, q = row - 3 * i, column - 3 * k
+            if block[3 * p + q] not in (0.0, value):
+                raise Wrong(f"{path}:{number}: row {row + 1}, column {column + 1} is given twice")
+            block[3 * p + q] = value
+            if i == k:
+                block[3 * q + p] = value
+    yield last, blocks
+
+
+class Sector:
+    """The nodes of a finite-element program in cylindrical directions."""
+
+    def __init__(self, nodes, order, axis):
+        self.index = {node: i for i, node in enumerate(order)}
+        if len(self.index) != len(order):
+            raise Wrong("the dofs of a node stand in several places")
         third = "xyz".index(axis)
-        first, second = (third + 1) % 3, (third + 2) % 3
-        self.place, self.turn = {}, {}
-        for node in {node for node, _ in dofs}:
+        self.axes = (third + 1) % 3, (third + 2) % 3, third
+        self.place, self.turn = {}, []
+        for node in order:
             if node not in nodes:
                 raise Wrong(f"node {node} has dofs but no coordinates in the deck")
-            x, y = nodes[node][first], nodes[node][second]
+            x, y, z = (nodes[node][i] for i in self.axes)
             r = math.hypot(x, y)
             if r == 0:
                 raise Wrong(f"node {node} is on the axis, where directions r and t are not defined")
-            if any((node, d) not in self.row for d in range(3)):
-                raise Wrong(f"node {node} has not all three directions: take its support out of the deck and "
-                            "hold it here")
-            self.place[node] = (r, math.atan2(y, x), nodes[node][third])
-            rows = [[0.0] * 3 for _ in range(3)]
-            rows[0][first], rows[0][second] = x / r, y / r
-            rows[1][first], rows[1][second] = -y / r, x / r
-            rows[2][third] = 1.0
-            self.turn[node] = rows
+            self.place[node] = (r, math.atan2(y, x), z)
+            self.turn.append((x / r, y / r))
 
-    def turned(self, entries):
-        """The matrix in cylindrical directions, its lower triangle."""
-        blocks = {}
-        for (row, column), value in entries.items():
-            (i, p), (k, q) = self.dofs[row], self.dofs[column]
-            if i >= k:
-                blocks.setdefault((i, k), [[0.0] * 3 for _ in range(3)])[p][q] = value
-        result = {}
-        for (i, k), block in blocks.items():
-            left, right = self.turn[i], self.turn[k]
-            half = [[sum(left[a][p] * block[p][q] for p in range(3)) for q in range(3)] for a in range(3)]
-            for a in range(3):
-                for b in range(3):
-                    value = sum(half[a][q] * right[b][q] for q in range(3))
-                    row, column = self.row[i, a], self.row[k, b]
-                    if row >= column or i != k:
-                        result[max(row, column), min(row, column)] = value
-        return result
+    def row(self, node, direction):
+        return 3 * self.index[node] + direction
+
+    def turned(self, i, k, block):
+        """The block of nodes i and k in the directions r, t, z."""
+        a, b, z = self.axes
+        c, s = self.turn[i]
+        columns = []
+        for q in self.axes:
+            x, y = block[3 * a + q], block[3 * b + q]
+            columns.append((c * x + s * y, c * y - s * x, block[3 * z + q]))
+        first, second, third = columns
+        c, s = self.turn[k]
+        return [(c * first[p] + s * second[p], c * second[p] - s * first[p], third[p]) for p in range(3)]
+
+    def write(self, source, path, number):
+        """The matrix of the dofs that have a number, its lower triangle."""
+        size, count = sum(map(bool, number)), 0
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("%%MatrixMarket matrix coordinate real symmetric\n")
+            head = out.tell()
+            out.write(f"{size} {size} {0:12}\n")
+            for k, blocks in node_columns(source, len(self.turn)):
+                lines = []
+                for i, block in blocks.items():
+                    for p, values in enumerate(self.turned(i, k, block)):
+                        column = number[3 * i + p]
+                        for q, value in enumerate(values):
+                            row = number[3 * k + q]
+                            if row >= column > 0 and (value != 0 or row == column):
+                                lines.append(f"{row} {column} {value!r}\n")
+                out.writelines(lines)
+                count += len(lines)
+            out.seek(head)
+            out.write(f"{size} {size} {count:12}\n")
 
 
 def members(sets, name):
@@ -199,47 +234,43 @@ def split(text, count):
     return parts[0], [DIRECTIONS.index(d) for d in directions], value
 
 
-def matrix_text(entries, number):
-    kept = sorted((number[column], number[row], value) for (row, column), value in entries.items()
-                  if row in number and column in number and (value != 0 or row == column))
-    lines = [f"{max(i, k)} {min(i, k)} {value!r}\n" for i, k, value in kept]
-    size = len(number)
-    return f"%%MatrixMarket matrix coordinate real symmetric\n{size} {size} {len(kept)}\n" + "".join(lines)
+def lists(arguments, sector, sets):
+    """The number of each dof, from 1, or 0 where it is held; pairs on the boundaries; contacts; {dof: force}."""
+    def inside(name):
+        found = members(sets, name)
+        lost = [node for node in found if node not in sector.place]
+        if lost:
+            raise Wrong(f"{len(lost)} of {len(found)} nodes of {name}, as node {lost[0]}, have no dofs: {FREE_IT}")
+        return found
 
-
-def convert(arguments):
-    dofs = read_dofs(arguments.job + ".dof")
-    nodes, sets = {}, {}
-    for deck in arguments.deck:
-        read_deck(deck, nodes, sets)
-    sector = Sector(nodes, dofs, arguments.axis)
-    inside = lambda name: [node for node in members(sets, name) if node in sector.place]
     left = inside(arguments.left)
     right = paired(sector, left, inside(arguments.right), arguments.sectors)
     held = set()
     for text in arguments.hold:
         name, directions, _ = split(text, 2)
-        held.update(sector.row[node, d] for node in inside(name) for d in directions)
-    rows = [row for row in range(len(dofs)) if row not in held]
-    number = {row: i for i, row in enumerate(rows, 1)}
+        held.update(sector.row(node, d) for node in inside(name) for d in directions)
+    number, free = [], 0
+    for row in range(3 * len(sector.turn)):
+        free += row not in held
+        number.append(0 if row in held else free)
 
-    def free(node, d):
-        return number.get(sector.row[node, d])
-
-    pairs = [(free(a, d), free(b, d)) for a, b in zip(left, right) for d in range(3)]
-    for (a, b), (node, other) in zip(pairs, [(a, b) for a, b in zip(left, right) for _ in range(3)]):
-        if (a is None) != (b is None):
-            raise Wrong(f"of nodes {node} and {other}, which are partners, one alone is held")
-    pairs = [pair for pair in pairs if pair[0] is not None]
+    pairs = []
+    for node, other in zip(left, right):
+        for d in range(3):
+            pair = number[sector.row(node, d)], number[sector.row(other, d)]
+            if (pair[0] == 0) != (pair[1] == 0):
+                raise Wrong(f"of nodes {node} and {other}, which are partners, one alone is held")
+            if pair[0]:
+                pairs.append(pair)
     beyond = set(right)  # their contacts and loads are those of the next sector
 
     def chosen(text, count):
         name, directions, value = split(text, count)
         for node in inside(name):
             for d in directions if node not in beyond else []:
-                if free(node, d) is None:
+                if not number[sector.row(node, d)]:
                     raise Wrong(f"node {node} of {name} is held in the direction {DIRECTIONS[d]}")
-                yield node, free(node, d), value
+                yield node, number[sector.row(node, d)], value
 
     origin = sector.place[left[0]][1]
 
@@ -248,33 +279,94 @@ def convert(arguments):
         return round((theta - origin + 1e-6) % (2 * math.pi), 6), z, r
 
     found = {(order(node), dof) for text in arguments.contact for node, dof, _ in chosen(text, 2)}
-    contacts = [dof for _, dof in sorted(found)]
     load = {}
     for text in arguments.load:
         for node, dof, value in chosen(text, 3):
             angle = sector.place[node][1] - origin
             load[dof] = load.get(dof, 0) + value * cmath.exp(-1j * arguments.wave_number * angle)
-    describe = (f"{i} {dofs[row][0]} {DIRECTIONS[dofs[row][1]]} "
-                "{:.9g} {:.9g} {:.9g}\n".format(*sector.place[dofs[row][0]]) for i, row in enumerate(rows, 1))
+    return number, pairs, [dof for _, dof in sorted(found)], load
+
+
+def table(name, loaded):
+    """The part of a case file that names the files of base or damper."""
+    text = f'\n[system.{name}]\nmass = "{name}_mass.mtx"\nstiffness = "{name}_stiffness.mtx"\n'
+    text += "".join(f'{key} = "{name}_{key}.txt"\n' for key in ("left", "right", "contact"))
+    return text + (f'load = "{name}_load.txt"\n' if loaded else "") + 'damping_kind = "structural"\n'
+
+
+def case_text(arguments, loaded):
+    def line(key, value, means):
+        return (f"# {key} = ?" if value is None else f"{key} = {value:.12g}").ljust(31) + f" # {means}\n"
+
+    low, high = arguments.eta or (None, None)
+    text = "# Written once by sector_matrices.py, to be edited.\n\n[system]\n" 'model = "sector"\n'
+    text += line("wave_number", arguments.wave_number, "that of the phases in the load")
+    text += line("sectors", arguments.sectors, "N")
+    text += line("contact_stiffness", arguments.contact_stiffness, "of each contact; with kg, N and m in N/m")
+    text += line("preload", arguments.preload, "mu p, the largest friction force of one contact; N")
+    text += "damping = { base = 1e-3, damper = 1e-3 }\n\n[branch]\n" 'parameter = "eta"\n'
+    text += line("from", low, "Hz") + line("to", high, "Hz")
+    text += table("base", loaded)
+    return text + (table("damper", False) if os.path.exists(f"{arguments.output}/damper_mass.mtx") else "")
+
+
+def case_file(arguments, loaded):
+    """What case.toml is to hold; none where it stays as it is."""
+    path = os.path.join(arguments.output, "case.toml")
+    if not os.path.exists(path):
+        return case_text(arguments, loaded) if arguments.name == "base" else None
+    with open(path, encoding="utf-8") as text:
+        case = text.read()
+    if arguments.name != "damper" or "[system.damper]" in case:
+        return None
+    return case + table("damper", False)
+
+
+def convert(arguments):
+    nodes, sets = {}, {}
+    for deck in arguments.deck:
+        read_deck(deck, nodes, sets)
+    order = read_dofs(arguments.job + ".dof")
+    sector = Sector(nodes, order, arguments.axis)
+    number, pairs, contacts, load = lists(arguments, sector, sets)
     files = {
-        "stiffness.mtx": matrix_text(sector.turned(read_triplets(arguments.job + ".sti", len(dofs))), number),
-        "mass.mtx": matrix_text(sector.turned(read_triplets(arguments.job + ".mas", len(dofs))), number),
         "left.txt": "".join(f"{a}\n" for a, _ in pairs),
         "right.txt": "".join(f"{b}\n" for _, b in pairs),
         "contact.txt": "".join(f"{dof}\n" for dof in contacts),
-        "dofs.txt": "# dof, node, direction, r, theta, z\n" + "".join(describe),
+        "dofs.txt": "# dof, node, direction, r, theta, z\n" + "".join(
+            f"{dof} {order[row // 3]} {DIRECTIONS[row % 3]} "
+            "{:.9g} {:.9g} {:.9g}\n".format(*sector.place[order[row // 3]])
+            for row, dof in enumerate(number) if dof),
     }
     if load:
         files["load.txt"] = "# dof, force, imaginary part\n" + "".join(
             f"{dof} {force.real!r} {force.imag!r}\n" for dof, force in sorted(load.items()))
+    files = {f"{arguments.name}_{name}": text for name, text in files.items()}
+    case = case_file(arguments, bool(load))
+    if case:
+        files["case.toml"] = case
+    made = os.path.isdir(arguments.output)
     os.makedirs(arguments.output, exist_ok=True)
-    for name, text in files.items():
-        path = os.path.join(arguments.output, f"{arguments.name}_{name}")
-        with open(path + ".tmp", "w", encoding="utf-8") as out:
-            out.write(text)
-        os.replace(path + ".tmp", path)
-    print(f"{len(rows)} dofs, {len(pairs)} pairs on the boundaries, {len(contacts)} contacts, "
-          f"{len(held)} dofs held: {arguments.output}/{arguments.name}_*")
+    matrices = {f"{arguments.name}_{name}.mtx": arguments.job + end
+                for name, end in (("stiffness", ".sti"), ("mass", ".mas"))}
+    path = lambda name: os.path.join(arguments.output, name)
+    try:
+        for name, source in matrices.items():
+            sector.write(source, path(name) + ".tmp", number)
+        for name, text in files.items():
+            with open(path(name) + ".tmp", "w", encoding="utf-8") as out:
+                out.write(text)
+        for name in (*matrices, *files):
+            os.replace(path(name) + ".tmp", path(name))
+    except BaseException:
+        for name in (*matrices, *files):
+            if os.path.exists(path(name) + ".tmp"):
+                os.remove(path(name) + ".tmp")
+        if not made:
+            os.rmdir(arguments.output)
+        raise
+    print(f"{sum(map(bool, number))} dofs, {len(pairs)} pairs on the boundaries, {len(contacts)} contacts, "
+          f"{number.count(0)} dofs held: {arguments.output}/{arguments.name}_*{', case.toml' if case else ''}")
 
 
 def main():
@@ -290,6 +382,9 @@ def main():
     parser.add_argument("--load", action="append", default=[], help="SET:z:value, force on each node; repeatable")
     parser.add_argument("--wave-number", type=int, default=0, help="of the load's phase within the sector; 0")
     parser.add_argument("--name", default="base", help="what the files' names begin with; base")
+    parser.add_argument("--contact-stiffness", type=float, help="of each contact, for the case file")
+    parser.add_argument("--preload", type=float, help="of each contact, for the case file")
+    parser.add_argument("--eta", type=float, nargs=2, metavar=("FROM", "TO"), help="range, for the case file")
     parser.add_argument("-o", "--output", default=".", help="folder")
     try:
         convert(parser.parse_args())
