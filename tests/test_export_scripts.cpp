@@ -222,6 +222,34 @@ TEST_CASE("Entries out of order, given twice or of unknown dofs are named with t
   CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
+TEST_CASE("Of a mesh the volume elements stay, and what is held but for the right face becomes a set") {
+  const testing::TemporaryFolder folder;
+  const std::string head =
+      "*Heading\n mesh\n*NODE\n1, 1, 0, 0\n2, 1, 0, 1\n3, 0, 1, 0\n****** E L E M E N T S\n";
+  const std::string surface =
+      "*ELEMENT, type=CPS3, ELSET=Surface2\n1, 1, 2, 3\n*ELEMENT, type=T3D2, ELSET=Line1\n2, 1, 2\n";
+  const std::string sets = "*NSET,NSET=RIGHT\n3,\n*NSET,NSET=HUB\n1, 2, 3\n";
+  const auto convert_mesh = [&](const std::string& text, const std::string& options) {
+    folder.write("mesh.inp", text);
+    return testing::shell(fmt::format("python3 '{}/volume_mesh.py' '{}' {} -o '{}'", folder_of_scripts,
+                                      folder.path("mesh.inp"), options, folder.path("mesh.msh")));
+  };
+  const std::string volume = "*ELEMENT, type=C3D4, ELSET=Volume1\n3, 1, 2, 3, 4\n*ELSET,ELSET=ROTOR\n3,\n";
+  const testing::Outcome good = convert_mesh(head + surface + volume + sets, "--hold HUB");
+  CHECK(good.status == 0);
+  CHECK(good.out == "3 nodes; left out: 1 CPS3, 1 T3D2\n");
+  CHECK(read(folder.path("mesh.msh")) ==
+        "*NODE\n1, 1, 0, 0\n2, 1, 0, 1\n3, 0, 1, 0\n*ELEMENT, TYPE=C3D4, ELSET=ALL\n3, 1, 2, 3, 4\n" + sets +
+            "*NSET, NSET=HUB_HELD\n1,\n2,\n");
+  const testing::Outcome empty = convert_mesh(head + surface + sets, "");
+  CHECK(empty.status == 1);
+  CHECK(testing::is_one_line(empty.err));
+  CHECK_THAT(empty.err, ContainsSubstring("has no volume elements: name the volume as well"));
+  const testing::Outcome unknown = convert_mesh(head + volume + sets, "--hold RIM");
+  CHECK(unknown.status == 1);
+  CHECK_THAT(unknown.err, ContainsSubstring("the deck has no set of nodes RIM; it has HUB, RIGHT"));
+}
+
 TEST_CASE("What cannot be converted is named in one line") {
   struct Example {
     std::string options;
