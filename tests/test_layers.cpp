@@ -35,8 +35,8 @@ const std::set<std::string, std::less<>> mechanics = words(R"(
 annular_plate bracketed_newton chain_sector complex_factors contact contact_force contact_modes disturbance_flow
 dynamic_stiffness
 elements extended_sector finite_sector first_crossing full_receptance harmonic_system
-hysteresis_loop interval interval_response lowest_frequency matrix_market modal_model odd_motion
-physical_scale precise reduced_pair ring ring_motion ring_record ring_response ring_sector
+hysteresis_loop interval interval_response krylov_space lowest_frequency matrix_market modal_model odd_motion
+physical_scale precise reduced_pair refined_solve ring ring_motion ring_record ring_response ring_sector
 ring_stability ritz_space sector sector_modes sector_pair sector_reduction sector_solver
 shape_functions spectrum system)");
 const std::set<std::string, std::less<>> files = words(R"(

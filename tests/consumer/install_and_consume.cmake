@@ -29,3 +29,14 @@ foreach(expected IN ITEMS "fold: d = 1.44721, u = 0.552786\n" "fold: d = 0.55278
     message(FATAL_ERROR "own_problem did not print: ${expected}")
   endif()
 endforeach()
+
+# The README shows all of it; how exact differences are depends on the compiler.
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md readme)
+foreach(text IN ITEMS output readme)
+  string(REGEX REPLACE "exact to [0-9.e-]+" "exact to E" ${text} "${${text}}")
+endforeach()
+string(REGEX REPLACE "([^\n]+\n)" "    \\1" shown "${output}")
+string(FIND "${readme}" "\n\n${shown}\n" at)
+if(at EQUAL -1)
+  message(FATAL_ERROR "the README does not show:\n${shown}")
+endif()
