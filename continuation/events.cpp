@@ -204,17 +204,16 @@ class Search {
          locate_extremum(m, before));
   }
 
+  /// A branch that comes beyond a border by less than the tolerance, as where it all but touches it, stays.
   void border(Index b) {
     const auto m = static_cast<std::size_t>(stepper_.tracked_count() + b);
+    const double touch = stepper_.tolerance();
     const Monitor from = stepper_.from()[m];
+    const Monitor to = (*at_upper_)[m];
     double upper = upper_;
-    double value = (*at_upper_)[m].value;
-    if (std::abs(from.value) <= 1e-12 && from.slope > 0) {  // an extremum lies on the border, to rounding
-      note(Event::Kind::border, PointType::regime_switch, b, {Zero::State::found, 0});
-      return;
-    }
-    if (value <= 0) {
-      if (!(from.slope > 0 && (*at_upper_)[m].slope < 0)) return;
+    double value = to.value;
+    if (value <= rounding || (value <= touch && to.slope < 0)) {
+      if (!(from.slope > 0 && to.slope < 0)) return;
       const Zero top = locate_extremum(m, 1);  // the border function's highest point in the step
       if (top.state != Zero::State::found || !stepper_.probe(top.s)) {
         result_.solved = false;
@@ -222,13 +221,25 @@ class Search {
       }
       upper = top.s;
       value = stepper_.probed()[m].value;
-      if (value <= 0) return;
+      if (value <= touch) return;
     }
-    const Zero zero =
-        locate(stepper_, {upper, from.value, -1, value}, [m](Stepper& s) { return s.probed()[m].value; });
+    const bool begins_beyond = from.value > rounding && from.value <= touch && from.slope > 0;
+    const Zero zero = begins_beyond ? Zero{Zero::State::found, 0} : locate_border(m, upper, value);
     if (zero.state == Zero::State::absent)
       result_.solved = false;  // beyond the border, yet nowhere across it
     note(Event::Kind::border, PointType::regime_switch, b, zero);
+  }
+
+  /// Of a step that begins on the border and goes nowhere inside, it is where the value leaves rounding.
+  Zero locate_border(std::size_t m, double upper, double value) {
+    const double at_zero = stepper_.from()[m].value;
+    const auto where_it_is = [&](double level) {
+      return locate(stepper_, {upper, at_zero - level, -1, value - level},
+                    [=](Stepper& s) { return s.probed()[m].value - level; });
+    };
+    const Zero zero = where_it_is(0);
+    const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= rounding;
+    return at_once && value > rounding ? where_it_is(rounding) : zero;
   }
 
   void look_at_upper() {
@@ -285,6 +296,8 @@ class Search {
       return;
     }
   }
+
+  static constexpr double rounding = 1e-13;  // of a border function where it vanishes
 
   Stepper& stepper_;
   Watch& watch_;

@@ -111,7 +111,19 @@ Correction Stepper::enter(int regime) {
   const double length = normal_.norm();
   if (!std::isfinite(nearest) || !(length > 0)) return Correction::singular;
   normal_ /= -length;
-  const Correction result = corrector_.linearise(here_, normal_);
+  Correction result = corrector_.linearise(here_, normal_);
+  // Where the branch is all but tangent to the border its gradient does not tell the way. As F is continuous
+  // across, the determinant that t closes does: it keeps its sign.
+  constexpr double tangential = 1e-3;
+  const bool vague = result == Correction::singular || tangential * corrector_.direction().norm() > 1;
+  if (vague && here_.orientation != 0) {
+    normal_ = result == Correction::singular ? here_.tangent : corrector_.direction().normalized();
+    result = corrector_.linearise(here_, normal_);
+    if (result == Correction::converged && corrector_.orientation() != here_.orientation) {
+      normal_ = -corrector_.direction().normalized();
+      result = corrector_.linearise(here_, normal_);
+    }
+  }
   if (result != Correction::converged) return result;
   begin_piece(here_);
   return result;
@@ -319,12 +331,20 @@ void Stepper::cut(double s) {
 }
 
 Correction Stepper::settle_on_border(int border) {
+  const Index n = corrector_.size();
   for (int i = 0; i < 3; ++i) {
     const double value =
         problem_.border(there_.unknowns, there_.parameters, there_.regime, border, &gradient_);
     scale_gradient(here_.scale, work_);
+    probe_ = there_;
+    probed_when_ = -1;
     const Correction result = corrector_.correct_once(there_, here_, work_, -value);
-    if (result != Correction::converged) return result;
+    corrector_.difference(there_, probe_, work_);
+    // No rounding is left: where the branch all but touches the border, a step onto it may lead anywhere.
+    const bool far = !(work_.norm() <= 1e-8 && std::abs(work_(n)) <= 1e-12);
+    if (result == Correction::converged && !far) continue;
+    std::swap(there_, probe_);
+    return result;
   }
   return Correction::converged;
 }

@@ -2,12 +2,41 @@
 
 #include <cmath>
 
+#include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/response_slopes.hpp"
 #include "catch.hpp"
+#include "random_systems.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
 using namespace arcslip::testing;
+using problems::ForcedResponse;
+using problems::ResponseSlopes;
+
+namespace {
+
+/// eta next to a stuck resonance at which R/S is largest, by bisection; 0 where it is not next to it.
+double border_top(const FrictionSystem& system, double resonance) {
+  const auto slope = [&](double eta) {
+    return ResponseSlopes::on_border(system, eta, false).by_eta().log_ratio;
+  };
+  double width = 1e-9;
+  const auto is_inside = [&] {
+    return slope(resonance * (1 - width)) > 0 && slope(resonance * (1 + width)) < 0;
+  };
+  while (width < 0.1 && !is_inside()) width *= 2;
+  if (width > 0.1) return 0;
+  double below = resonance * (1 - width);
+  double above = resonance * (1 + width);
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (below + above);
+    (slope(middle) > 0 ? below : above) = middle;
+  }
+  return below;
+}
+
+}  // namespace
 
 TEST_CASE("An extremum and two events at one place, which is to be landed on, are each found once") {
   for (int i = 0; i < 400; ++i) {
@@ -32,5 +61,37 @@ TEST_CASE("An extremum and two events at one place, which is to be landed on, ar
     REQUIRE(branch.complete());
     CHECK(of_type(branch, PointType::peak).size() == 1);
     CHECK(of_type(branch, PointType::event).size() == 2);
+  }
+}
+
+TEST_CASE("A response whose resonance touches the border of stick, but for rounding, goes on") {
+  RandomSystems draw(3);
+  for (int i = 0; i < 150; ++i) {
+    SystemParameters s = draw.system();
+    s.interface_stiffness = draw.log_uniform(10, 1e5);
+    s.fixed_damper = draw.integer(0, 1) == 0;
+    if (draw.integer(0, 1) == 0) s.base_damping_kind = DampingKind::structural;
+    const ForcedResponse problem(build_system(s));
+    const FrictionSystem& system = problem.system();
+    const double resonance =
+        joined_frequencies({&system.base, &system.damper}, system.contact_stiffness).front();
+    const double top = border_top(system, resonance);
+    if (top == 0) continue;
+    const double beyond = draw.integer(0, 1) == 0 ? 0 : draw.log_uniform(1e-16, 1e-8);
+    const double preload = ResponseSlopes::on_border(system, top, false).preload() *
+                           (draw.integer(0, 1) == 0 ? 1 - beyond : 1 + beyond);
+    TraceOptions options = over("eta", 0.5 * resonance, 1.5 * resonance);
+    if (draw.integer(0, 1) == 0) std::swap(options.from, options.to);
+    options.extrema_of = {"Y"};
+    options.max_points = 3000;
+    const Branch branch = trace(problem, problem.guess(options.from, preload), options);
+    CAPTURE(i, preload, branch.explanation);
+    REQUIRE(branch.stop == Stop::reached_end);
+    const std::size_t switches = of_type(branch, PointType::regime_switch).size();
+    CHECK(switches % 2 == (branch.points.front().regime == branch.points.back().regime ? 0 : 1));
+    CHECK(of_type(branch, PointType::corner_fold).empty());
+    const double way = options.to > options.from ? 1 : -1;
+    for (std::size_t k = 1; k < branch.points.size(); ++k)
+      CHECK(way * (branch.points[k].parameters(0) / branch.points[k - 1].parameters(0) - 1) > -1e-10);
   }
 }

@@ -50,6 +50,7 @@ class Corrector {
   Index size() const { return size_; }
   Index parameter() const { return parameter_; }
   double tolerance() const { return tolerance_; }
+  const CorrectorOptions& options() const { return options_; }
 
   /// Sets the tolerance for a branch that starts at `point`, with its scale: as given, but of a problem whose
   /// F is in such units that its terms are above 1e3 relative to these. False where it has no value.

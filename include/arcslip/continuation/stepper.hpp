@@ -60,6 +60,7 @@ class Stepper {
   bool attempt_landing(double value);
 
   const StepSignals& signals() const { return signals_; }
+  double tolerance() const { return corrector_.options().tolerance; }
   double distance() const { return distance_; }
   double chord() const { return step_.norm(); }
 
