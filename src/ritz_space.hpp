@@ -17,8 +17,9 @@ class RitzSpace {
 
   Index size() const { return mass_.rows(); }
 
-  /// All modes in the space, with their residues, for responses at `eta_low` and above. Throws SectorError.
-  SectorModes modes(double eta_low) const;
+  /// All modes in the space, with their residues, for responses in the window of `request`. Throws
+  /// SectorError.
+  SectorModes modes(const ModesRequest& request) const;
 
  private:
   using Real = ExtendedSector::Real;

@@ -76,10 +76,11 @@ double change(const SectorModes& now, const SectorModes& before, Index contacts,
   return worst;
 }
 
-SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, Index dofs, double eta_low) {
+SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+                      Index dofs) {
   RitzSpace space(sector, wave);
   space.add(ComplexMatrix::Identity(dofs, dofs));
-  return space.modes(eta_low);
+  return space.modes(request);
 }
 
 SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
@@ -95,7 +96,7 @@ SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, co
     const bool exhausted = block.cols() == 0;
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
     next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
-    SectorModes found = space.modes(request.eta_low);
+    SectorModes found = space.modes(request);
     const bool same = !modes.frequencies.empty() &&
                       change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance;
     unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
@@ -211,7 +212,7 @@ SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, con
   reduction.set_forward(wave.forward());
   check_mass(sector, reduction);
   const Index dofs = reduction.size();
-  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, dofs, request.eta_low)
+  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, request, dofs)
                                                  : lanczos_modes(sector, wave, request);
   result.dofs = dofs;
   if (!request.compared) return result;

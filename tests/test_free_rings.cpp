@@ -96,6 +96,16 @@ TEST_CASE("A free ring moves as a whole with the mass of its sectors", "[free]")
   CHECK_THAT(std::norm(found.shapes(0, 0)) * 4 * pi * pi, WithinRel(1 / mass, 1e-8));
 }
 
+TEST_CASE("A window from near zero on costs a free ring no digits", "[free]") {
+  Ring shape = ring(RingDirection::radial, 24);
+  shape.sectors = 2;
+  FiniteSector sector = ring_sector(shape);
+  sector.contacts = {sector.contacts.front()};
+  const SectorModes found = sector_modes(sector, {0, 2}, {0.01, 6000, 1e-10, light});
+  CHECK(found.free_squares.size() == 1);
+  CHECK(found.error < 1e-10);
+}
+
 TEST_CASE("Several motions may be free at once, and 14 digits are enough to tell them from elastic ones",
           "[free]") {
   const Index n = GENERATE(0, 1);
