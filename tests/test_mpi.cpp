@@ -3,7 +3,6 @@
 #include <chrono>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "catch.hpp"
 #include "database.hpp"
@@ -84,12 +83,15 @@ TEST_CASE("Where the process that writes can do so no longer, all end with statu
   const std::string path = folder.write("case.toml", chart_text);
   const std::string stored = folder.path("r/study.sqlite");
   auto outcome = std::async(std::launch::async, [&] {
-    return in_processes(3, "study " + path + " --quiet -o " + folder.path("r") + " --set study.to=30.0");
+    return in_processes(3, "study " + path + " --quiet -o " + folder.path("r") +
+                               " --set study.for_each.frequency_ratio.count=100000");
   });
-  for (int i = 0; i < 2000 && !std::filesystem::exists(stored + "-wal"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  // So many designs that the lock comes in time.
+  while (!std::filesystem::exists(stored + "-wal") &&
+         outcome.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) {
+  }
   arcslip::Database other(stored);
-  other.execute("PRAGMA busy_timeout = 1000; BEGIN IMMEDIATE");
+  other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
   const Outcome locked = outcome.get();
   CHECK(locked.status == 4);
   CHECK(times(locked.err, "study.sqlite: cannot be written: another program uses it") == 1);

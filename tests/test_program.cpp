@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 #include <vector>
 
+#include "background.hpp"
 #include "catch.hpp"
 #include "program.hpp"
 
@@ -191,9 +193,13 @@ TEST_CASE("A branch that cannot be finished has status 3, its reason, and what w
 
 TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   const TemporaryFolder folder;
-  const Outcome outcome = shell("'" + program + "' run " + figure_8 + " --quiet -o " + folder.path("r") +
-                                " --set continuation.max_step=1e-5 --set continuation.max_points=100000000 & "
-                                "sleep 0.5; kill -INT $!; wait $!");
+  Background run({"run", figure_8, "--quiet", "-o", folder.path("r"), "--set", "continuation.max_step=1e-5",
+                  "--set", "continuation.max_points=100000000"});
+  REQUIRE(run.wait_until([&] { return handles(run.id(), SIGINT); }));
+  // The first point comes at once; millions follow.
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  run.signal(SIGINT);
+  const Outcome outcome = run.wait();
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});

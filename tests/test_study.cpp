@@ -1,51 +1,39 @@
 // arcslip study as a user meets it: files, threads, kills, interrupts.
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 
-#include <chrono>
-#include <csignal>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <thread>
 
+#include "background.hpp"
 #include "catch.hpp"
 #include "database.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
 
 using namespace arcslip::testing;
-using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// The program in a process of its own, silent.
-class Process {
- public:
-  explicit Process(const std::vector<std::string>& arguments) {
-    std::vector<char*> words = {const_cast<char*>(program.c_str())};
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
-    id_ = fork();
-    if (id_ != 0) return;
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    execv(words[0], words.data());
-    _exit(127);
-  }
+/// Seconds of computing that the processes took that are waited for.
+double seconds_of_children() {
+  rusage usage;
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
 
-  void signal(int number) const { kill(id_, number); }
-  int wait() const {
-    int status = 0;
-    waitpid(id_, &status, 0);
-    return status;
-  }
-
- private:
-  pid_t id_;
-};
+/// Kills this process when it has computed for so many seconds.
+void kill_after(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  const itimerval timer = {
+      {}, {whole, std::max<suseconds_t>(1, std::lround(1e6 * (seconds - static_cast<double>(whole))))}};
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
 
 std::map<std::string, std::string> tables_in(const std::string& folder) {
   return {{"optimum", read(folder + "/optimum.csv")}, {"sweep", read(folder + "/sweep.csv")}};
@@ -56,7 +44,8 @@ std::map<std::int64_t, std::int64_t> stored(const std::string& folder) {
   std::map<std::int64_t, std::int64_t> runs;
   const std::string path = folder + "/study.sqlite";
   if (!std::filesystem::exists(path)) return runs;
-  const arcslip::Database database(path);
+  arcslip::Database database(path);
+  database.execute("PRAGMA busy_timeout = 60000");
   for (auto row = database.prepare("SELECT curve, run FROM designs"); row.step();)
     runs[row.integer(0)] = row.integer(1);
   return runs;
@@ -195,31 +184,31 @@ TEST_CASE("A study killed ten times ends as if it had not been, and computes no 
           "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
-  const Clock::time_point start = Clock::now();
-  REQUIRE(arcslip_program("study " + path + " --quiet -o " + folder.path("whole")).status == 0);
-  const std::chrono::duration<double> whole = Clock::now() - start;
+  const auto words = [&](const std::string& name) -> std::vector<std::string> {
+    return {"study",    path, "--quiet",         "--jobs", "1",
+            "--resume", "-o", folder.path(name), "--set",  "study.for_each.frequency_ratio.count=24"};
+  };
+  const double start = seconds_of_children();
+  REQUIRE(Background(words("whole")).wait().status == 0);
+  const double whole = seconds_of_children() - start;
 
-  const std::vector<std::string> words = {"study", path, "--quiet", "--resume", "-o", folder.path("killed")};
   std::mt19937 random(1);
-  // All ten together last about as long as the study.
-  std::uniform_real_distribution<double> moment(0, whole.count() / 5);
+  // Of computing, not of the clock: all ten together are about a third of the study.
+  std::uniform_real_distribution<double> moment(0, whole / 15);
   std::map<std::int64_t, std::int64_t> before;
-  int killed = 0;
   for (int i = 0; i < 10; ++i) {
-    const Process process(words);
-    std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
-    process.signal(SIGKILL);
-    killed += static_cast<int>(WIFSIGNALED(process.wait()));
+    Background process(words("killed"), [seconds = moment(random)] { kill_after(seconds); });
+    CHECK(process.wait().status == -1);
     if (i % 3 != 0) continue;  // a look tidies the database, which the next run is to do itself
     const auto now = stored(folder.path("killed"));
     // A design that was computed again would bear the number of a later run.
     for (const auto& [curve, run] : before) CHECK(now.at(curve) == run);
     before = now;
   }
-  CHECK(killed >= 5);
-  CHECK(Process(words).wait() == 0);
+  CHECK_FALSE(before.empty());
+  CHECK(Background(words("killed")).wait().status == 0);
   const auto now = stored(folder.path("killed"));
-  CHECK(now.size() == 24);
+  CHECK(now.size() == 96);
   for (const auto& [curve, run] : before) CHECK(now.at(curve) == run);
   CHECK(tables_in(folder.path("killed")) == tables_in(folder.path("whole")));
   CHECK(names_in(folder.path("killed")) == all_files);
@@ -228,18 +217,29 @@ TEST_CASE("A study killed ten times ends as if it had not been, and computes no 
 TEST_CASE("An interrupt ends a study cleanly, and it goes on with --resume", "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
-  const std::string command = "study " + path + " --quiet -o ";
-  const Outcome outcome =
-      shell("'" + program + "' " + command + folder.path("r") + " & while [ ! -e " +
-            folder.path("r/study.sqlite") + " ]; do sleep 0.01; done; sleep 0.05; kill -INT $!; wait $!");
+  Outcome outcome{};
+  std::string designs, r;
+  // One that ends before the interrupt comes to it is made longer.
+  for (int count = 6; outcome.status == 0 && count < 1000; count *= 2) {
+    designs = "study.for_each.frequency_ratio.count=" + std::to_string(count);
+    r = folder.path(std::to_string(4 * count));
+    Background study({"study", path, "--quiet", "--jobs", "1", "-o", r, "--set", designs});
+    // While it runs, what it stores stands beside its database.
+    study.wait_until([&] { return std::filesystem::exists(r + "/study.sqlite-wal") && !stored(r).empty(); });
+    study.signal(SIGINT);
+    outcome = study.wait();
+  }
   CHECK(outcome.status == 3);
   CHECK(is_one_line(outcome.err));
-  CHECK_THAT(outcome.err, ContainsSubstring("interrupted: ") && ContainsSubstring("of 24 designs are done") &&
-                              ContainsSubstring("go on with --resume"));
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"study.sqlite"});
-  CHECK(arcslip_program(command + folder.path("r") + " --resume").status == 0);
+  CHECK_THAT(outcome.err,
+             ContainsSubstring("interrupted: ") &&
+                 ContainsSubstring("of " + r.substr(folder.path("").size()) + " designs are done") &&
+                 ContainsSubstring("go on with --resume"));
+  CHECK(names_in(r) == std::set<std::string>{"study.sqlite"});
+  const std::string command = "study " + path + " --quiet --set " + designs + " -o ";
+  CHECK(arcslip_program(command + r + " --resume").status == 0);
   REQUIRE(arcslip_program(command + folder.path("s")).status == 0);
-  CHECK(tables_in(folder.path("r")) == tables_in(folder.path("s")));
+  CHECK(tables_in(r) == tables_in(folder.path("s")));
 }
 
 TEST_CASE("Without --resume a study is begun anew, with --resume only the same one goes on", "[study]") {
