@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <stdexcept>
+
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 
@@ -109,10 +110,7 @@ std::vector<Sample> InterpolatedBranch::where(double value) const {
     if (first == 0) found.push_back(sample(piece, 0));
     if (last == 0 && piece + 2 == branch_.points.size()) found.push_back(sample(piece, 1));
     if (!(first * last < 0)) continue;  // folds are points of the branch: within a piece it does not turn
-    std::uintmax_t iterations = 60;
-    const auto [a, b] = boost::math::tools::toms748_solve(
-        away, 0.0, 1.0, first, last, boost::math::tools::eps_tolerance<double>(50), iterations);
-    found.push_back(sample(piece, 0.5 * (a + b)));
+    found.push_back(sample(piece, zero_between(away, 0, 1, first, last)));
     found.back().parameters(parameter_) = value;
   }
   return found;

@@ -1,20 +1,17 @@
 #include "arcslip/problems/contact_problem.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
 namespace {
 
-/// The zero of a function that has values of opposite sign at the ends.
 template <class Function>
 double zero_between(const Function& function, double a, double b) {
-  std::uintmax_t iterations = 200;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      function, a, b, boost::math::tools::eps_tolerance<double>(48), iterations);
-  return 0.5 * (low + high);
+  return arcslip::zero_between(function, a, b, function(a), function(b), 48);
 }
 
 }  // namespace

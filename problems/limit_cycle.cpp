@@ -1,7 +1,6 @@
 #include "arcslip/problems/limit_cycle.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +8,7 @@
 
 #include "arcslip/contact.hpp"
 #include "arcslip/problems/contact_problem.hpp"
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
 
@@ -145,11 +145,8 @@ bool LimitCycle::find(double resonance, double zeta_value, Size size, Cycle& fou
         found.log_ratio = log_ratio;
         return solve(found) ? found.zeta - zeta_value : std::numeric_limits<double>::quiet_NaN();
       };
-      std::uintmax_t iterations = 200;
-      const auto [a, b] = boost::math::tools::toms748_solve(
-          difference, before.log_ratio, after.log_ratio, before.zeta - zeta_value, after.zeta - zeta_value,
-          boost::math::tools::eps_tolerance<double>(48), iterations);
-      found.log_ratio = 0.5 * (a + b);
+      found.log_ratio = zero_between(difference, before.log_ratio, after.log_ratio, before.zeta - zeta_value,
+                                     after.zeta - zeta_value, 48);
       return solve(found);
     }
     before = after;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <stdexcept>
+
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -20,12 +21,9 @@ double zero_between(const Function& function, double from, double to) {
   const double at_to = function(to);
   if (at_from == 0 || from == to) return from;
   if (at_to == 0) return to;
-  if (at_from * at_to > 0) return std::abs(at_from) < std::abs(at_to) ? from : to;  // but for rounding
-  std::uintmax_t iterations = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      [&](double log_P) { return function(std::exp(log_P)); }, std::log(from), std::log(to), at_from, at_to,
-      boost::math::tools::eps_tolerance<double>(50), iterations);
-  return std::clamp(std::exp(0.5 * (low + high)), from, to);
+  const double log_P = arcslip::zero_between([&](double x) { return function(std::exp(x)); }, std::log(from),
+                                             std::log(to), at_from, at_to);
+  return std::clamp(std::exp(log_P), from, to);
 }
 
 }  // namespace

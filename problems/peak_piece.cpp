@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <stdexcept>
 
 #include "arcslip/problems/peak_ridge.hpp"
 #include "arcslip/problems/response_slopes.hpp"
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -22,18 +22,6 @@ double hermite(double x, double h, double from, double slope_from, double to, do
 double hermite_slope(double x, double h, double from, double slope_from, double to, double slope_to) {
   const double y = 1 - x;
   return 6 * x * y * (to - from) / h + slope_from * y * (1 - 3 * x) + slope_to * x * (1 - 3 * y);
-}
-
-/// The zero between a and b, in either order.
-template <class Function>
-double root(const Function& function, double a, double b, double at_a, double at_b) {
-  if (a > b) return root(function, b, a, at_b, at_a);
-  if (at_a == 0 || a == b) return a;
-  if (at_b == 0) return b;
-  std::uintmax_t iterations = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      function, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(52), iterations);
-  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -105,10 +93,7 @@ double PeakPiece::corner_eta(double preload) const {
   };
   const double a = nodes_[i].eta;
   const double b = nodes_[i + 1].eta;
-  const double at_a = away(a);
-  const double at_b = away(b);
-  if (at_a * at_b > 0) return std::abs(at_a) < std::abs(at_b) ? a : b;  // a node, but for rounding
-  return root(away, a, b, at_a, at_b);
+  return zero_between(away, a, b, away(a), away(b), 52);
 }
 
 /// Starts from the cubic through the neighbouring nodes, in the arclength of the curve.
@@ -125,7 +110,7 @@ double PeakPiece::slip_eta(double preload, double& w) const {
   const auto away = [&](double x) {
     return hermite(x, h, a.preload, a.d_preload, b.preload, b.d_preload) - preload;
   };
-  const double x = root(away, 0, 1, a.preload - preload, b.preload - preload);
+  const double x = zero_between(away, 0, 1, a.preload - preload, b.preload - preload, 52);
   w = hermite(x, h, a.w, a.d_w, b.w, b.d_w);
   double eta = hermite(x, h, a.eta, a.d_eta, b.eta, b.d_eta);
   const double reach = 2 * std::abs(b.eta - a.eta) + 1e-9 * eta;

@@ -4,12 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <stdexcept>
 
 #include "arcslip/problems/peak_ridge.hpp"
 #include "arcslip/problems/response_slopes.hpp"
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -40,11 +40,8 @@ bool is_corner_peak(const FrictionSystem& system, double eta) {
 /// Cuts a stretch of the border at P = limit: the node there.
 PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNode& outside, double limit) {
   const auto away = [&](double eta) { return border_node(system, eta).preload - limit; };
-  std::uintmax_t iterations = 200;
-  const auto [a, b] = boost::math::tools::toms748_solve(
-      away, std::min(inside.eta, outside.eta), std::max(inside.eta, outside.eta),
-      boost::math::tools::eps_tolerance<double>(52), iterations);
-  PeakNode node = border_node(system, 0.5 * (a + b));
+  PeakNode node = border_node(
+      system, zero_between(away, inside.eta, outside.eta, away(inside.eta), away(outside.eta), 52));
   node.preload = limit;
   return node;
 }

@@ -51,7 +51,7 @@ Layer layer_of(const fs::path& file) {
     if (folder == "problems") return Layer::problems;
   }
   const std::string name = file.stem().string();
-  if (name == "types") return Layer::types;
+  if (name == "types" || name == "zero_between") return Layer::types;
   if (mechanics.contains(name)) return Layer::mechanics;
   if (files.contains(name)) return Layer::files;
   return Layer::command_line;
