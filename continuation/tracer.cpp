@@ -171,8 +171,21 @@ void Tracer::use(Hold hold) {
   state_.distance = now / stepper_.slope_length(hold);
 }
 
+/// Whether a step leads out of the range from a point that lies on its limit but for rounding, on which no
+/// further step could land.
+bool Tracer::leaves_range() const {
+  const double beyond = stepper_.there().parameters(parameter_);
+  const double same = same_value * parameter_scale();
+  const auto [low, high] = std::minmax(options_.from, options_.to);
+  return (beyond < low && value() <= low + same) || (beyond > high && value() >= high - same);
+}
+
 void Tracer::take() {
   const bool whole = landing_ == nullptr && events_.empty() && !closing_;
+  if (whole && leaves_range()) {
+    if (branch_.points.size() > 1) store(PointType::end);
+    return stop(Stop::left_range, fmt::format("the branch leaves the range at {}", place()));
+  }
   const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
   const int sign_beyond = sign_of(stepper_.parameter_rate_to());
   if (!events_.empty() || closing_) {

@@ -7,6 +7,7 @@
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
@@ -55,6 +56,21 @@ TEST_CASE("The same branch the other way has the same folds") {
   REQUIRE(folds.size() == 2);
   CHECK_THAT(folds[0].unknowns(0), WithinRel(1 / std::sqrt(3.0), 1e-10));
   CHECK_THAT(folds[1].unknowns(0), WithinRel(-1 / std::sqrt(3.0), 1e-10));
+}
+
+TEST_CASE("A branch whose start is a fold on its first value, but for rounding, does not leave its range") {
+  for (int i = 0; i <= 24; ++i) {
+    const double fold = 200 * (1 + (i == 0 ? 0 : 1e-9 * std::pow(10, -0.25 * (i - 1))));
+    const ScalarProblem problem(
+        {"p"}, [=](double u, const Vector& p) { return u * u + p(0) / fold - 1; },
+        [](double u, const Vector&) { return 2 * u; }, {[=](double, const Vector&) { return 1 / fold; }});
+    for (const bool towards_to : {true, false}) {
+      const Branch branch = trace_one_way(problem, guess_of({0}, 200), towards_to, over("p", 200, 500));
+      CAPTURE(i, branch.explanation);
+      CHECK(branch.stop == Stop::left_range);
+      for (const BranchPoint& point : branch.points) CHECK(point.parameters(0) >= 200 * (1 - 1e-10));
+    }
+  }
 }
 
 TEST_CASE("A branch that turns back to its first value ends there and says so") {

@@ -39,6 +39,7 @@ class Tracer {
   bool try_step();
   bool try_landing();
   bool find_events();
+  bool leaves_range() const;
   void take();
   void take_events(const Signs& before, int sign_beyond);
   void take_event(const Event& event, const Signs& before, int sign_beyond);
