@@ -27,7 +27,7 @@ double hermite_slope(double x, double h, double from, double slope_from, double 
 }  // namespace
 
 PeakPiece::PeakPiece(const ForcedResponse& problem, PeakSite site, std::vector<PeakNode> nodes)
-    : problem_(problem), site_(site), nodes_(std::move(nodes)) {
+    : problem_(&problem), site_(site), nodes_(std::move(nodes)) {
   for (PeakNode& node : nodes_) {
     const Peak found = peak(node.eta, node.preload, node.log_R, node.w);
     node.log_Y = std::log(found.Y);
@@ -43,9 +43,9 @@ std::size_t PeakPiece::interval(double preload) const {
 
 Peak PeakPiece::peak(double eta, double preload, double log_R, double w) const {
   const double log_ratio =
-      site_ == PeakSite::slip ? w * w : log_R - problem_.system().log_threshold(eta, preload).value;
+      site_ == PeakSite::slip ? w * w : log_R - problem_->system().log_threshold(eta, preload).value;
   const bool slips = site_ == PeakSite::slip || (site_ == PeakSite::edge && log_ratio > 0);
-  const ResponseSlopes response(problem_.system(), eta, preload, log_R, slips);
+  const ResponseSlopes response(problem_->system(), eta, preload, log_R, slips);
   Peak found;
   found.site = site_;
   found.preload = preload;
@@ -70,7 +70,7 @@ ValueAndSlope PeakPiece::estimate(double preload) const {
 
 Peak PeakPiece::at(double preload) const {
   const PeakNode& node = nodes_[interval(preload)];
-  const FrictionSystem& system = problem_.system();
+  const FrictionSystem& system = problem_->system();
   double eta = node.eta;
   double log_R = node.log_R;
   double w = node.w;
@@ -81,7 +81,7 @@ Peak PeakPiece::at(double preload) const {
     eta = corner_eta(preload);
     log_R = system.log_threshold(eta, preload).value;
   } else if (site_ == PeakSite::edge) {
-    log_R = problem_.guess(eta, preload).unknowns(0);
+    log_R = problem_->guess(eta, preload).unknowns(0);
   }
   return peak(eta, preload, log_R, w);
 }
@@ -89,7 +89,7 @@ Peak PeakPiece::at(double preload) const {
 double PeakPiece::corner_eta(double preload) const {
   const std::size_t i = interval(preload);
   const auto away = [&](double eta) {
-    return std::log(ResponseSlopes::on_border(problem_.system(), eta, false).preload() / preload);
+    return std::log(ResponseSlopes::on_border(problem_->system(), eta).preload() / preload);
   };
   const double a = nodes_[i].eta;
   const double b = nodes_[i + 1].eta;
@@ -101,11 +101,11 @@ double PeakPiece::slip_eta(double preload, double& w) const {
   const std::size_t i = interval(preload);
   const PeakNode& a = nodes_[i];
   const PeakNode& b = nodes_[i + 1];
-  if (preload == a.preload || preload == b.preload) {
-    const PeakNode& node = preload == a.preload ? a : b;
+  const auto take = [&w](const PeakNode& node) {
     w = node.w;
     return node.eta;
-  }
+  };
+  if (preload == a.preload || preload == b.preload) return take(preload == a.preload ? a : b);
   const double h = b.arclength - a.arclength;  // negative where the curve was traced towards small P
   const auto away = [&](double x) {
     return hermite(x, h, a.preload, a.d_preload, b.preload, b.d_preload) - preload;
@@ -113,9 +113,15 @@ double PeakPiece::slip_eta(double preload, double& w) const {
   const double x = zero_between(away, 0, 1, a.preload - preload, b.preload - preload, 52);
   w = hermite(x, h, a.w, a.d_w, b.w, b.d_w);
   double eta = hermite(x, h, a.eta, a.d_eta, b.eta, b.d_eta);
-  const double reach = 2 * std::abs(b.eta - a.eta) + 1e-9 * eta;
+  // Where eta turns between the nodes their distance says nothing.
+  const double course = std::abs(h) * (std::abs(a.d_eta) + std::abs(b.d_eta));
+  const double reach = 2 * std::abs(b.eta - a.eta) + course + 1e-9 * eta;
   const double estimate = eta;
-  if (!solve_ridge(problem_.system(), preload, w, eta) || std::abs(eta - estimate) > reach) {
+  if (!solve_ridge(problem_->system(), preload, w, eta) || std::abs(eta - estimate) > reach) {
+    // Next to a turn in P rounding decides whether there is a solution at all.
+    for (const PeakNode* node : {&a, &b}) {
+      if (std::abs(preload / node->preload - 1) <= same_preload) return take(*node);
+    }
     throw std::runtime_error(
         fmt::format("the peak near eta = {:.10g} was lost at P = {:.10g}", estimate, preload));
   }

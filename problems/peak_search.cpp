@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/problems/border_scan.hpp"
 #include "arcslip/problems/peak_ridge.hpp"
 #include "arcslip/problems/response_slopes.hpp"
 #include "arcslip/zero_between.hpp"
@@ -19,18 +20,18 @@ using continuation::BranchPoint;
 using continuation::PointType;
 
 constexpr double out_of_reach = 1e200;  // a preload at which everything sticks
-
 /// P_border at eta.
 PeakNode border_node(const FrictionSystem& system, double eta) {
-  const ResponseSlopes at = ResponseSlopes::on_border(system, eta, false);
+  const ResponseSlopes at = ResponseSlopes::on_border(system, eta);
   return {at.preload(), eta, at.log_R()};
 }
 
 /// Whether Y has a maximum on the border at eta: the slopes on its two sides, in the order in which they are
 /// passed, are positive and negative.
 bool is_corner_peak(const FrictionSystem& system, double eta) {
-  const AmplitudeSlopes stuck = ResponseSlopes::on_border(system, eta, false).by_eta();
-  const AmplitudeSlopes slipping = ResponseSlopes::on_border(system, eta, true).by_eta();
+  const ResponseSlopes border = ResponseSlopes::on_border(system, eta);
+  const AmplitudeSlopes stuck = border.by_eta();
+  const AmplitudeSlopes slipping = border.slipping().by_eta();
   const bool enters_slip = stuck.log_ratio > 0;
   const double before = enters_slip ? stuck.log_Y : slipping.log_Y;
   const double after = enters_slip ? slipping.log_Y : stuck.log_Y;
@@ -46,22 +47,11 @@ PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNod
   return node;
 }
 
-PeakNode ridge_node(const BranchPoint& point) {
-  PeakNode node{point.parameters(0), point.unknowns(PeakRidge::eta), 0};
-  node.w = point.unknowns(PeakRidge::root_of_log_ratio);
-  return node;
-}
-
-/// Whether a ridge has all but turned in P, so that no digit of P is left between a peak and a trough.
-bool turns(const BranchPoint& point) {
-  return std::abs(point.tangent(2)) <= 1e-4 * point.parameters(0) * point.tangent.norm();
-}
-
 }  // namespace
 
 PeakSearch::PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
                        const continuation::TraceOptions& options)
-    : problem_(problem), range_(range), options_(options) {
+    : problem_(problem), range_(range), options_(options), ends_({range.from, range.to}) {
   search_border();
   search_edge(range.eta_low);
   search_edge(range.eta_high);
@@ -81,43 +71,76 @@ continuation::TraceOptions PeakSearch::over(const std::string& parameter) const 
   return options;
 }
 
+/// Where pieces end together they do so at the same preload, to the last bit.
+double PeakSearch::shared(double preload) {
+  const auto known = std::find_if(ends_.begin(), ends_.end(),
+                                  [&](double end) { return std::abs(end / preload - 1) <= same_preload; });
+  if (known != ends_.end()) return *known;
+  ends_.push_back(preload);
+  return preload;
+}
+
 void PeakSearch::add(PeakSite site, std::vector<PeakNode> nodes) {
   if (nodes.front().preload > nodes.back().preload) std::reverse(nodes.begin(), nodes.end());
+  nodes.front().preload = shared(nodes.front().preload);
+  nodes.back().preload = shared(nodes.back().preload);
+  std::erase_if(nodes, [front = nodes.front().preload, back = nodes.back().preload](const PeakNode& node) {
+    return node.preload < front || node.preload > back;
+  });
   const auto falls = [](const PeakNode& a, const PeakNode& b) { return !(b.preload > a.preload); };
   nodes.erase(std::unique(nodes.begin(), nodes.end(), falls), nodes.end());
-  if (nodes.size() >= 2) pieces_.emplace_back(problem_, site, std::move(nodes));
+  if (nodes.size() >= 2) add(PeakPiece(problem_, site, std::move(nodes)));
+}
+
+/// A curve may have been reached from two of its places, and run along an end of the window but for rounding.
+void PeakSearch::add(PeakPiece piece) {
+  const auto is_in = [](const PeakPiece& whole, const PeakPiece& part, double tolerance) {
+    const PeakNode& middle = part.nodes()[part.nodes().size() / 2];
+    return whole.covers(middle.preload) &&
+           std::abs(whole.at(middle.preload).eta / middle.eta - 1) <= tolerance;
+  };
+  if (piece.site() == PeakSite::slip) {
+    std::erase_if(pieces_, [&](const PeakPiece& other) {
+      return other.site() == PeakSite::edge && is_in(piece, other, on_edge);
+    });
+    if (std::any_of(pieces_.begin(), pieces_.end(), [&](const PeakPiece& other) {
+          return other.site() == PeakSite::slip && is_in(other, piece, 1e-6);
+        }))
+      return;
+  }
+  pieces_.push_back(std::move(piece));
 }
 
 void PeakSearch::search_border() {
   const FrictionSystem& system = problem_.system();
   continuation::TraceOptions options = over("eta");
-  const auto slope = [&system](double AmplitudeSlopes::*which, bool slip) {
-    return [&system, which, slip](const Vector&, const Vector& p, int) {
-      return ResponseSlopes::on_border(system, p(ContactProblem::eta), slip).by_eta().*which;
-    };
-  };
-  options.events = {{"meeting", slope(&AmplitudeSlopes::log_Y, true)},
-                    {"turn", slope(&AmplitudeSlopes::log_ratio, false)}};
-  const Branch stuck = continuation::trace(problem_, problem_.guess(range_.eta_low, out_of_reach), options);
+  options.from *= 1 - beyond_window;
+  options.to *= 1 + beyond_window;
+  const Branch stuck = continuation::trace(problem_, problem_.guess(options.from, out_of_reach), options);
   if (!stuck.complete()) return fail("the stuck response could not be traced: " + stuck.explanation);
-
+  std::vector<double> etas = hidden_;
+  for (const BranchPoint& point : stuck.points) etas.push_back(point.parameters(ContactProblem::eta));
   std::vector<PeakNode> stretch;
-  for (const BranchPoint& point : stuck.points) {
-    const PeakNode node = border_node(system, point.parameters(ContactProblem::eta));
+  for (const BorderPlace& place : scan_border(system, etas, {range_.eta_low, range_.eta_high})) {
+    if (!in_window(place.eta, sharp)) continue;
+    const PeakNode node = border_node(system, place.eta);
     stretch.push_back(node);
-    if (point.type == PointType::regular || point.type == PointType::start) continue;
+    if (!place.is_mark) continue;
     add_corner_piece(stretch);
     stretch = {node};
-    const bool inside = node.preload > range_.from && node.preload < range_.to;
-    if (point.type == PointType::peak && node.preload < range_.to) {
-      PeakNode first = node;
-      PeakNode last = node;
-      first.preload = std::max(node.preload, range_.from);
-      last.preload = range_.to;
-      add(PeakSite::stick, {first, last});
-    }
-    if (inside && point.label == "meeting") meetings_.push_back({node, 0});
+    if (place.is_peak && in_window(place.eta, -sharp)) add_stick_piece(node);
+    if (place.is_meeting && node.preload > range_.from && node.preload < range_.to)
+      meetings_.push_back({node, 0});
   }
+}
+
+void PeakSearch::add_stick_piece(const PeakNode& node) {
+  if (!(node.preload < range_.to)) return;
+  PeakNode first = node;
+  PeakNode last = node;
+  first.preload = std::max(node.preload, range_.from);
+  last.preload = range_.to;
+  add(PeakSite::stick, {first, last});
 }
 
 void PeakSearch::add_corner_piece(const std::vector<PeakNode>& nodes) {
@@ -135,51 +158,56 @@ void PeakSearch::add_corner_piece(const std::vector<PeakNode>& nodes) {
   if (kept.size() >= 2) add(PeakSite::corner, std::move(kept));
 }
 
+/// Whether Y falls from the end of the window into it: just inside, so that a peak on that very place counts.
+bool PeakSearch::falls_inwards(double edge, double preload) const {
+  const double eta = edge * (1 + inwards(edge) * sharp);
+  const continuation::Guess at = problem_.guess(eta, preload);
+  const bool slips = at.regime == ContactProblem::slip;
+  const ResponseSlopes slopes(problem_.system(), eta, preload, at.unknowns(0), slips);
+  return inwards(edge) * slopes.by_eta().log_Y < 0;
+}
+
 /// The end of the window is a local peak of it while Y falls from there into it.
 void PeakSearch::search_edge(double eta) {
-  const FrictionSystem& system = problem_.system();
-  const double inwards = eta == range_.eta_low ? 1 : -1;
-  const auto slope_in = [&](const Vector& u, const Vector& p, int regime) {
-    return inwards *
-           ResponseSlopes(system, eta, p(ContactProblem::preload), u(0), regime == ContactProblem::slip)
-               .by_eta()
-               .log_Y;
+  const auto slope = [&](const Vector& u, const Vector& p, int regime) {
+    return ResponseSlopes(problem_.system(), eta, p(ContactProblem::preload), u(0),
+                          regime == ContactProblem::slip)
+        .by_eta()
+        .log_Y;
   };
   continuation::TraceOptions options = over("P");
   options.extrema_of.clear();
-  options.events = {{"turn", slope_in}};
+  options.events = {{"turn", slope}};
   const Branch branch = continuation::trace(problem_, problem_.guess(eta, range_.from), options);
   if (!branch.complete())
     return fail(fmt::format("the response at eta = {} could not be traced: {}", eta, branch.explanation));
   std::vector<PeakNode> stretch;
-  double sum = 0;  // of the slopes within the stretch
   for (const BranchPoint& point : branch.points) {
     stretch.push_back({point.parameters(ContactProblem::preload), eta, point.unknowns(0)});
-    if (point.type == PointType::regular || point.type == PointType::start) {
-      sum += slope_in(point.unknowns, point.parameters, point.regime);
-      continue;
-    }
-    if (stretch.size() == 2 || sum == 0) {
-      const double middle = std::sqrt(stretch.front().preload * stretch.back().preload);
-      const continuation::Guess at = problem_.guess(eta, middle);
-      sum += slope_in(at.unknowns, at.parameters, at.regime);
-    }
-    if (sum < 0 && stretch.size() >= 2) add(PeakSite::edge, stretch);
+    if (point.type == PointType::regime_switch) stretch.back() = border_node(problem_.system(), eta);
+    if (point.type == PointType::regular || point.type == PointType::start) continue;
+    if (stretch.size() >= 2 &&
+        falls_inwards(eta, std::sqrt(stretch.front().preload * stretch.back().preload)))
+      add(PeakSite::edge, stretch);
     if (point.type == PointType::event && point.regime == ContactProblem::slip) {
       PeakNode node = stretch.back();
       node.w = std::sqrt(std::max(0.0, log_ratio(node)));
-      meetings_.push_back({node, inwards});
+      meetings_.push_back({node, inwards(eta)});
     }
     stretch = {stretch.back()};
-    sum = 0;
   }
 }
 
+/// On the border what is slip, stick or the corner between them is decided by rounding, and on an end of the
+/// window whether the peak is that end.
 bool PeakSearch::is_known(double eta, double preload, PeakSite site) const {
-  constexpr double same = 1e-6;
+  const double log_R = problem_.guess(eta, preload).unknowns(0);
+  const bool any_site = !in_window(eta, -sharp) ||
+                        std::abs(log_R - problem_.system().log_threshold(eta, preload).value) <= on_border;
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const PeakPiece& piece) {
-    return piece.site() == site && piece.covers(preload) &&
-           std::abs(piece.at(preload).eta - eta) <= same * eta;
+    const double covered = std::clamp(preload, piece.from(), piece.to());
+    return piece.holds(site, eta, preload) || (any_site && std::abs(covered / preload - 1) <= on_border &&
+                                               piece.holds(piece.site(), eta, covered));
   });
 }
 
@@ -193,138 +221,47 @@ bool PeakSearch::look_at(double preload) {
   for (std::size_t i = 1; i < branch.points.size(); ++i) {
     const BranchPoint& point = branch.points[i];
     if (point.type != PointType::peak) continue;
-    const double eta = point.parameters(ContactProblem::eta);
     const BranchPoint& before = branch.points[i - 1];
     const bool corner = before.type == PointType::regime_switch && before.parameters == point.parameters;
-    const PeakSite site = corner                                 ? PeakSite::corner
-                          : point.regime == ContactProblem::slip ? PeakSite::slip
-                                                                 : PeakSite::stick;
-    if (is_known(eta, preload, site)) continue;
-    if (site == PeakSite::slip) {
-      PeakNode start{preload, eta, point.unknowns(0)};
-      start.w = std::sqrt(std::max(0.0, log_ratio(start)));
-      found = follow(start) || found;
-    } else {
-      fail(fmt::format("the stuck response lacks the peak at eta = {:.10g}, P = {:.10g}", eta, preload));
-    }
+    found = look_at_peak(point, corner                                 ? PeakSite::corner
+                                : point.regime == ContactProblem::slip ? PeakSite::slip
+                                                                       : PeakSite::stick) ||
+            found;
   }
   return found;
 }
 
-bool PeakSearch::follow(const PeakNode& start) {
-  PeakRidge ridge(problem_.system());
-  continuation::TraceOptions options = over("P");
-  options.extrema_of.clear();
-  for (const double edge : {range_.eta_low, range_.eta_high}) {
-    options.events.push_back(
-        {"edge", [edge](const Vector& u, const Vector&, int) { return u(PeakRidge::eta) - edge; }});
+/// Follows a peak that is not known, or finds what the stuck response has beside it.
+bool PeakSearch::look_at_peak(const BranchPoint& point, PeakSite site) {
+  PeakNode node{point.parameters(ContactProblem::preload), point.parameters(ContactProblem::eta),
+                point.unknowns(0)};
+  if (is_known(node.eta, node.preload, site)) return false;
+  const double above_border = log_ratio(node);
+  if (site == PeakSite::slip) {
+    node.w = std::sqrt(std::max(0.0, above_border));
+    return follow(node);
   }
-  options.stop_after = {{PointType::event, 1, "edge"}};
-  continuation::Guess guess{Vector(2), Vector::Constant(1, start.preload), 0};
-  guess.unknowns << start.w, start.eta;
-  ridge.adapt(guess.unknowns, guess.parameters);
-  const auto follow_with_unit = [&](const BranchPoint& point) {
-    ridge.adapt(point.unknowns, point.parameters);
-    return true;
-  };
-  const Branch curve = continuation::trace_both(ridge, guess, options, follow_with_unit);
-  const auto is_lost = [&](continuation::Stop stop, const BranchPoint& end) {
-    return !is_end(stop) && !turns(end) && meeting_at(ridge_node(end)) == nullptr;
-  };
-  if (curve.points.empty() || is_lost(curve.stop, curve.points.back()) ||
-      (curve.first_stop && is_lost(*curve.first_stop, curve.points.front()))) {
-    fail(fmt::format("the peak at eta = {:.10g}, P = {:.10g} could not be followed: {}", start.eta,
-                     start.preload,
-                     is_end(curve.stop) ? std::string(to_string(*curve.first_stop)) : curve.explanation));
-  }
-  if (curve.points.size() < 2) return false;
-  add_sections(curve);
-  return true;
-}
-
-/// Splits a curve where it turns in P: peaks and troughs take turns.
-void PeakSearch::add_sections(const Branch& curve) {
-  std::vector<PeakNode> nodes;
-  for (const BranchPoint& point : curve.points) {
-    PeakNode node = ridge_node(point);
-    node.log_R = problem_.system().log_threshold(node.eta, node.preload).value + node.w * node.w;
-    node.arclength = point.arclength;
-    node.d_w = point.tangent(PeakRidge::root_of_log_ratio);
-    node.d_eta = point.tangent(PeakRidge::eta);
-    node.d_preload = point.tangent(2);
-    nodes.push_back(node);
-    if (point.type != PointType::fold) continue;
-    add_section(std::move(nodes));
-    nodes = {node};
-  }
-  add_section(std::move(nodes));
-}
-
-void PeakSearch::add_section(std::vector<PeakNode> nodes) {
-  if (nodes.size() < 2) return;
-  const PeakNode& middle = nodes[nodes.size() / 2];
-  const bool peak = ridge_point(problem_.system(), middle.w, middle.eta, middle.preload).is_peak();
-  snap(nodes.front());
-  snap(nodes.back());
-  if (!peak) return;
-  const std::pair<double, double> range = std::minmax(nodes.front().preload, nodes.back().preload);
-  const auto is_beyond = [&](const PeakNode& node) {
-    return !(node.preload > range.first && node.preload < range.second);
-  };
-  nodes.erase(std::remove_if(nodes.begin() + 1, nodes.end() - 1, is_beyond), nodes.end() - 1);
-  add(PeakSite::slip, std::move(nodes));
-}
-
-PeakSearch::Meeting* PeakSearch::meeting_at(const PeakNode& end) {
-  const auto met = std::find_if(meetings_.begin(), meetings_.end(), [&](const Meeting& meeting) {
-    const double apart = std::abs(meeting.node.eta - end.eta) / end.eta;
-    const double preload_apart = std::abs(meeting.node.preload - end.preload) / end.preload;
-    return meeting.inwards == 0 ? end.w * end.w <= 1e-9 && apart <= 1e-6 && preload_apart <= 1e-2
-                                : apart <= 1e-9 && preload_apart <= 1e-6;
+  std::erase_if(pieces_, [](const PeakPiece& piece) {
+    return piece.site() == PeakSite::stick || piece.site() == PeakSite::corner;
   });
-  return met == meetings_.end() ? nullptr : &*met;
-}
-
-/// The end of a curve at the border or at an end of the window is the place where it was found there itself.
-void PeakSearch::snap(PeakNode& end) {
-  Meeting* meeting = meeting_at(end);
-  if (meeting == nullptr) return;
-  meeting->met = true;
-  end.eta = meeting->node.eta;
-  end.preload = meeting->node.preload;
-  end.log_R = meeting->node.log_R;
-  end.w = meeting->node.w;
+  const std::vector<Meeting> before = meetings_;
+  std::erase_if(meetings_, [](const Meeting& meeting) { return meeting.inwards == 0; });
+  hidden_.push_back(node.eta);
+  search_border();
+  for (Meeting& meeting : meetings_) {
+    meeting.met = std::any_of(before.begin(), before.end(), [&](const Meeting& old) {
+      return old.met && std::abs(old.node.eta / meeting.node.eta - 1) <= on_edge;
+    });
+  }
+  const bool found = is_known(node.eta, node.preload, site);
+  if (!found && above_border < -on_border)
+    fail(fmt::format("the stuck response lacks the peak at eta = {:.10g}, P = {:.10g}", node.eta,
+                     node.preload));
+  return found;
 }
 
 double PeakSearch::log_ratio(const PeakNode& node) const {
   return node.log_R - problem_.system().log_threshold(node.eta, node.preload).value;
-}
-
-/// A little way along the ridge from where it meets the border or an end of the window.
-PeakNode PeakSearch::inside(const Meeting& meeting) const {
-  constexpr double way = 1e-5;
-  PeakNode node = meeting.node;
-  const FrictionSystem& system = problem_.system();
-  const RidgePoint at = ridge_point(system, node.w, node.eta, node.preload);
-  const Eigen::Vector3d unit(1, node.eta, node.preload);
-  Eigen::Matrix<double, 2, 3> slopes;  // of both residuals over (w, eta, P), in units
-  slopes << at.by_place, at.by_preload;
-  slopes = slopes * unit.asDiagonal();
-  Eigen::Vector3d along = slopes.row(0).cross(slopes.row(1)).transpose().normalized();
-  const double inwards = meeting.inwards == 0 ? along(0) : meeting.inwards * along(1);
-  if (inwards < 0) along = -along;
-  along = way * along.cwiseProduct(unit);
-  node.w += along(0);
-  node.eta += along(1);
-  node.preload += along(2);
-  solve_ridge(system, node.preload, node.w, node.eta);
-  return node;
-}
-
-void PeakSearch::follow_from_meetings() {
-  for (const Meeting& meeting : meetings_) {
-    if (!meeting.met) follow(inside(meeting));
-  }
 }
 
 }  // namespace arcslip::problems

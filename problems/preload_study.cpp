@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "arcslip/problems/peak_envelope.hpp"
 #include "arcslip/problems/peak_search.hpp"
@@ -167,7 +168,9 @@ class Assembly {
   std::vector<PeakBranch> branches(double optimum) const;
 
  private:
+  std::pair<std::size_t, std::size_t> lowest() const;
   bool linked(std::size_t a, std::size_t b) const;
+  Peak peak_at(std::size_t piece, double preload) const;
   std::vector<double> places(std::size_t piece, double optimum) const;
   PeakType type_of(const std::vector<std::size_t>& chain, std::size_t position, const Peak& peak,
                    double optimum) const;
@@ -185,33 +188,55 @@ bool Assembly::linked(std::size_t a, std::size_t b) const {
   });
 }
 
-Optimum Assembly::optimum() const {
+/// A peak may lie beyond the window's end by the error of curves.
+Peak Assembly::peak_at(std::size_t piece, double preload) const {
+  Peak peak = pieces_[piece].at(preload);
+  peak.eta = std::clamp(peak.eta, range_.eta_low, range_.eta_high);
+  return peak;
+}
+
+/// The knots from the first to the last one at which Y_max is as low as anywhere, to the tolerance of Y; only
+/// the lowest where they are next to each other, as at the bottom of a valley.
+std::pair<std::size_t, std::size_t> Assembly::lowest() const {
+  constexpr double same = 1e-10;
+  constexpr double valley = 1e-3;  // of ln P: within it even a curvature of 1e-3 would not show
   const std::vector<PeakEnvelope::Knot>& knots = envelope_.knots();
   const auto least = std::min_element(knots.begin(), knots.end(),
                                       [](const auto& a, const auto& b) { return a.log_Y < b.log_Y; });
   const auto position = static_cast<std::size_t>(least - knots.begin());
+  const auto is_lowest = [&](std::size_t knot) { return knots[knot].log_Y <= least->log_Y + same; };
+  std::size_t first = position;
+  std::size_t last = position;
+  while (first > 0 && is_lowest(first - 1)) --first;
+  while (last + 1 < knots.size() && is_lowest(last + 1)) ++last;
+  if (std::log(knots[last].preload / knots[first].preload) > valley) return {first, last};
+  return {position, position};
+}
+
+Optimum Assembly::optimum() const {
+  const std::vector<PeakEnvelope::Knot>& knots = envelope_.knots();
+  const auto [first, last] = lowest();
+  const PeakEnvelope::Knot& least = knots[first];
   const std::vector<PeakEnvelope::Span>& spans = envelope_.spans();
   // Of two spans that meet there the lower one.
-  const bool starts_span = least->span > 0 && least->preload == spans[least->span].from;
-  const std::size_t span = starts_span ? least->span - 1 : least->span;
-  std::size_t last_flat = position;
-  while (last_flat + 1 < knots.size() && knots[last_flat + 1].log_Y == least->log_Y) ++last_flat;
+  const bool starts_span = least.span > 0 && least.preload == spans[least.span].from;
+  const std::size_t span = starts_span ? least.span - 1 : least.span;
 
   Optimum best;
-  best.peak = pieces_[spans[span].piece].at(least->preload);
-  if (knots[last_flat].preload > least->preload) {
+  best.peak = peak_at(spans[span].piece, least.preload);
+  if (last > first) {
     best.kind = OptimumKind::flat;
-    best.peak = envelope_.at(std::sqrt(least->preload * knots[last_flat].preload));
-  } else if (least->preload == spans[span].to && span + 1 < spans.size()) {
+    best.peak = envelope_.at(std::sqrt(least.preload * knots[last].preload));
+  } else if (least.preload == spans[span].to && span + 1 < spans.size()) {
     const std::size_t next = spans[span + 1].piece;
     best.kind = linked(spans[span].piece, next) ? OptimumKind::corner : OptimumKind::exchange;
-    if (best.kind == OptimumKind::exchange) best.other = pieces_[next].at(least->preload);
-  } else if (least->preload == range_.from || least->preload == range_.to) {
+    if (best.kind == OptimumKind::exchange) best.other = peak_at(next, least.preload);
+  } else if (least.preload == range_.from || least.preload == range_.to) {
     best.kind = OptimumKind::end;
   }
-  const double level = least->log_Y + std::numbers::ln2;
-  best.low = envelope_.leaves(position, level, false);
-  best.high = envelope_.leaves(position, level, true);
+  const double level = least.log_Y + std::numbers::ln2;
+  best.low = envelope_.leaves(first, level, false);
+  best.high = envelope_.leaves(first, level, true);
   best.peak.type = PeakType::optimum;
   best.peak.is_global = true;
   return best;
@@ -261,7 +286,7 @@ std::vector<PeakBranch> Assembly::branches(double optimum) const {
     for (std::size_t position = 0; position < chain.size(); ++position) {
       const std::size_t piece = chain[position];
       for (const double preload : places(piece, optimum)) {
-        Peak peak = pieces_[piece].at(preload);
+        Peak peak = peak_at(piece, preload);
         peak.type = type_of(chain, position, peak, optimum);
         peak.is_global = envelope_.owns(piece, preload);
         if (!branch.empty() &&

@@ -12,12 +12,12 @@ ResponseSlopes::ResponseSlopes(const FrictionSystem& system, double eta)
 ResponseSlopes::ResponseSlopes(const FrictionSystem& system, double eta, double preload, double log_R,
                                bool slip)
     : ResponseSlopes(system, eta) {
-  set(system, preload, log_R, slip);
+  set(preload, system.log_threshold(eta, preload), log_R, slip);
 }
 
-void ResponseSlopes::set(const FrictionSystem& system, double preload, double log_R, bool slip) {
+void ResponseSlopes::set(double preload, const LogThreshold& threshold, double log_R, bool slip) {
   preload_ = preload;
-  threshold_ = system.log_threshold(eta_, preload);
+  threshold_ = threshold;
   log_R_ = log_R;
   const HarmonicCoefficient law =
       slip ? slip_coefficient(log_R - threshold_.value) : HarmonicCoefficient{{1, 0}, {0, 0}};
@@ -26,12 +26,19 @@ void ResponseSlopes::set(const FrictionSystem& system, double preload, double lo
   log_Y_ = log_R + 0.5 * std::log(std::norm(1.0 + k_ * phi_ * damper_.compliance));
 }
 
-ResponseSlopes ResponseSlopes::on_border(const FrictionSystem& system, double eta, bool slip) {
+ResponseSlopes ResponseSlopes::on_border(const FrictionSystem& system, double eta) {
   ResponseSlopes at(system, eta);
   const Complex q = 1.0 + at.k_ * (at.base_.compliance + at.damper_.compliance);
   const double log_R = 0.5 * std::log(std::norm(at.base_.free) / std::norm(q));
-  const double preload = std::exp(log_R) / system.slip_per_preload - system.preload_growth * eta * eta;
-  at.set(system, preload, log_R, slip);
+  const double pressed = std::exp(log_R) / system.slip_per_preload;  // P + P_2 eta^2
+  const LogThreshold threshold{log_R, 2 * system.preload_growth * eta / pressed, 1 / pressed};
+  at.set(pressed - system.preload_growth * eta * eta, threshold, log_R, false);
+  return at;
+}
+
+ResponseSlopes ResponseSlopes::slipping() const {
+  ResponseSlopes at = *this;
+  at.set(preload_, threshold_, log_R_, true);
   return at;
 }
 

@@ -61,6 +61,11 @@ inline std::vector<LocalPeak> peaks_at(const Case& c, const Window& window, Real
     }
   }
   if (last.log_Y_slope > 0) edge(window.high, last, heights[heights.size() - 2]);
+  if (peaks.empty() && scan.events().empty()) {  // a peak on an end of the window, but for rounding
+    const bool at_first = first.log_Y > last.log_Y;
+    const Sample& end = at_first ? first : last;
+    peaks.push_back({at_first ? window.low : window.high, end.log_Y, end.log_ratio, Site::edge, 0});
+  }
   if (peaks.empty()) {  // where R touches S on the peak, rounding decides on which side it is
     const Event top = *std::max_element(scan.events().begin(), scan.events().end(),
                                         [](const Event& a, const Event& b) { return a.log_Y < b.log_Y; });

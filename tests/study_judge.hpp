@@ -164,9 +164,10 @@ class StudyJudge {
 
   static bool same(const dense::LocalPeak& peak, const Peak& row) {
     const bool flat = peak.depth <= shallow;
+    const bool on_border = std::abs(peak.log_ratio) <= 1e-9L;  // what the site is, rounding decides
     return std::abs(row.eta / peak.eta - 1) <= (flat ? 1e-3L : 1e-7L) &&
            std::abs(std::log(row.Y) - peak.log_Y) <= tight &&
-           (flat || (dense::name(peak.site) == to_string(row.site) &&
+           (flat || ((on_border || dense::name(peak.site) == to_string(row.site)) &&
                      std::abs(std::log(row.R_over_S) - peak.log_ratio) <= 1e-6L));
   }
 

@@ -18,9 +18,7 @@ namespace {
 
 /// eta next to a stuck resonance at which R/S is largest, by bisection; 0 where it is not next to it.
 double border_top(const FrictionSystem& system, double resonance) {
-  const auto slope = [&](double eta) {
-    return ResponseSlopes::on_border(system, eta, false).by_eta().log_ratio;
-  };
+  const auto slope = [&](double eta) { return ResponseSlopes::on_border(system, eta).by_eta().log_ratio; };
   double width = 1e-9;
   const auto is_inside = [&] {
     return slope(resonance * (1 - width)) > 0 && slope(resonance * (1 + width)) < 0;
@@ -78,7 +76,7 @@ TEST_CASE("A response whose resonance touches the border of stick, but for round
     const double top = border_top(system, resonance);
     if (top == 0) continue;
     const double beyond = draw.integer(0, 1) == 0 ? 0 : draw.log_uniform(1e-16, 1e-8);
-    const double preload = ResponseSlopes::on_border(system, top, false).preload() *
+    const double preload = ResponseSlopes::on_border(system, top).preload() *
                            (draw.integer(0, 1) == 0 ? 1 - beyond : 1 + beyond);
     TraceOptions options = over("eta", 0.5 * resonance, 1.5 * resonance);
     if (draw.integer(0, 1) == 0) std::swap(options.from, options.to);

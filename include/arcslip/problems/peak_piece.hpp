@@ -8,6 +8,7 @@
 //   corner  R = S at eta with P_border(eta) = P
 //   edge    R from the response equation at the window's end
 
+#include <cmath>
 #include <vector>
 
 #include "arcslip/problems/forced_response.hpp"
@@ -31,6 +32,9 @@ struct PeakNode {
   double d_w = 0;
 };
 
+/// Of P: ends of curves that are as near to each other are one, for R/S and eta are known to 1e-10 each.
+inline constexpr double same_preload = 1e-9;
+
 class PeakPiece {
  public:
   /// Nodes with P rising, two at least; log_Y and slope are filled in. The problem is kept by reference.
@@ -45,6 +49,11 @@ class PeakPiece {
   /// The peak at a preload that is covered, solved for. Throws std::runtime_error where that fails.
   Peak at(double preload) const;
 
+  /// Whether this is the peak at that place.
+  bool holds(PeakSite site, double eta, double preload) const {
+    return site == site_ && covers(preload) && std::abs(at(preload).eta - eta) <= 1e-6 * eta;
+  }
+
   /// ln Y there by interpolation between the nodes, and d ln Y/d ln P.
   ValueAndSlope estimate(double preload) const;
 
@@ -54,7 +63,7 @@ class PeakPiece {
   double corner_eta(double preload) const;
   Peak peak(double eta, double preload, double log_R, double w) const;
 
-  const ForcedResponse& problem_;
+  const ForcedResponse* problem_;
   PeakSite site_;
   std::vector<PeakNode> nodes_;
 };

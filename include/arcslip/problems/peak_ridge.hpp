@@ -22,8 +22,12 @@ struct RidgePoint {
   Eigen::Matrix2d by_place;  ///< d(g, h)/d(w, eta)
   Eigen::Vector2d by_preload;
 
-  /// Whether a point of the curve is a maximum of Y over eta: d h/d eta < 0 along the response.
-  bool is_peak() const { return by_place(0, 0) * by_place(1, 1) < by_place(0, 1) * by_place(1, 0); }
+  /// Of a point of the curve, negative where it is a maximum of Y over eta: d h/d eta along the response, in
+  /// [-1, 1] and next to 0 where maxima and minima meet.
+  double bend() const {
+    const double rows = by_place.row(0).norm() * by_place.row(1).norm();
+    return (by_place(0, 0) * by_place(1, 1) - by_place(0, 1) * by_place(1, 0)) / rows;
+  }
 };
 
 RidgePoint ridge_point(const FrictionSystem& system, double w, double eta, double preload);

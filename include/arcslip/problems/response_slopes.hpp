@@ -23,8 +23,11 @@ class ResponseSlopes {
  public:
   ResponseSlopes(const FrictionSystem& system, double eta, double preload, double log_R, bool slip);
 
-  /// Stuck at any preload, with that one at which R = S.
-  static ResponseSlopes on_border(const FrictionSystem& system, double eta, bool slip);
+  /// Stuck, with that preload at which R = S: below 0 where P_2 eta^2 alone would hold the contact.
+  static ResponseSlopes on_border(const FrictionSystem& system, double eta);
+
+  /// On the border the same place on the side of slip.
+  ResponseSlopes slipping() const;
 
   double preload() const { return preload_; }
   double log_R() const { return log_R_; }
@@ -43,7 +46,7 @@ class ResponseSlopes {
  private:
   ResponseSlopes(const FrictionSystem& system, double eta);
 
-  void set(const FrictionSystem& system, double preload, double log_R, bool slip);
+  void set(double preload, const LogThreshold& threshold, double log_R, bool slip);
 
   /// What changes with a parameter.
   struct Change {

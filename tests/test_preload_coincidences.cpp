@@ -1,0 +1,117 @@
+// Preload studies in which special points coincide: the stuck resonance is the peak, its corner and where a
+// ridge in slip meets the border all in one, as wherever R and Y peak together; ranges and windows that end
+// on it.
+
+#include "arcslip/problems/response_slopes.hpp"
+#include "catch.hpp"
+#include "optimum_judge.hpp"
+#include "random_systems.hpp"
+
+using namespace arcslip;
+using namespace arcslip::testing;
+using problems::PreloadStudy;
+
+namespace {
+
+const std::vector<std::string> none;
+
+/// A held damper, so that R = Y, or one with dampings far apart.
+StudyRun draw_run(RandomSystems& draw, double& resonance, double& border) {
+  StudyRun run;
+  SystemParameters& s = run.system;
+  s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
+  s.wave_number = draw.integer(1, 3);
+  s.elements = draw.integer(2 * s.wave_number + 1, 60);
+  s.mass_ratio = draw.log_uniform(0.5, 50);
+  s.frequency_ratio = draw.log_uniform(0.7, 6);
+  s.interface_stiffness = draw.log_uniform(10, 1e5);
+  s.base_damping = draw.log_uniform(1e-6, 0.05);
+  s.damper_damping = draw.log_uniform(1e-6, 0.05);
+  s.fixed_damper = draw.integer(0, 3) != 0;
+  if (draw.integer(0, 1) == 0) s.base_damping_kind = DampingKind::structural;
+  const FrictionSystem system = build_system(s);
+  resonance = joined_frequencies({&system.base, &system.damper}, system.contact_stiffness).front();
+  border = problems::ResponseSlopes::on_border(system, resonance).preload();
+  run.range = {border * draw.log_uniform(1e-4, 0.5),
+               border * draw.log_uniform(2, 30),
+               0.5 * resonance,
+               1.5 * resonance,
+               {}};
+  return run;
+}
+
+/// What is wrong with the heights of the highest peak, and with all peaks at these preloads.
+std::vector<std::string> complaints(const StudyRun& run, const std::vector<double>& preloads) {
+  StudyJudge judge(run);
+  const std::vector<problems::Peak> rows = judge.global_rows();
+  for (std::size_t i = 0; i < rows.size(); i += rows.size() / 4 + 1) judge.judge_global(rows[i]);
+  for (const double preload : preloads) judge.judge_at(preload);
+  return judge.complaints();
+}
+
+}  // namespace
+
+TEST_CASE("Studies of resonances on the corner hold all peaks that the dense scan finds") {
+  RandomSystems draw(11);
+  double resonance = 0;
+  double border = 0;
+  for (int i = 0; i < 20; ++i) {
+    StudyRun run = draw_run(draw, resonance, border);
+    run.range.stop_at = {border * (1 - 1e-4), border, border * (1 + 1e-4)};
+    CAPTURE(i, describe(run));
+    CHECK(complaints(run, run.range.stop_at) == none);
+    run.range.stop_at.clear();
+    run.range.from = border;
+    CHECK(complaints(run, {border}) == none);
+    run.range.from = 0.1 * border;
+    run.range.to = border;
+    CHECK(complaints(run, {border}) == none);
+  }
+}
+
+TEST_CASE("Studies of windows that end on a resonance hold the highest peak that the dense scan finds") {
+  RandomSystems draw(12);
+  double resonance = 0;
+  double border = 0;
+  for (int i = 0; i < 20; ++i) {
+    StudyRun run = draw_run(draw, resonance, border);
+    run.range.eta_low = resonance;
+    CAPTURE(i, describe(run));
+    CHECK(complaints(run, {}) == none);
+    run.range.eta_low = 0.5 * resonance;
+    run.range.eta_high = resonance;
+    CHECK(complaints(run, {}) == none);
+  }
+}
+
+TEST_CASE("A ridge is known at preloads between points of equal eta, and right beside its end") {
+  StudyRun turning;
+  SystemParameters& rods = turning.system;
+  rods.model = StructureModel::rods;
+  rods.wave_number = 2;
+  rods.elements = 57;
+  rods.mass_ratio = 2.3628470716123697;
+  rods.frequency_ratio = 2.1748558424350133;
+  rods.interface_stiffness = 734.76919623678407;
+  rods.base_damping = 0.0018286854146032337;
+  rods.damper_damping = 0.0018147905254830518;
+  rods.base_damping_kind = DampingKind::structural;
+  turning.range = {0.089330621448623651, 317.51699654787967, 1.0596549814458507, 7.9332949676802524, {}};
+  CHECK(complaints(turning, {}) == none);
+
+  StudyRun ending;
+  SystemParameters& beams = ending.system;
+  beams.model = StructureModel::beams;
+  beams.wave_number = 2;
+  beams.elements = 10;
+  beams.mass_ratio = 3.6106268190373174;
+  beams.frequency_ratio = 1.2207954510847923;
+  beams.interface_stiffness = 7911.6477523916556;
+  beams.base_damping = 0.0004785309699702092;
+  beams.damper_damping = 7.2388620369622506e-05;
+  beams.base_damping_kind = DampingKind::structural;
+  beams.fixed_damper = true;
+  const double end = 61.599346034807176;
+  ending.range = {10.768805510602878, 1802.4853970415195, 1.5101564734778503, 131.45809477815575, {end}};
+  CHECK(complaints(ending, {end}) == none);
+}
