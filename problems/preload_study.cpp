@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -340,6 +341,8 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
         equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
+  } catch (const std::bad_alloc&) {
+    throw;  // no property of the system
   } catch (const std::exception& error) {
     study.failure = error.what();
   }
