@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -103,6 +105,23 @@ void Statement::write_csv(int column, std::string& row) const {
   row += '"';
   for (const char character : value) row.append(character == '"' ? 2 : 1, character);
   row += '"';
+}
+
+void Statement::write_bits(int column, std::string& row) const {
+  const auto append = [&](char type, const auto& bits) {
+    row += type;
+    row.append(bits.begin(), bits.end());
+  };
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_INTEGER: append('i', std::bit_cast<std::array<char, 8>>(integer(column))); return;
+    case SQLITE_FLOAT: append('r', std::bit_cast<std::array<char, 8>>(real(column))); return;
+    case SQLITE_NULL: row += 'n'; return;
+    case SQLITE_BLOB: row += 'b'; break;
+    default: row += 't'; break;
+  }
+  const std::string value = text(column);
+  append('s', std::bit_cast<std::array<char, 8>>(static_cast<std::int64_t>(value.size())));
+  row += value;
 }
 
 // Statements may outlive the connection, which is then closed with the last of them.

@@ -46,6 +46,8 @@ class Statement {
   std::string text(int column) const;
   /// Appends the value as it stands in a CSV file: numbers with 17 significant digits, NULL as nan.
   void write_csv(int column, std::string& row) const;
+  /// Appends the value's type and its bits, of which no two values have the same.
+  void write_bits(int column, std::string& row) const;
 
  private:
   friend class Database;
@@ -62,6 +64,8 @@ class Database {
  public:
   /// Opens the file, or makes it where there is none.
   explicit Database(const std::string& path);
+  /// One in memory.
+  Database() : Database(":memory:") {}
 
   void execute(const std::string& sql);
   Statement prepare(std::string_view sql) const;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <system_error>
@@ -81,25 +82,26 @@ std::string placeholders(std::size_t count) {
   return fmt::format("{}", fmt::join(std::vector<std::string>(count, "?"), ","));
 }
 
-/// The tables of a study with its input, in a new file.
-void create(const std::string& path, const StudyCase& study) {
-  Database database(path);
+/// The tables of a study with its input, in an empty database.
+void create(Database& database, const StudyCase& study) {
   std::string columns;
   for (const std::string& key : study.keys) columns += quoted(key) + ", ";
   columns += fmt::format("{}", fmt::join(optimum_columns, ", "));
   // Columns without a type keep what they are given to the last bit.
   database.execute(
       fmt::format("BEGIN;"
-                  "CREATE TABLE study (version TEXT, input TEXT, designs INTEGER);"
+                  "CREATE TABLE study (version TEXT, input TEXT, designs INTEGER, checksum INTEGER);"
                   "CREATE TABLE runs (run INTEGER PRIMARY KEY, begun TEXT DEFAULT CURRENT_TIMESTAMP);"
-                  "CREATE TABLE designs (curve INTEGER PRIMARY KEY, {}, failure TEXT, free_eta, run INTEGER);"
+                  "CREATE TABLE designs (curve INTEGER PRIMARY KEY, {}, failure TEXT, free_eta, run INTEGER, "
+                  "checksum INTEGER);"
                   "CREATE TABLE sweep ({}, PRIMARY KEY (curve, peak_branch, point)) WITHOUT ROWID;{}",
                   columns, fmt::join(peak_columns, ", "), StudyExtras(study).tables()));
-  database.prepare("INSERT INTO study VALUES (?, ?, ?)")
+  database.prepare("INSERT INTO study VALUES (?, ?, ?, NULL)")
       .bind(ARCSLIP_VERSION)
       .bind(study.resolved.dump())
       .bind(static_cast<std::int64_t>(study.count))
       .run();
+  database.prepare("UPDATE study SET checksum = ?").bind(input_checksum(database)).run();
   database.execute("COMMIT");
 }
 
@@ -111,6 +113,18 @@ void remove(const std::string& path) {
 /// Brings what stands beside a database into it, and makes sure that nobody else uses it.
 void settle(const std::string& path) {
   if (std::filesystem::exists(path)) Database(path).execute("PRAGMA journal_mode = DELETE");
+}
+
+/// The key that differs between the input of a study before and now, or empty.
+std::string difference(ordered_json before, const StudyCase& study) {
+  ordered_json now = ordered_json::parse(study.resolved.dump());
+  before.erase("title");
+  now.erase("title");
+  if (before == now) return "";
+  const ordered_json change = ordered_json::diff(before, now);
+  std::string key = change.empty() ? "/study/for_each" : change[0]["path"].get<std::string>();
+  std::replace(key.begin(), key.end(), '/', '.');
+  return key.substr(1);
 }
 
 /// Temporary files of programs that were killed.
@@ -197,6 +211,7 @@ StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool r
     : folder_(folder),
       path_(folder + "/study.sqlite"),
       keys_(study.keys),
+      count_(study.count),
       sweep_(study.sweep),
       extras_(study) {
   if (resume && std::filesystem::exists(path_)) {
@@ -210,7 +225,10 @@ StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool r
 void StudyStore::begin(const StudyCase& study) {
   const std::string temporary = fmt::format("{}.{}.tmp", path_, getpid());
   try {
-    create(temporary, study);
+    {
+      Database database(temporary);
+      create(database, study);
+    }
     try {
       settle(path_);
     } catch (const NoDatabase&) {
@@ -236,31 +254,25 @@ void StudyStore::check_same(const StudyCase& study) const {
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("{}: --resume: {}; without --resume it is begun anew", path_, why));
   };
-  std::string version, input;
   try {
     settle(path_);
     const Database database(path_);
     Statement row = database.prepare("SELECT version, input FROM study");
     if (!row.step()) refuse("it holds no study");
-    version = row.text(0);
-    input = row.text(1);
+    const std::string version = row.text(0);
+    const bool is_version = version.find_first_not_of("0123456789.") == std::string::npos;
+    if (is_version && version != ARCSLIP_VERSION)
+      refuse(fmt::format("it was begun by arcslip {}, this is {}", version, ARCSLIP_VERSION));
+    if (!is_version || !has_whole_input(database)) refuse("its input is damaged");
+    const std::string other = difference(ordered_json::parse(row.text(1)), study);
+    if (!other.empty()) refuse(fmt::format("it was begun with another {}", other));
+    Database model;
+    create(model, study);
+    const std::string wrong = damage(database, model, static_cast<std::int64_t>(study.count));
+    if (!wrong.empty()) refuse(wrong);
   } catch (const NoDatabase&) {
     refuse("it holds no study");
   }
-  if (version != ARCSLIP_VERSION)
-    refuse(fmt::format("it was begun by arcslip {}, this is {}", version, ARCSLIP_VERSION));
-  ordered_json before = ordered_json::parse(input);
-  ordered_json now = ordered_json::parse(study.resolved.dump());
-  before.erase("title");
-  now.erase("title");
-  if (before == now) return;
-  const ordered_json change = ordered_json::diff(before, now);
-  std::string key = change.empty() ? "/study/for_each" : change[0]["path"].get<std::string>();
-  key = key.substr(1);
-  for (char& character : key) {
-    if (character == '/') character = '.';
-  }
-  refuse(fmt::format("it was begun with another {}", key));
 }
 
 void StudyStore::open() {
@@ -272,19 +284,18 @@ void StudyStore::open() {
   Statement last = database_->prepare("SELECT max(run) FROM runs");
   last.step();
   run_ = last.integer(0);
-  const std::size_t columns = 1 + keys_.size() + optimum_columns.size() + 3;
+  const std::size_t columns = 1 + keys_.size() + optimum_columns.size() + 4;
   insert_design_ = database_->prepare(fmt::format("INSERT INTO designs VALUES ({})", placeholders(columns)));
   insert_peak_ =
       database_->prepare(fmt::format("INSERT INTO sweep VALUES ({})", placeholders(peak_columns.size())));
   extras_.open(*database_);
+  checksums_.emplace(*database_);
 }
 
 std::vector<bool> StudyStore::finished() const {
-  Statement size = database_->prepare("SELECT designs FROM study");
-  size.step();
-  std::vector<bool> finished(static_cast<std::size_t>(size.integer(0)));
+  std::vector<bool> finished(count_);
   for (Statement row = database_->prepare("SELECT curve FROM designs"); row.step();)
-    finished[static_cast<std::size_t>(row.integer(0))] = true;
+    finished.at(static_cast<std::size_t>(row.integer(0))) = true;
   return finished;
 }
 
@@ -303,9 +314,10 @@ void StudyStore::add(std::size_t curve, const ordered_json& values, const proble
   std::string failure = result.failure;
   if (failed && failure.empty()) failure = "there is no peak in the window";
   if (!failed && uncertain != nullptr) failure = uncertain->failure;
-  row.bind(failure).bind(result.free_eta).bind(run_).run();
+  row.bind(failure).bind(result.free_eta).bind(run_).bind_null().run();
   if (sweep_) add_sweep(curve, result);
   extras_.add(curve, failed ? nullptr : uncertain);
+  checksums_->store(static_cast<std::int64_t>(curve));
   database_->execute("COMMIT");
 }
 
@@ -374,6 +386,7 @@ void StudyStore::tidy() {
   insert_design_.reset();
   insert_peak_.reset();
   extras_.close();
+  checksums_.reset();
   try {
     database_->execute("PRAGMA journal_mode = DELETE");
   } catch (const DatabaseInUse&) {

@@ -13,6 +13,7 @@
 #include "arcslip/results.hpp"
 #include "arcslip/study_case.hpp"
 #include "database.hpp"
+#include "study_checksum.hpp"
 #include "study_extras.hpp"
 
 namespace arcslip {
@@ -33,7 +34,7 @@ struct StoredDesign {
 class StudyStore {
  public:
   /// Goes on with the study in the folder, if there is one and `resume` is true; otherwise begins a new one
-  /// in its place. Throws InputError where the study there is another one, OutputError.
+  /// in its place. Throws InputError where the study there is another one or damaged, OutputError.
   StudyStore(const std::string& folder, const StudyCase& study, bool resume);
 
   /// Which designs are stored.
@@ -68,12 +69,14 @@ class StudyStore {
   std::string folder_;
   std::string path_;
   std::vector<std::string> keys_;
+  std::size_t count_;
   bool sweep_;
   StudyExtras extras_;
   std::int64_t run_ = 0;
   std::optional<Database> database_;
   std::optional<Statement> insert_design_;
   std::optional<Statement> insert_peak_;
+  std::optional<DesignChecksums> checksums_;
 };
 
 }  // namespace arcslip

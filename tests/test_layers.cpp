@@ -41,7 +41,7 @@ ring_stability ritz_space sector sector_modes sector_pair sector_reduction secto
 shape_functions spectrum system)");
 const std::set<std::string, std::less<>> files = words(R"(
 case_file certificate_results continuation_section database for_each geometry_section output results runs sector_files
-sector_section study_case study_extras study_results study_run study_store system_section
+sector_section study_case study_checksum study_extras study_results study_run study_store system_section
 toml_reader uncertain_section verification_results)");
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.

@@ -1,9 +1,12 @@
 // What a study stores and exports, and how its designs are handed to threads.
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 
 #include "catch.hpp"
@@ -146,6 +149,88 @@ TEST_CASE("Another study is refused by --resume, in one line that says what diff
   CHECK_THAT(resumed(listed), ContainsSubstring("it holds no study"));
   { const StudyStore store(folder.path(""), study_of(folder, listed), false); }
   CHECK(resumed(listed) == "no error");
+}
+
+namespace {
+
+/// Two of three designs stored, in a file of its own that is whole.
+StudyCase half_done(const TemporaryFolder& folder) {
+  StudyCase study = study_of(folder, "for_each = { mass_ratio = [1, 2, 3] }\n");
+  StudyStore store(folder.path(""), study, false);
+  store.add(2, study.design(2).values, made_up(OptimumKind::smooth));
+  store.add(0, study.design(0).values, made_up(OptimumKind::exchange));
+  store.tidy();
+  return study;
+}
+
+std::string tables_of(const StudyStore& store) {
+  return text_of([&](const Sink& sink) { store.write_optimum(sink); }) +
+         text_of([&](const Sink& sink) { store.write_sweep(sink); });
+}
+
+}  // namespace
+
+TEST_CASE("What was changed in the database of a study is refused by --resume, in one line", "[study]") {
+  const auto resumed_after = [](const std::string& sql) {
+    const TemporaryFolder folder;
+    const StudyCase study = half_done(folder);
+    Database(folder.path("study.sqlite")).execute(sql);
+    return testing::error_of([&] { StudyStore(folder.path(""), study, true); });
+  };
+  CHECK(resumed_after("UPDATE runs SET begun = 0") == "no error");
+  CHECK_THAT(resumed_after("UPDATE designs SET curve = -1 WHERE curve = 2"),
+             ContainsSubstring("study.sqlite: --resume: it has a design -1 of 3; without --resume it is "));
+  CHECK_THAT(resumed_after("UPDATE designs SET curve = 1000000000 WHERE curve = 2"),
+             ContainsSubstring("it has a design 1000000000 of 3;"));
+  CHECK_THAT(resumed_after("UPDATE designs SET curve = 1 WHERE curve = 2"),
+             ContainsSubstring("design 1 is damaged;"));
+  for (const int designs : {-1, 0, 1000})
+    CHECK_THAT(resumed_after(fmt::format("UPDATE study SET designs = {}", designs)),
+               ContainsSubstring("its input is damaged;"));
+  CHECK_THAT(resumed_after("UPDATE study SET input = '{'"), ContainsSubstring("its input is damaged;"));
+  CHECK_THAT(resumed_after("UPDATE study SET version = char(27) || '[31m'"),
+             ContainsSubstring("its input is damaged;"));
+  CHECK_THAT(resumed_after("INSERT INTO study SELECT * FROM study"),
+             ContainsSubstring("its input is damaged;"));
+  for (const char* change : {"UPDATE designs SET Y_opt = Y_opt + 1e-15", "UPDATE designs SET kind = 'flat'",
+                             "UPDATE designs SET P_opt = '1'", "UPDATE designs SET failure = NULL",
+                             "UPDATE sweep SET is_global = 1", "DELETE FROM sweep WHERE point = 1"})
+    CHECK_THAT(resumed_after(change), ContainsSubstring("design 0 is damaged;"));
+  CHECK_THAT(resumed_after("DELETE FROM designs WHERE curve = 2"),
+             ContainsSubstring("sweep has rows of no design;"));
+  CHECK_THAT(resumed_after("CREATE VIEW more AS SELECT * FROM sweep"),
+             ContainsSubstring("its tables are others;"));
+  CHECK_THAT(resumed_after("DROP TABLE sweep"), ContainsSubstring("its tables are others;"));
+  CHECK_THAT(resumed_after("DROP TABLE study"), ContainsSubstring("it holds no study;"));
+}
+
+TEST_CASE("No damage to the file of a study goes into what --resume makes of it", "[study]") {
+  const TemporaryFolder folder;
+  const StudyCase study = half_done(folder);
+  const std::string whole = read(folder.path("study.sqlite"));
+  const std::string tables = tables_of(StudyStore(folder.path(""), study, true));
+  std::mt19937 draw(5);
+  int refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string damaged = whole;
+    const std::size_t at = draw() % whole.size();
+    if (i % 3 == 0) {
+      damaged.resize(at);
+    } else if (i % 3 == 1) {
+      damaged.replace(at, 200, std::string(std::min<std::size_t>(200, whole.size() - at), '\0'));
+    } else {
+      damaged[at] = static_cast<char>(draw());
+    }
+    folder.write("study.sqlite", damaged);
+    std::string resumed = tables;
+    try {
+      resumed = tables_of(StudyStore(folder.path(""), study, true));
+    } catch (const InputError&) {
+      ++refused;
+    }
+    CHECK(resumed == tables);
+  }
+  CHECK(refused > 20);
 }
 
 TEST_CASE("Pending designs are those not finished, in their order", "[study]") {
