@@ -45,7 +45,8 @@ class BalancedPoints {
   BalancedPoints(const SystemParameters& parameters, const std::vector<int>& orders,
                  const continuation::Branch& branch)
       : problem_(balanced(parameters, orders)) {
-    if (branch.points.front().unknowns.size() == 1) scalar_.emplace(build_system(parameters));
+    if (!branch.points.empty() && branch.points.front().unknowns.size() == 1)
+      scalar_.emplace(build_system(parameters));
   }
 
   const HarmonicResponse& problem() const { return problem_; }
@@ -143,7 +144,6 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 BalanceErrors largest_errors(const SystemParameters& parameters, const std::vector<int>& orders,
                              const continuation::Branch& branch) {
   BalanceErrors largest;
-  if (branch.points.empty()) return largest;
   const BalancedPoints known(parameters, orders, branch);
   for (const BranchPoint& point : branch.points) {
     const Guess at = known.at(point);

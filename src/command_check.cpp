@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/derivative_check.hpp"
@@ -100,25 +101,39 @@ std::map<int, std::vector<const continuation::BranchPoint*>> points_inside(const
 
 /// The worst of all derivatives, in each regime at the median of several points: beside a feature that is
 /// narrower than their distance differences are wrong, and at a trivial point any derivative is right.
-/// Infinite if there is no point.
-continuation::DerivativeReport check_derivatives(const CaseBranch& request) {
+/// None if the branch has no point.
+std::optional<continuation::DerivativeReport> check_derivatives(const TracedBranch& traced) {
   constexpr std::size_t places = 7;
-  const CaseBranch plain = request.curve ? seed_branch(request) : request;
-  const std::vector<TracedBranch> traced = trace(plain);
-  continuation::DerivativeReport worst{std::numeric_limits<double>::infinity(), "for want of a point"};
-  bool first = true;
-  for (const auto& [regime, points] : points_inside(traced.front())) {
+  std::optional<continuation::DerivativeReport> worst;
+  for (const auto& [regime, points] : points_inside(traced)) {
     std::vector<continuation::DerivativeReport> reports;
     for (std::size_t i = 0; i < places; ++i) {
       const continuation::BranchPoint& point = *points[i * (points.size() - 1) / (places - 1)];
       reports.push_back(
-          continuation::check_derivatives(*traced.front().base, point.unknowns, point.parameters, regime));
+          continuation::check_derivatives(*traced.base, point.unknowns, point.parameters, regime));
     }
     std::sort(reports.begin(), reports.end(), [](const auto& a, const auto& b) { return a.worst < b.worst; });
-    if (first || reports[places / 2].worst > worst.worst) worst = reports[places / 2];
-    first = false;
+    if (!worst || reports[places / 2].worst > worst->worst) worst = reports[places / 2];
   }
   return worst;
+}
+
+/// Traces the branch, compares its derivatives and says how exact they are; false if they are not or nobody
+/// knows.
+bool report_derivatives(const CaseBranch& request, std::string& text) {
+  constexpr double exact = 1e-6;  // differences are no better than that where a problem is stiff
+  const CaseBranch plain = request.curve ? seed_branch(request) : request;
+  const std::vector<TracedBranch> traced = trace(plain);
+  const auto report = check_derivatives(traced.front());
+  if (!report) {
+    const continuation::Branch& branch = traced.front().branch;
+    text += fmt::format("  derivatives NOT compared: {}\n",
+                        branch.points.empty() ? branch.explanation : "no point lies inside its regime");
+    return false;
+  }
+  text += fmt::format("  derivatives against differences: {:.1e} at worst, {}{}\n", report->worst,
+                      report->where, report->worst <= exact ? "" : ": NOT exact");
+  return report->worst <= exact;
 }
 
 std::string heading(const CheckOptions& options, const std::string& title) {
@@ -127,7 +142,6 @@ std::string heading(const CheckOptions& options, const std::string& title) {
 
 /// Prints the branches and, if asked for, how exact their derivatives are; false if one is not.
 bool check_branches(const CheckOptions& options) {
-  constexpr double exact = 1e-6;  // differences are no better than that where a problem is stiff
   const Case input = read_case(options.case_path, options.settings);
   std::string text = heading(options, input.title);
   bool good = true;
@@ -137,11 +151,7 @@ bool check_branches(const CheckOptions& options) {
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
     if (branch.problem.geometry) text += fmt::format("  {}\n", describe_units(branch.problem));
-    if (!options.derivatives) continue;
-    const continuation::DerivativeReport report = check_derivatives(branch);
-    good = good && report.worst <= exact;
-    text += fmt::format("  derivatives against differences: {:.1e} at worst, {}{}\n", report.worst,
-                        report.where, report.worst <= exact ? "" : ": NOT exact");
+    if (options.derivatives) good = report_derivatives(branch, text) && good;
   }
   print(text);
   return good;

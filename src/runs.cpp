@@ -247,6 +247,11 @@ std::vector<TracedBranch> trace_given(const CaseBranch& request, const continuat
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
   if (request.curve) return trace_curves(request, subject, observer);
   std::vector<TracedBranch> traced = trace_branches(request, subject, observer);
+  if (traced.empty()) {
+    return {unstarted(request, subject,
+                      fmt::format("no solution was found at {} = {:.10g}, be it by deflation",
+                                  request.options.parameter, request.start.value_or(request.options.from)))};
+  }
   const std::chrono::duration<double> seconds = Clock::now() - begun;
   for (TracedBranch& branch : traced) branch.seconds = seconds.count() / static_cast<double>(traced.size());
   return traced;

@@ -103,6 +103,10 @@ TEST_CASE("Verified points agree with the ring in time as far as harmonics are m
   CHECK(timed >= 4);
 }
 
+TEST_CASE("A branch without points is verified as one that holds nothing", "[harmonics]") {
+  CHECK(problems::verify({}, {1}, {}, {.samples = 3}).empty());
+}
+
 TEST_CASE("Harmonics that cannot be taken are refused in one line", "[harmonics]") {
   const TemporaryFolder folder;
   const std::string text = small_rods + "harmonics = 3\n" + over_resonance;

@@ -225,7 +225,24 @@ TEST_CASE("check --derivatives has status 3 where there is no point to compare t
   const Outcome outcome =
       arcslip_program("check --derivatives " + case_named("limit_cycle") + " --set branch.start=-0.02");
   CHECK(outcome.status == 3);
-  CHECK_THAT(outcome.out, ContainsSubstring("NOT exact"));
+  CHECK_THAT(outcome.out, ContainsSubstring("derivatives NOT compared: "));
+}
+
+TEST_CASE("Where no solution is found to start from, run and check --derivatives say so with status 3") {
+  const TemporaryFolder folder;
+  // Bratu's problem has no solution beyond lambda = 3.51.
+  const std::string beyond = case_named("bratu") +
+                             " --set system.intervals=10 --set branch.to=6 --set branch.start=5"
+                             " --set branch.all_solutions=true --set continuation.stop_at=[]";
+  const std::string reason = "no solution was found at lambda = 5, be it by deflation";
+  const Outcome run = arcslip_program("run " + beyond + " --quiet -o " + folder.path("r"));
+  CHECK(run.status == 3);
+  CHECK(run.err == "arcslip: branch 0: no_start: " + reason + "\n");
+  CHECK(read_csv(folder.path("r/branches.csv")).size() == 1);
+  CHECK(arcslip_program("plot " + folder.path("r")).status == 1);
+  const Outcome check = arcslip_program("check --derivatives " + beyond);
+  CHECK(check.status == 3);
+  CHECK_THAT(check.out, ContainsSubstring("derivatives NOT compared: " + reason));
 }
 
 TEST_CASE("A library model's rows hold its parameters, its unknowns, and for equilibria what is unstable") {
