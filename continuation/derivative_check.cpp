@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "arcslip/continuation/evaluation.hpp"
 #include "arcslip/continuation/linearization.hpp"
 
 namespace arcslip::continuation {
@@ -98,7 +99,7 @@ class Checker {
     Differentiated f{"F", {}, {}, exact.parameter_jacobian()};
     f.value = [this](const Vector& u, const Vector& p) {
       Vector values(u.size());
-      if (!problem_.evaluate(u, p, regime_, {&values})) values.setConstant(std::nan(""));
+      if (!evaluate(problem_, u, p, regime_, {&values})) values.setConstant(std::nan(""));
       return values;
     };
     f.along = [&exact](const Vector& direction) {

@@ -1,7 +1,8 @@
 #include "arcslip/continuation/linearization.hpp"
 
 #include <cmath>
-#include <stdexcept>
+
+#include "arcslip/continuation/evaluation.hpp"
 
 namespace arcslip::continuation {
 
@@ -20,11 +21,7 @@ Linearization::Linearization(const Problem& problem)
 bool Linearization::evaluate(const Vector& u, const Vector& p, int regime) {
   const Evaluation out{&residual_, sparse_ ? nullptr : &jacobian_, &parameter_jacobian_,
                        sparse_ ? &sparse_jacobian_ : nullptr};
-  if (!problem_.evaluate(u, p, regime, out) || !residual_.allFinite()) return false;
-  if (sparse_ && sparse_jacobian_.nonZeros() == 0) {
-    throw std::logic_error("Problem::evaluate: the problem is sparse but fills no sparse_jacobian");
-  }
-  return true;
+  return continuation::evaluate(problem_, u, p, regime, out);
 }
 
 void Linearization::multiply(const Vector& x, Vector& out) const {

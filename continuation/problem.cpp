@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "arcslip/continuation/evaluation.hpp"
+
 namespace arcslip::continuation {
 
 void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -18,7 +20,7 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexV
   Matrix jacobian(size(), size());
   Evaluation out;
   out.jacobian = &jacobian;
-  if (!evaluate(u, p, regime, out) || !jacobian.allFinite()) return false;
+  if (!continuation::evaluate(*this, u, p, regime, out) || !jacobian.allFinite()) return false;
   values = Eigen::EigenSolver<Matrix>(jacobian, false).eigenvalues();
   return values.allFinite();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/evaluation.hpp"
 #include "arcslip/continuation/normal_form.hpp"
 #include "arcslip/continuation/tracer.hpp"
 
@@ -22,6 +23,7 @@ std::string_view reason(Correction correction) {
 }
 
 void Tracer::start(const Guess& guess, double forward) {
+  check_functions(problem_, guess.unknowns, guess.parameters, guess.regime, stepper_.tracked());
   Correction result =
       guess.direction.size() > 0
           ? stepper_.start_along(guess.unknowns, guess.parameters, guess.regime, forward * guess.direction)

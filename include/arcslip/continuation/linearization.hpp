@@ -13,8 +13,7 @@ class Linearization {
  public:
   explicit Linearization(const Problem& problem);
 
-  /// Evaluates F with all its derivatives; false where it cannot be evaluated or F is not finite. `u` n, `p`
-  /// number of parameters. Throws std::logic_error if a sparse Jacobian is left without entries.
+  /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
   bool evaluate(const Vector& u, const Vector& p, int regime);
 
   const Vector& residual() const { return residual_; }                      ///< F, n

@@ -71,6 +71,7 @@ class Stepper {
   /// Monitors at both ends of the step.
   const std::vector<Monitor>& from() const { return from_; }
   const std::vector<Monitor>& to() const { return to_; }
+  const std::vector<Index>& tracked() const { return tracked_; }
   Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
 
   /// What changes of a tracked observable are measured in, where it has this value.
