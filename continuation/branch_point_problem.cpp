@@ -57,6 +57,12 @@ bool BranchPointProblem::adapt(const BasePoint& point) {
   return solve_borders();
 }
 
+void BranchPointProblem::each_border(const std::function<void(double*, Index)>& use) {
+  ExtendedProblem::each_border(use);
+  use(rows_.data(), rows_.size());
+  use(&active_scale_, 1);
+}
+
 bool BranchPointProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_borders()) return false;
   const Index n = base().size();

@@ -6,21 +6,39 @@
 #include <istream>
 #include <ostream>
 #include <stdexcept>
+#include <string_view>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr const char* signature = "arcslip-checkpoint-1";
+constexpr std::string_view signature = "arcslip-checkpoint-";
+constexpr int newest = 2;  // of the versions of the text
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '\\' ? "\\\\" : c == '\n' ? "\\n" : std::string(1, c);
+  return result;
+}
+
+std::string unescaped(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escape = text[i] == '\\' && i + 1 < text.size();
+    result += !is_escape ? text[i] : text[++i] == 'n' ? '\n' : text[i];
+  }
+  return result;
+}
 
 /// One value after another, each archive in its own direction.
 class Writer {
  public:
-  explicit Writer(std::ostream& out) : out_(out) { out_ << signature << '\n'; }
+  explicit Writer(std::ostream& out) : out_(out) { out_ << signature << newest << '\n'; }
   void operator()(const double& value) { out_ << fmt::format("{:a}\n", value); }
   void operator()(const int& value) { out_ << value << '\n'; }
   void operator()(const long& value) { out_ << value << '\n'; }
-  void operator()(const std::string& value) { out_ << value << '\n'; }
+  void operator()(const std::string& value) { out_ << escaped(value) << '\n'; }
   static constexpr bool reads = false;
+  static constexpr int version = newest;
 
  private:
   std::ostream& out_;
@@ -29,7 +47,12 @@ class Writer {
 class Reader {
  public:
   explicit Reader(std::istream& in) : in_(in) {
-    if (line() != signature) throw std::runtime_error("read_checkpoint: this is not a checkpoint");
+    const std::string first = line();
+    for (version = newest; version > 0; --version) {
+      if (first == fmt::format("{}{}", signature, version)) return;
+    }
+    throw std::runtime_error(
+        fmt::format("read_checkpoint: this is not a checkpoint of version 1 to {}", newest));
   }
   void operator()(double& value) { convert(value, std::strtod, "a number"); }
   void operator()(long& value) {
@@ -41,8 +64,9 @@ class Reader {
     (*this)(wide);
     value = static_cast<int>(wide);
   }
-  void operator()(std::string& value) { value = line(); }
+  void operator()(std::string& value) { value = unescaped(line()); }
   static constexpr bool reads = true;
+  int version = 0;
 
  private:
   std::string line() {
@@ -106,26 +130,76 @@ void counts(Archive& archive, std::conditional_t<Archive::reads, std::map<std::s
   }
 }
 
-template <class Archive, class State>
-void all(Archive& archive, State& state) {
+template <class Archive, class Way>
+void progress(Archive& archive, Way& way) {
   const auto number = [&](auto& value) { archive(value); };
-  curve_point(archive, state.here);
-  curve_point(archive, state.start);
-  list(archive, state.bend, number);
-  list(archive, state.monitors, [&](auto& monitor) {
+  curve_point(archive, way.here);
+  curve_point(archive, way.start);
+  list(archive, way.bend, number);
+  list(archive, way.monitors, [&](auto& monitor) {
     archive(monitor.value);
     archive(monitor.slope);
   });
-  archive(state.signs.parameter);
-  list(archive, state.signs.observables, number);
-  list(archive, state.signs.functions, number);
-  archive(state.signs.unstable);
-  auto hold = static_cast<int>(state.hold);
+  archive(way.signs.parameter);
+  list(archive, way.signs.observables, number);
+  list(archive, way.signs.functions, number);
+  archive(way.signs.unstable);
+  auto hold = static_cast<int>(way.hold);
   archive(hold);
-  if constexpr (Archive::reads) state.hold = hold == 0 ? Hold::tangent : Hold::parameter;
-  archive(state.distance);
-  archive(state.arclength);
-  counts(archive, state.found);
+  if constexpr (Archive::reads) way.hold = hold == 0 ? Hold::tangent : Hold::parameter;
+  archive(way.distance);
+  archive(way.arclength);
+  counts(archive, way.found);
+  if (archive.version == 1) return;
+  archive(way.residual_size);
+  list(archive, way.borders, number);
+}
+
+Stop stop_named(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(Stop::no_start); ++i) {
+    if (name == to_string(static_cast<Stop>(i))) return static_cast<Stop>(i);
+  }
+  throw std::runtime_error(fmt::format("read_checkpoint: '{}' is no reason to stop", name));
+}
+
+template <class Archive, class Optional, class Entry>
+void maybe(Archive& archive, Optional& value, Entry entry) {
+  int there = value ? 1 : 0;
+  archive(there);
+  if constexpr (Archive::reads) {
+    if (there != 0) value.emplace();
+  }
+  if (value) entry(*value);
+}
+
+template <class Archive, class Identity>
+void identity(Archive& archive, Identity& of) {
+  const auto name = [&](auto& value) { archive(value); };
+  for (auto* names : {&of.parameters, &of.regimes, &of.tests, &of.extrema_of, &of.events})
+    list(archive, *names, name);
+  archive(of.parameter);
+}
+
+template <class Archive, class State>
+void all(Archive& archive, State& state) {
+  const auto number = [&](auto& value) { archive(value); };
+  const auto way = [&](auto& value) { progress(archive, value); };
+  maybe(archive, state.of, [&](auto& of) { identity(archive, of); });
+  maybe(archive, state.window, [&](auto& window) {
+    archive(window.low);
+    archive(window.high);
+  });
+  maybe(archive, state.ahead, way);
+  std::string stop(to_string(state.stop_ahead));
+  archive(stop);
+  if constexpr (Archive::reads) state.stop_ahead = stop_named(stop);
+  maybe(archive, state.back, way);
+  maybe(archive, state.begin_back, [&](auto& guess) {
+    list(archive, guess.unknowns, number);
+    list(archive, guess.parameters, number);
+    archive(guess.regime);
+    list(archive, guess.direction, number);
+  });
 }
 
 }  // namespace
@@ -138,7 +212,11 @@ void write(std::ostream& out, const Checkpoint& checkpoint) {
 Checkpoint read_checkpoint(std::istream& in) {
   Reader reader(in);
   Checkpoint checkpoint;
-  all(reader, checkpoint);
+  if (reader.version == 1) {
+    progress(reader, checkpoint.ahead.emplace());
+  } else {
+    all(reader, checkpoint);
+  }
   return checkpoint;
 }
 

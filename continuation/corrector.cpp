@@ -57,8 +57,13 @@ bool Corrector::calibrate(CurvePoint& point) {
   if (!evaluate(point)) return false;
   linearization_.multiply_absolute(point.scale.head(size_), magnitudes_);
   const double size = magnitudes_.maxCoeff() / std::sqrt(static_cast<double>(size_));
-  tolerance_ = options_.tolerance * (size > large ? size : 1);
+  set_residual_size(size > large ? size : 1);
   return true;
+}
+
+void Corrector::set_residual_size(double size) {
+  residual_size_ = size;
+  tolerance_ = options_.tolerance * size;
 }
 
 bool Corrector::evaluate(CurvePoint& point) {

@@ -44,21 +44,61 @@ double kappa_of(const ComplexVector& eigenvalues) {
   return kappa;
 }
 
-/// A half of the curve: the borders of its conditions follow it.
-Branch trace_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
-                  const Observer& observer) {
-  if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
+/// With the events that end a curve.
+TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
+  TraceOptions all = options;
+  const Index active = problem.base().size();
+  for (const double edge : {window.low, window.high}) {
+    if (!std::isfinite(edge)) continue;
+    all.events.push_back(
+        {end_of_window, [=](const Vector& u, const Vector&, int) { return u(active) - edge; }});
+  }
+  if (all.events.size() > options.events.size())
+    all.stop_after.push_back({PointType::event, 1, end_of_window});
+  if (dynamic_cast<const HopfProblem*>(&problem) != nullptr)
+    all.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
+  return all;
+}
+
+/// A half of a curve, which `trace` traces with an observer: the borders of its conditions follow it.
+Branch follow_half(ExtendedProblem& problem, const Observer& observer,
+                   const std::function<Branch(const Observer& follow)>& trace) {
   const auto follow = [&](const BranchPoint& point) {
     return problem.adapt(problem.split(point.unknowns, point.parameters, point.regime)) &&
            (!observer || observer(point));
   };
-  Branch half = trace_one_way(problem, start, towards_to, options, follow);
-  if (half.points.empty() || half.points.back().label != end_of_window) return half;
-  half.points.back().type = PointType::end;
-  half.points.back().label.clear();
+  Branch half = trace(follow);
+  if (half.points.empty()) return half;
+  BranchPoint& last = half.points.back();
+  const bool is_over = last.label == end_of_window ||
+                       (half.stop == Stop::requested && last.type == PointType::bogdanov_takens &&
+                        dynamic_cast<HopfProblem*>(&problem) != nullptr);
+  if (is_over) half.checkpoint.reset();
+  if (half.checkpoint) half.checkpoint->ahead->borders = problem.borders();
+  if (last.label != end_of_window) return half;
+  last.type = PointType::end;
+  last.label.clear();
   half.stop = Stop::reached_end;
   half.explanation = fmt::format("{} reached an end of its range", problem.observables().front().name);
   return half;
+}
+
+Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
+                  const Observer& observer) {
+  if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
+  return follow_half(problem, observer, [&](const Observer& follow) {
+    return trace_one_way(problem, start, towards_to, options, follow);
+  });
+}
+
+/// The reason that is told of a curve is the one that a user has to know.
+Branch told(Branch curve, const CurveWindow& window, const std::string& why_first_ended) {
+  if (curve.checkpoint) curve.checkpoint->window = window;
+  if (curve.first_stop && is_end(curve.stop) && !is_end(*curve.first_stop)) {
+    std::swap(curve.stop, *curve.first_stop);
+    curve.explanation = why_first_ended;
+  }
+  return curve;
 }
 
 }  // namespace
@@ -105,30 +145,43 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
   problem.join(located->point, guess.unknowns, guess.parameters);
   guess.regime = start.regime;
 
-  TraceOptions bounded = options;
-  const Index active = problem.base().size();
-  for (const double edge : {window.low, window.high}) {
-    if (!std::isfinite(edge)) continue;
-    bounded.events.push_back(
-        {end_of_window, [=](const Vector& u, const Vector&, int) { return u(active) - edge; }});
-  }
-  if (bounded.events.size() > options.events.size())
-    bounded.stop_after.push_back({PointType::event, 1, end_of_window});
-  if (dynamic_cast<const HopfProblem*>(&problem) != nullptr)
-    bounded.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
-  Branch second = trace_half(problem, guess, true, bounded, observer);
-  if (second.stop == Stop::closed_loop || second.stop == Stop::no_start || second.stop == Stop::interrupted)
-    return second;
-  Branch first = trace_half(problem, guess, false, bounded, observer);
-  // The reason that is told is the one that a user has to know.
-  const bool first_matters = is_end(second.stop) && !is_end(first.stop);
-  const std::string explanation = first.explanation;
-  Branch whole = join(std::move(first), std::move(second));
-  if (first_matters) {
-    std::swap(whole.stop, *whole.first_stop);
-    whole.explanation = explanation;
-  }
-  return whole;
+  const TraceOptions all = bounded(problem, options, window);
+  std::string why_first_ended;
+  Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
+                             [&] {
+                               Branch first = begin_half(problem, guess, false, all, observer);
+                               why_first_ended = first.explanation;
+                               return first;
+                             },
+                             guess);
+  return told(std::move(curve), window, why_first_ended);
+}
+
+Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
+              const Observer& observer) {
+  const auto& as_branch = static_cast<const Problem&>(problem);
+  if (!checkpoint.of)
+    throw std::invalid_argument(
+        "resume: the checkpoint was written by a version that keeps no curve's window");
+  if (!checkpoint.window) return resume(as_branch, checkpoint, options, observer);
+  const TraceOptions all = bounded(problem, options, *checkpoint.window);
+  std::string why_first_ended;
+  const auto go_on = [&](const Progress& progress) {
+    problem.set_borders(progress.borders);
+    Checkpoint half;
+    half.of = checkpoint.of;
+    half.ahead = progress;
+    Branch rest = follow_half(problem, observer,
+                              [&](const Observer& follow) { return resume(as_branch, half, all, follow); });
+    why_first_ended = rest.explanation;
+    return rest;
+  };
+  const auto begin_back = [&](const Guess& guess) {
+    Branch first = begin_half(problem, guess, false, all, observer);
+    why_first_ended = first.explanation;
+    return first;
+  };
+  return told(resume_parts(checkpoint, go_on, begin_back), *checkpoint.window, why_first_ended);
 }
 
 }  // namespace arcslip::continuation

@@ -1,6 +1,8 @@
 #include "arcslip/continuation/extended_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace arcslip::continuation {
 
@@ -42,6 +44,28 @@ bool ExtendedProblem::adapt(const BasePoint& point) {
   base_.scale(point.unknowns, at_zero, unused, parameter_scale);
   active_observable_scale_ = parameter_scale(active_);
   return at_.evaluate(point.unknowns, point.parameters, point.regime);
+}
+
+void ExtendedProblem::each_border(const std::function<void(double*, Index)>& use) {
+  use(scale_.data(), scale_.size());
+  use(unfolding_.data(), unfolding_.size());
+  use(&active_observable_scale_, 1);
+}
+
+std::vector<double> ExtendedProblem::borders() {
+  std::vector<double> all;
+  each_border([&](const double* numbers, Index count) { all.insert(all.end(), numbers, numbers + count); });
+  return all;
+}
+
+void ExtendedProblem::set_borders(const std::vector<double>& numbers) {
+  if (numbers.size() != borders().size())
+    throw std::invalid_argument("resume: the checkpoint is one of a curve of other points");
+  auto next = numbers.begin();
+  each_border([&](double* target, Index count) {
+    std::copy_n(next, count, target);
+    next += count;
+  });
 }
 
 double ExtendedProblem::steepness(const BasePoint& point) {

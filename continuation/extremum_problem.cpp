@@ -48,6 +48,13 @@ bool ExtremumProblem::adapt(const BasePoint& point) {
   return true;
 }
 
+void ExtremumProblem::each_border(const std::function<void(double*, Index)>& use) {
+  ExtendedProblem::each_border(use);
+  use(row_.data(), row_.size());
+  use(&active_scale_, 1);
+  use(&size_, 1);
+}
+
 bool ExtremumProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_tangent(point)) return false;
   const Index n = base().size();

@@ -42,6 +42,12 @@ bool FoldProblem::adapt(const BasePoint& point) {
   return true;
 }
 
+void FoldProblem::each_border(const std::function<void(double*, Index)>& use) {
+  ExtendedProblem::each_border(use);
+  use(column_.data(), column_.size());
+  use(row_.data(), row_.size());
+}
+
 bool FoldProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_borders()) return false;
   const Index n = base().size();

@@ -57,6 +57,12 @@ bool HopfProblem::adapt(const BasePoint& point) {
   return true;
 }
 
+void HopfProblem::each_border(const std::function<void(double*, Index)>& use) {
+  ExtendedProblem::each_border(use);
+  use(column_.data(), column_.size());
+  use(row_.data(), row_.size());
+}
+
 bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_borders(point.extras(0))) return false;
   const Index n = base().size();

@@ -90,12 +90,16 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
   return Correction::converged;
 }
 
-void Stepper::restore(const Checkpoint& checkpoint) {
-  here_ = checkpoint.start;
-  corrector_.calibrate(here_);
-  here_ = checkpoint.here;
-  bend_ = checkpoint.bend;
-  at_here_ = checkpoint.monitors;
+void Stepper::restore(const Progress& progress) {
+  here_ = progress.start;
+  if (progress.residual_size > 0) {
+    corrector_.set_residual_size(progress.residual_size);
+  } else {
+    corrector_.calibrate(here_);
+  }
+  here_ = progress.here;
+  bend_ = progress.bend;
+  at_here_ = progress.monitors;
 }
 
 Correction Stepper::enter(int regime) {

@@ -68,39 +68,90 @@ Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to
 
 Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,
                   const Observer& observer) {
-  Branch second = trace_one_way(problem, guess, true, options, observer);
-  if (second.stop == Stop::closed_loop || second.stop == Stop::no_start || second.stop == Stop::interrupted)
-    return second;
-  return join(trace_one_way(problem, guess, false, options, observer), std::move(second));
+  return trace_parts([&] { return trace_one_way(problem, guess, true, options, observer); },
+                     [&] { return trace_one_way(problem, guess, false, options, observer); }, guess);
 }
 
-Branch join(Branch first, Branch second) {
+Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,
+                   const Guess& guess) {
+  Branch second = ahead();
+  if (second.stop == Stop::interrupted && second.checkpoint) second.checkpoint->begin_back = guess;
+  if (second.stop == Stop::closed_loop || second.stop == Stop::no_start || second.stop == Stop::interrupted)
+    return second;
+  return join(back(), std::move(second));
+}
+
+namespace {
+
+/// Appends all points but the first `skipped`, backwards; `regime` is that of the point before the first.
+void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, int regime,
+                     std::vector<BranchPoint>& out) {
+  for (std::size_t i = points.size(); i-- > skipped;) {
+    BranchPoint& point = points[i];
+    point.arclength = -point.arclength;
+    if (point.type == PointType::regime_switch) {
+      point.regime = i > 0 ? points[i - 1].regime : regime;
+      std::swap(point.tangent, point.arrival);
+    }
+    point.tangent = -point.tangent;
+    point.arrival = -point.arrival;
+    out.push_back(std::move(point));
+  }
+}
+
+/// Joins two parts; of the first one `skipped` points are the other's, too, and `regime` is that before the
+/// others.
+Branch join(Branch first, std::size_t skipped, int regime, Branch second) {
   Branch whole;
   whole.first_stop = first.stop;
   whole.stop = second.stop;
   whole.explanation = std::move(second.explanation);
   whole.checkpoint = std::move(second.checkpoint);
-  whole.work = first.work + second.work;
-  const std::size_t count = first.points.size();
-  for (std::size_t i = count; i-- > 1;) {  // all but the start, last one first
-    BranchPoint& point = first.points[i];
-    point.arclength = -point.arclength;
-    if (point.type == PointType::regime_switch) {
-      point.regime = first.points[i - 1].regime;
-      std::swap(point.tangent, point.arrival);
-    }
-    point.tangent = -point.tangent;
-    point.arrival = -point.arrival;
-    whole.points.push_back(std::move(point));
+  if (first.checkpoint) {
+    if (!whole.checkpoint) whole.checkpoint.emplace().of = std::move(first.checkpoint->of);
+    whole.checkpoint->back = std::move(first.checkpoint->ahead);
   }
+  if (whole.checkpoint) whole.checkpoint->stop_ahead = whole.stop;
+  whole.work = first.work + second.work;
+  append_reversed(first.points, skipped, regime, whole.points);
   std::move(second.points.begin(), second.points.end(), std::back_inserter(whole.points));
   return whole;
+}
+
+}  // namespace
+
+Branch join(Branch first, Branch second) { return join(std::move(first), 1, 0, std::move(second)); }
+
+Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(const Progress&)>& go_on,
+                    const std::function<Branch(const Guess&)>& begin_back) {
+  Branch second;
+  second.stop = checkpoint.stop_ahead;
+  second.explanation = "the part ahead had ended before";
+  if (checkpoint.ahead) second = go_on(*checkpoint.ahead);
+  if (!checkpoint.back && !checkpoint.begin_back) return second;
+  if (checkpoint.ahead && second.stop == Stop::interrupted && second.checkpoint) {
+    second.checkpoint->back = checkpoint.back;
+    second.checkpoint->begin_back = checkpoint.begin_back;
+    return second;
+  }
+  if (checkpoint.begin_back) return join(begin_back(*checkpoint.begin_back), std::move(second));
+  return join(go_on(*checkpoint.back), 0, checkpoint.back->here.regime, std::move(second));
 }
 
 Branch resume(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
               const Observer& observer) {
   check(problem, options);
-  return Tracer(problem, options, observer).run(checkpoint);
+  if (checkpoint.window)
+    throw std::invalid_argument(
+        "resume: the checkpoint is one of a curve, which goes on as an ExtendedProblem, by curve.hpp");
+  return resume_parts(
+      checkpoint,
+      [&](const Progress& progress) {
+        Tracer tracer(problem, options, observer);
+        if (checkpoint.of) tracer.require_same(*checkpoint.of);
+        return tracer.run(progress);
+      },
+      [&](const Guess& guess) { return trace_one_way(problem, guess, false, options, observer); });
 }
 
 }  // namespace arcslip::continuation

@@ -45,9 +45,10 @@ Branch Tracer::run(const Guess& guess, double forward) {
   return go_on();
 }
 
-Branch Tracer::run(const Checkpoint& checkpoint) {
-  state_ = checkpoint;
-  stepper_.restore(checkpoint);
+Branch Tracer::run(const Progress& progress) {
+  require_same(progress);
+  state_ = progress;
+  stepper_.restore(progress);
   watch_.look(stepper_.here());
   return go_on();
 }
@@ -64,7 +65,9 @@ Branch Tracer::go_on() {
     state_.here = stepper_.here();
     state_.bend = stepper_.bend();
     state_.monitors = stepper_.at_here();
-    branch_.checkpoint = std::move(state_);
+    state_.residual_size = corrector_.residual_size();
+    branch_.checkpoint.emplace().of = identity();
+    branch_.checkpoint->ahead = std::move(state_);
   }
   return std::move(branch_);
 }

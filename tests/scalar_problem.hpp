@@ -49,6 +49,14 @@ class ScalarProblem : public continuation::Problem {
   std::vector<Function> by_parameters_;
 };
 
+/// slope x = p, under the given name of p.
+inline ScalarProblem line(const std::string& parameter, double slope) {
+  return {{parameter},
+          [=](double x, const Vector& p) { return slope * x - p(0); },
+          [=](double, const Vector&) { return slope; },
+          {[](double, const Vector&) { return -1.0; }}};
+}
+
 inline Vector vector_of(std::initializer_list<double> values) {
   Vector v(static_cast<Index>(values.size()));
   std::copy(values.begin(), values.end(), v.begin());

@@ -1,11 +1,11 @@
-// What a user controls: stops, events, observers, checkpoints, restarts.
+// What a user controls: stops, events, observers, restarts.
 
 #include <cmath>
-#include <sstream>
 
 #include "arcslip/continuation/trace.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "same_points.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
@@ -22,52 +22,7 @@ ScalarProblem sine() {
           {[](double, const Vector&) { return -1.0; }}};
 }
 
-void check_same(const BranchPoint& a, const BranchPoint& b) {
-  CHECK(a.type == b.type);
-  CHECK(a.regime == b.regime);
-  CHECK(a.unknowns == b.unknowns);
-  CHECK(a.parameters == b.parameters);
-  CHECK(a.arclength == b.arclength);
-  CHECK(a.residual == b.residual);
-  CHECK(a.tangent == b.tangent);
-}
-
-/// Traces up to `count` points, goes on from the checkpoint as text, and compares with the whole branch.
-void check_resume(const Problem& problem, const Guess& guess, TraceOptions options, long count) {
-  const Branch whole = trace(problem, guess, options);
-  options.max_points = count;
-  const Branch first = trace(problem, guess, options);
-  REQUIRE(first.stop == Stop::max_points);
-  REQUIRE(first.checkpoint);
-  std::stringstream text;
-  write(text, *first.checkpoint);
-  options.max_points = 100000;
-  const Branch rest = resume(problem, read_checkpoint(text), options);
-  CHECK(rest.stop == whole.stop);
-  REQUIRE(first.points.size() + rest.points.size() == whole.points.size());
-  for (std::size_t i = 0; i < first.points.size(); ++i) check_same(first.points[i], whole.points[i]);
-  for (std::size_t i = 0; i < rest.points.size(); ++i)
-    check_same(rest.points[i], whole.points[first.points.size() + i]);
-}
-
 }  // namespace
-
-TEST_CASE("A resumed branch is the one that was left, bit by bit, wherever it was left") {
-  const long count = GENERATE(2, 3, 7, 11, 12, 13, 14, 15, 20, 26);
-  check_resume(Cusp(), {vector_of({-1.5}), vector_of({-2})}, over("mu", -2, 2), count);
-}
-
-TEST_CASE("A branch with corners, extrema and events is resumed bit by bit") {
-  const long count = GENERATE(5, 10, 14, 15, 16, 17, 25);
-  TraceOptions options = over("p", 0, 2);
-  options.events = {{"half", [](const Vector&, const Vector& p, int) { return p(0) - 0.5; }}};
-  check_resume(Bump(0.3), {vector_of({-0.91}), vector_of({0})}, options, count);
-}
-
-TEST_CASE("Text that is no checkpoint is refused") {
-  std::stringstream text("arcslip branch");
-  CHECK_THROWS_AS(read_checkpoint(text), std::runtime_error);
-}
 
 TEST_CASE("A branch stops after so many folds, at the first event, and says so") {
   TraceOptions options = over("p", -2, 2);

@@ -4,11 +4,11 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "arcslip/continuation/checkpoint.hpp"
 #include "arcslip/continuation/point_type.hpp"
+#include "arcslip/continuation/stop.hpp"
 
 namespace arcslip::continuation {
 
@@ -26,28 +26,6 @@ struct BranchPoint {
   int unstable = -1;          ///< how many of them have a positive real part; -1 where there are none
   std::string label;          ///< the name of a user's event
 };
-
-enum class Stop {
-  reached_end,     ///< the last value was reached
-  closed_loop,     ///< the branch came back to its start
-  requested,       ///< `stop_after` was satisfied
-  left_range,      ///< the branch came back to its first value
-  left_regime,     ///< it ended on a border that nothing lies beyond
-  unbounded,       ///< an unknown grew beyond `bound`
-  max_points,      ///< as many points as allowed were stored
-  time_limit,      ///< `max_seconds` have passed
-  interrupted,     ///< the observer asked for it
-  no_value,        ///< the problem cannot be evaluated further on
-  min_step,        ///< no step of at least `min_step` is acceptable
-  grazing_border,  ///< the piece beyond a border does not leave it
-  no_start         ///< there is no solution near the guess
-};
-
-/// As written to files: `reached_end`, `left_range`, and so on.
-std::string_view to_string(Stop stop);
-
-/// Whether a branch that stops so has come to an end of its own or to one that was asked for.
-bool is_end(Stop stop);
 
 struct Branch {
   std::vector<BranchPoint> points;  ///< in the order traced

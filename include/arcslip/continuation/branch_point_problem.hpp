@@ -29,6 +29,7 @@ class BranchPointProblem : public ExtendedProblem {
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
+  void each_border(const std::function<void(double*, Index)>& use) override;
 
  private:
   bool solve_borders() const;

@@ -4,11 +4,15 @@
 // had never been left.
 
 #include <iosfwd>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "arcslip/continuation/corrector.hpp"
+#include "arcslip/continuation/guess.hpp"
+#include "arcslip/continuation/stop.hpp"
 
 namespace arcslip::continuation {
 
@@ -30,7 +34,8 @@ struct Signs {
   int unstable = -1;             ///< eigenvalues with a positive real part; -1 without eigenvalues
 };
 
-struct Checkpoint {
+/// One way along a branch, as far as it was gone.
+struct Progress {
   CurvePoint here;
   Vector bend;  ///< curvature of the last step
   std::vector<Monitor> monitors;
@@ -40,12 +45,42 @@ struct Checkpoint {
   double arclength = 0;
   CurvePoint start;                   ///< which a closed loop comes back to
   std::map<std::string, long> found;  ///< special points so far, by type
+  double residual_size = 0;           ///< what the tolerance on F is relative to; 0: to be found again
+  std::vector<double> borders;        ///< of an extended problem: those of its conditions
+};
+
+/// What a branch is one of; whatever goes on with it must be the same.
+struct BranchIdentity {
+  std::vector<std::string> parameters;  ///< the problem's
+  std::vector<std::string> regimes;     ///< the problem's
+  std::vector<std::string> tests;       ///< types of the points that the problem looks for
+  std::string parameter;                ///< the one that is continued
+  std::vector<std::string> extrema_of;
+  std::vector<std::string> events;  ///< the user's, by name
+
+  bool operator==(const BranchIdentity&) const = default;
+};
+
+/// Where a curve of special points ends, beside the range of its parameter.
+struct CurveWindow {
+  double low = -std::numeric_limits<double>::infinity();  ///< of the base's active parameter
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// A branch that was left. Of one that is traced both ways either part may have further to go.
+struct Checkpoint {
+  std::optional<BranchIdentity> of;   ///< none in texts of version 0.4 and before
+  std::optional<CurveWindow> window;  ///< of a curve of special points, and only there
+  std::optional<Progress> ahead;      ///< of the part behind the start, which is traced first
+  Stop stop_ahead = Stop::no_start;   ///< why this part ended, where it has no further to go
+  std::optional<Progress> back;       ///< of the part before the start
+  std::optional<Guess> begin_back;    ///< or where this part is still to begin
 };
 
 /// As text, numbers in hexadecimal, so that nothing is lost.
 void write(std::ostream& out, const Checkpoint& checkpoint);
 
-/// Throws std::runtime_error where the text is not a checkpoint.
+/// Reads also what earlier versions have written. Throws std::runtime_error where the text is no checkpoint.
 Checkpoint read_checkpoint(std::istream& in);
 
 }  // namespace arcslip::continuation

@@ -56,6 +56,10 @@ class Corrector {
   /// F is in such units that its terms are above 1e3 relative to these. False where it has no value.
   bool calibrate(CurvePoint& point);
 
+  /// What the tolerance on F is relative to, as found by `calibrate`.
+  double residual_size() const { return residual_size_; }
+  void set_residual_size(double size);
+
   /// An unset point of the right sizes.
   CurvePoint make_point() const;
 
@@ -110,6 +114,7 @@ class Corrector {
   Index size_;
   Index parameter_;
   CorrectorOptions options_;
+  double residual_size_ = 1;
   double tolerance_;  // on the largest entry of F
   Linearization linearization_;
   std::unique_ptr<BorderedSolver> solver_;

@@ -2,7 +2,6 @@
 
 // Curves of special points in two parameters: folds, branch points, Hopf points, extrema, borders.
 
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -23,12 +22,6 @@ struct CurveStart {
 CurveStart curve_through(const Problem& base, const std::string& active, const BranchPoint& point,
                          const std::string& observable = {});
 
-/// Where a curve ends, beside the range of its parameter.
-struct CurveWindow {
-  double low = -std::numeric_limits<double>::infinity();  ///< of the base's active parameter
-  double high = std::numeric_limits<double>::infinity();
-};
-
 /// Locates the special point next to `start` at its other parameters, and traces the curve through it both
 /// ways while `options.parameter` stays between `from` and `to` and the active parameter within the window.
 /// The points are those of the extended problem: `problem.split` turns them into points of the base. Among
@@ -37,5 +30,9 @@ struct CurveWindow {
 /// curve of Hopf points ends at a Bogdanov-Takens point.
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
                    const CurveWindow& window = {}, const Observer& observer = {});
+
+/// Goes on with a curve as `resume` of trace.hpp does with a branch, within the window that it had.
+Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
+              const Observer& observer = {});
 
 }  // namespace arcslip::continuation

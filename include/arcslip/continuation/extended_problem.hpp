@@ -9,7 +9,9 @@
 // in the unknowns (u, p_a, e). All other parameters stay parameters: with one of them free the solutions
 // are a curve, with none the special point itself is located by Newton's method.
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "arcslip/continuation/bordered_solver.hpp"
 #include "arcslip/continuation/linearization.hpp"
@@ -43,6 +45,11 @@ class ExtendedProblem : public Problem {
   /// followed. The solutions do not depend on it. False where the problem has no value.
   virtual bool adapt(const BasePoint& point);
 
+  /// What `adapt` has chosen, as numbers that a checkpoint holds, and the same put back; the latter throws
+  /// std::invalid_argument if these are of another problem.
+  std::vector<double> borders();
+  void set_borders(const std::vector<double>& numbers);
+
   Index size() const override { return base_.size() + conditions_; }
   std::vector<std::string> parameter_names() const override;
   bool sparse() const override { return base_.sparse(); }
@@ -64,6 +71,9 @@ class ExtendedProblem : public Problem {
   /// Values of the conditions at a point where F has just been evaluated into `at_`, and where `gradients` is
   /// not null their gradients, m x (n + number of base parameters + extras).
   virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
+
+  /// Calls `use` with each list of numbers that `adapt` chooses.
+  virtual void each_border(const std::function<void(double* numbers, Index count)>& use);
 
   /// The steepest condition's slope over (u, p_a) in the base's scale, at least 1: divided by it a condition
   /// is as good as a distance from the special point, be the base as sharply bent as it may.

@@ -19,6 +19,7 @@ class ExtremumProblem : public ExtendedProblem {
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
+  void each_border(const std::function<void(double*, Index)>& use) override;
 
  private:
   bool solve_tangent(const BasePoint& point) const;

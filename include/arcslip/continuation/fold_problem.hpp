@@ -33,6 +33,7 @@ class FoldProblem : public ExtendedProblem {
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
+  void each_border(const std::function<void(double*, Index)>& use) override;
 
  private:
   bool solve_borders() const;

@@ -32,6 +32,7 @@ class HopfProblem : public ExtendedProblem {
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
+  void each_border(const std::function<void(double*, Index)>& use) override;
 
  private:
   bool solve_borders(double kappa) const;

@@ -33,7 +33,7 @@ class Stepper {
                          const Vector& direction);
 
   /// Puts back what a checkpoint holds.
-  void restore(const Checkpoint& checkpoint);
+  void restore(const Progress& progress);
   const Vector& bend() const { return bend_; }
 
   /// Why the last attempt was not kept, where the corrector failed.

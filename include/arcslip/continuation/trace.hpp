@@ -8,19 +8,10 @@
 #include <vector>
 
 #include "arcslip/continuation/branch.hpp"
+#include "arcslip/continuation/guess.hpp"
 #include "arcslip/continuation/problem.hpp"
 
 namespace arcslip::continuation {
-
-/// Where a branch starts: a guess of the unknowns at the given parameters, in a regime.
-struct Guess {
-  Vector unknowns;
-  Vector parameters;
-  int regime = 0;
-  /// n + 1, in (u, p_a), of any length: the branch starts right here and goes this way. Empty: it starts at
-  /// `TraceOptions::from` and goes towards `to`.
-  Vector direction = {};
-};
 
 /// A stored point as a guess, to restart from: `forward` goes on as the branch did.
 Guess restart(const BranchPoint& point, bool forward = true);
@@ -78,7 +69,18 @@ Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions
 /// Two parts from one start as one branch, the first reversed.
 Branch join(Branch first, Branch second);
 
-/// Goes on from a checkpoint as if the branch had never been left; the points are those that were to follow.
+/// A branch of two parts, `ahead` of the start and `back` from it, which begins with `guess`.
+Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,
+                   const Guess& guess);
+
+/// What is left of such a branch: `go_on` goes on with a part, `begin_back` begins the one back.
+Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(const Progress&)>& go_on,
+                    const std::function<Branch(const Guess&)>& begin_back);
+
+/// Goes on from a checkpoint as if the branch had never been left; the points are those that were to follow:
+/// of a branch traced both ways those at either end, of which those with negative arclength belong before the
+/// points that there were. Throws std::invalid_argument that names what differs where problem and options are
+/// not those of the checkpoint. Range, limits and tolerances may differ.
 Branch resume(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
               const Observer& observer = {});
 

@@ -26,12 +26,18 @@ class Tracer {
   /// `forward` is the wanted sign of the parameter's change.
   Branch run(const Guess& guess, double forward);
 
-  Branch run(const Checkpoint& checkpoint);
+  /// Throws std::invalid_argument that names what differs from the branch that is to be gone on with.
+  void require_same(const BranchIdentity& then) const;
+
+  /// Goes on from where another tracer was, of the same problem with the same options.
+  Branch run(const Progress& progress);
 
  private:
   Branch go_on();
   void start(const Guess& guess, double forward);
   Vector raw_tangent() const;
+  BranchIdentity identity() const;
+  void require_same(const Progress& progress) const;
   Correction start_singular(const Guess& guess, double forward);
   bool out_of_time() const;
   void check_limits();
@@ -67,7 +73,7 @@ class Tracer {
   Stepper stepper_;
   Watch watch_;
   Targets targets_;
-  Checkpoint state_;  // what changes along the branch, except for the point itself
+  Progress state_;  // what changes along the branch, except for the point itself
   const Target* landing_ = nullptr;
   std::optional<double> closing_;
   std::vector<Event> events_;

@@ -1,4 +1,4 @@
-#include "arcslip/continuation/branch.hpp"
+#include "arcslip/continuation/stop.hpp"
 
 namespace arcslip::continuation {
 
