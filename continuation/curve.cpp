@@ -80,6 +80,7 @@ Branch follow_half(ExtendedProblem& problem, const Observer& observer,
   last.label.clear();
   half.stop = Stop::reached_end;
   half.explanation = fmt::format("{} reached an end of its range", problem.observables().front().name);
+  if (!half.warning.empty()) half.explanation += "; " + half.warning;
   return half;
 }
 

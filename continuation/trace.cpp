@@ -106,6 +106,11 @@ Branch join(Branch first, std::size_t skipped, int regime, Branch second) {
   whole.first_stop = first.stop;
   whole.stop = second.stop;
   whole.explanation = std::move(second.explanation);
+  whole.warning = std::move(second.warning);
+  if (whole.warning.empty() && !first.warning.empty()) {
+    whole.warning = std::move(first.warning);
+    whole.explanation += "; " + whole.warning;
+  }
   whole.checkpoint = std::move(second.checkpoint);
   if (first.checkpoint) {
     if (!whole.checkpoint) whole.checkpoint.emplace().of = std::move(first.checkpoint->of);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "arcslip/continuation/corner.hpp"
+#include "arcslip/continuation/evaluation.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -35,7 +36,8 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       corrector_(problem, parameter_, {options.tolerance}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step),
       watch_(problem, options.events),
-      targets_(problem, parameter_, options) {
+      targets_(problem, parameter_, options),
+      seen_in_regime_(problem.regime_names().size()) {
   state_.distance = 0.1 * options.max_step;
   branch_.points.reserve(256);
 }
@@ -58,6 +60,9 @@ Branch Tracer::go_on() {
     check_limits();
     if (!stopped_) step();
   }
+  if (!branch_.points.empty() && branch_.stop != Stop::interrupted)
+    look_at_derivatives(stepper_.here().unknowns, stepper_.here().parameters, stepper_.here().regime);
+  if (!branch_.warning.empty()) branch_.explanation += "; " + branch_.warning;
   branch_.work = corrector_.work();
   const bool further = branch_.stop == Stop::max_points || branch_.stop == Stop::time_limit ||
                        branch_.stop == Stop::interrupted || branch_.stop == Stop::requested;
@@ -291,8 +296,13 @@ bool Tracer::on_several_borders() const {
 }
 
 Correction Tracer::leave(int border, bool several) {
-  if (!several) return stepper_.enter(problem_.regime_beyond(stepper_.here().regime, border));
   const CurvePoint& here = stepper_.here();
+  if (!several) {
+    const int beyond = problem_.regime_beyond(here.regime, border);
+    if (seen_in_regime_[static_cast<std::size_t>(beyond)] == 0)
+      check_functions(problem_, here.unknowns, here.parameters, beyond, stepper_.tracked());
+    return stepper_.enter(beyond);
+  }
   const Vector arrival = raw_tangent().cwiseQuotient(here.scale);
   const Guess corner{here.unknowns, here.parameters, here.regime, {}};
   const Guess* best = nullptr;
@@ -380,6 +390,7 @@ void Tracer::store(PointType type, const std::string& label, const Vector& arriv
     for (const StopAfter& rule : options_.stop_after)
       satisfied_ = satisfied_ || (rule.type == type && rule.label == label && found >= rule.count);
   }
+  if (is_time_to_look(type)) look_at_derivatives(here.unknowns, here.parameters, here.regime);
   if (observer_ && !observer_(branch_.points.back())) interrupted_ = true;
 }
 

@@ -1,16 +1,24 @@
-// What a branch that was left asks of the problem that it goes on with: that it is the same.
+// What a branch asks of its problem: exact derivatives, and where it was left, that it is the same.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "arcslip/continuation/directional_check.hpp"
 #include "arcslip/continuation/evaluation.hpp"
+#include "arcslip/continuation/extended_problem.hpp"
 #include "arcslip/continuation/tracer.hpp"
 
 namespace arcslip::continuation {
 namespace {
+
+/// A singular point is located by the derivatives themselves.
+bool is_singular(PointType type) {
+  return type == PointType::fold || type == PointType::branch_point || type == PointType::hopf;
+}
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("resume: " + what); }
 
@@ -24,6 +32,30 @@ void require_count(const char* what, Index now, Index then) {
 }
 
 }  // namespace
+
+/// In each regime a few points behind its beginning, where a trivial solution or a corner may hide what is
+/// wrong.
+bool Tracer::is_time_to_look(PointType type) {
+  if (type == PointType::regular)
+    return ++seen_in_regime_[static_cast<std::size_t>(stepper_.here().regime)] == 3;
+  return is_singular(type) && !std::exchange(singular_seen_, true);
+}
+
+/// Of an extended problem those of its base count: its own are made of them.
+void Tracer::look_at_derivatives(const Vector& u, const Vector& p, int regime) {
+  if (!branch_.warning.empty()) return;
+  ++corrector_.work().evaluations;
+  std::optional<std::string> wrong;
+  if (const auto* curve = dynamic_cast<const ExtendedProblem*>(&problem_)) {
+    const BasePoint at = curve->split(u, p, regime);
+    const Index second = parameter_ < curve->active() ? parameter_ : parameter_ + 1;
+    wrong = find_wrong_derivative(curve->base(), at.unknowns, at.parameters, regime,
+                                  {curve->active(), second}, {});
+  } else {
+    wrong = find_wrong_derivative(problem_, u, p, regime, {parameter_}, stepper_.tracked());
+  }
+  if (wrong) branch_.warning = fmt::format("{}, at {} = {:.10g}", *wrong, options_.parameter, p(parameter_));
+}
 
 BranchIdentity Tracer::identity() const {
   BranchIdentity of{problem_.parameter_names(), problem_.regime_names(), {},
@@ -53,7 +85,7 @@ void Tracer::require_same(const Progress& progress) const {
     require_count("parameters", std::ssize(problem_.parameter_names()), point->parameters.size());
     require_count("entries in the scale", n + 1, point->scale.size());
     require_count("entries in the tangent", n + 1, point->tangent.size());
-    if (point->regime < 0 || point->regime >= std::ssize(problem_.regime_names()))
+    if (point->regime < 0 || point->regime >= std::ssize(seen_in_regime_))
       refuse(fmt::format("there is no regime {}, which the checkpoint names", point->regime));
   }
   require_count("entries in the bend", n + 1, progress.bend.size());

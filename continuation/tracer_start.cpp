@@ -33,6 +33,7 @@ void Tracer::start(const Guess& guess, double forward) {
     if (start_singular(guess, forward) == Correction::converged) result = Correction::converged;
   }
   if (result != Correction::converged) {
+    look_at_derivatives(guess.unknowns, guess.parameters, guess.regime);
     return stop(Stop::no_start,
                 fmt::format("no solution was found from the guess at {} = {:.10g}: {}", options_.parameter,
                             guess.parameters(parameter_), reason(result)));

@@ -30,7 +30,10 @@ struct BranchPoint {
 struct Branch {
   std::vector<BranchPoint> points;  ///< in the order traced
   Stop stop = Stop::no_start;
-  std::string explanation;  ///< the reason of the stop, a sentence
+  std::string explanation;  ///< the reason of the stop, a sentence; the warning follows, if there is one
+  /// What makes special points doubtful although all points solve the problem: a derivative that is not that
+  /// of F, of an observable or of a border. Empty if none was found.
+  std::string warning;
   /// Why the part before the start ended, of a branch traced in both directions.
   std::optional<Stop> first_stop;
   Work work;

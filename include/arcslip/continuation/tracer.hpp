@@ -36,6 +36,8 @@ class Tracer {
   Branch go_on();
   void start(const Guess& guess, double forward);
   Vector raw_tangent() const;
+  void look_at_derivatives(const Vector& u, const Vector& p, int regime);
+  bool is_time_to_look(PointType type);
   BranchIdentity identity() const;
   void require_same(const Progress& progress) const;
   Correction start_singular(const Guess& guess, double forward);
@@ -77,6 +79,8 @@ class Tracer {
   const Target* landing_ = nullptr;
   std::optional<double> closing_;
   std::vector<Event> events_;
+  std::vector<int> seen_in_regime_;  // regular points so far
+  bool singular_seen_ = false;
   bool stopped_ = false;
   bool interrupted_ = false;
   bool satisfied_ = false;
