@@ -151,6 +151,9 @@ void progress(Archive& archive, Way& way) {
   archive(way.arclength);
   counts(archive, way.found);
   if (archive.version == 1) return;
+  archive(way.last_value);
+  archive(way.last_chord);
+  list(archive, way.taken, number);
   archive(way.residual_size);
   list(archive, way.borders, number);
 }

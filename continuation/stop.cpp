@@ -15,6 +15,7 @@ std::string_view to_string(Stop stop) {
     case Stop::interrupted: return "interrupted";
     case Stop::no_value: return "no_value";
     case Stop::min_step: return "min_step";
+    case Stop::asymptotic: return "asymptotic";
     case Stop::grazing_border: return "grazing_border";
     case Stop::no_start: return "no_start";
   }

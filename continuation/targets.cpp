@@ -31,30 +31,63 @@ Targets::Targets(const Problem& problem, Index parameter, const TraceOptions& op
   }
 }
 
+bool Targets::wants_point(const Target& target) {
+  return target.kind == Target::Kind::user || target.kind == Target::Kind::end;
+}
+
+bool Targets::is_taken(const Target& target) const {
+  return std::find(taken_.begin(), taken_.end(), &target) != taken_.end();
+}
+
+void Targets::keep_taken(double value, double tolerance) {
+  std::erase_if(taken_,
+                [&](const Target* target) { return !(std::abs(target->value - value) <= tolerance); });
+}
+
+std::vector<double> Targets::taken() const {
+  std::vector<double> values;
+  for (const Target* target : taken_) values.push_back(target->value);
+  return values;
+}
+
+void Targets::restore(const std::vector<double>& taken) {
+  for (const Target& target : targets_) {
+    if (std::find(taken.begin(), taken.end(), target.value) != taken.end()) take(target);
+  }
+}
+
 const Target* Targets::ahead(double here, double direction, double reach, double rounding) const {
   const Target* nearest = nullptr;
   for (const Target& target : targets_) {
     const double distance = direction * (target.value - here);
-    if (distance > rounding && distance <= reach &&
-        (nearest == nullptr || distance < direction * (nearest->value - here))) {
+    const double least = wants_point(target) ? 0 : rounding;
+    if (distance > least && distance <= reach &&
+        (nearest == nullptr || distance < direction * (nearest->value - here)) && !is_taken(target)) {
       nearest = &target;
     }
   }
   return nearest;
 }
 
-bool Targets::between(double a, double b, double rounding) const {
+bool Targets::between(double a, double b, double tolerance, double rough) const {
   return std::any_of(targets_.begin(), targets_.end(), [&](const Target& target) {
-    return (target.value - a) * (target.value - b) < 0 && std::abs(target.value - a) > rounding &&
-           std::abs(target.value - b) > rounding;
+    const double from_a = std::abs(target.value - a);
+    const double from_b = std::abs(target.value - b);
+    return (target.value - a) * (target.value - b) < 0 && from_b > tolerance &&
+           (wants_point(target) || (from_a > rough && from_b > rough)) && !is_taken(target);
   });
 }
 
-const Target* Targets::at(double value, double tolerance) const {
-  const auto found = std::find_if(targets_.begin(), targets_.end(), [&](const Target& target) {
-    return std::abs(target.value - value) <= tolerance;
-  });
-  return found == targets_.end() ? nullptr : &*found;
+std::vector<const Target*> Targets::around(double value, double tolerance) const {
+  std::vector<const Target*> found;
+  for (const Target& target : targets_) {
+    if (target.kind != Target::Kind::landmark && std::abs(target.value - value) <= tolerance &&
+        !is_taken(target))
+      found.push_back(&target);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Target* a, const Target* b) { return a->kind < b->kind; });
+  return found;
 }
 
 }  // namespace arcslip::continuation

@@ -11,8 +11,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double rounding = 1e-13;
-
 std::vector<Index> tracked_observables(const Problem& problem, const TraceOptions& options) {
   const std::vector<Observable> observables = problem.observables();
   const std::vector<std::string> names = observable_names(problem);
@@ -51,6 +49,7 @@ Branch Tracer::run(const Progress& progress) {
   require_same(progress);
   state_ = progress;
   stepper_.restore(progress);
+  targets_.restore(progress.taken);
   watch_.look(stepper_.here());
   return go_on();
 }
@@ -70,6 +69,7 @@ Branch Tracer::go_on() {
     state_.here = stepper_.here();
     state_.bend = stepper_.bend();
     state_.monitors = stepper_.at_here();
+    state_.taken = targets_.taken();
     state_.residual_size = corrector_.residual_size();
     branch_.checkpoint.emplace().of = identity();
     branch_.checkpoint->ahead = std::move(state_);
@@ -107,6 +107,7 @@ void Tracer::check_limits() {
 void Tracer::step() {
   while (!try_step()) {
     ++corrector_.work().rejected_steps;
+    if (stopped_) return;
     if (length() >= options_.min_step) continue;
     if (turn_back()) return;
     const Correction last = stepper_.last_correction();
@@ -121,8 +122,7 @@ bool Tracer::try_step() {
   double& distance = state_.distance;
   distance = std::min(distance, options_.max_step / stepper_.slope_length(state_.hold));
   const double rate = stepper_.parameter_slope(state_.hold);
-  landing_ = targets_.ahead(value(), rate > 0 ? 1 : -1, 1.1 * distance * std::abs(rate) * parameter_scale(),
-                            rounding * parameter_scale());
+  landing_ = next_target(1.1 * distance * std::abs(rate) * parameter_scale(), rate > 0 ? 1 : -1);
   if (landing_ != nullptr) return try_landing();
   if (!stepper_.attempt(state_.hold, distance)) {
     const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
@@ -140,17 +140,6 @@ bool Tracer::try_step() {
   return false;
 }
 
-bool Tracer::try_landing() {
-  if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
-  // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
-  const double distance = stepper_.distance();
-  const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
-  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) return true;
-  use(Hold::parameter);
-  state_.distance = 0.5 * distance;
-  return false;
-}
-
 /// Looks for events in the step; false if it has to be shorter. A target must not be passed, but by a step
 /// that ends before it.
 bool Tracer::find_events() {
@@ -162,15 +151,11 @@ bool Tracer::find_events() {
   if (branch_.points.size() > 2 || state_.arclength > 0) closing_ = stepper_.passes(state_.start);
   if (closing_ && !events_.empty() && events_.front().s < *closing_) closing_.reset();
   if (closing_) events_.clear();
-  if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there());
+  if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there(), 0);
   const double s = closing_ ? *closing_ : events_.front().s;
-  if (stepper_.crossing() && stepper_.crossing()->s == s) return !passes_target(stepper_.crossing()->point);
-  return stepper_.probe(s) && !passes_target(stepper_.probed_point());
-}
-
-/// Whether a target lies between here and a point of the step, which then has to land on it first.
-bool Tracer::passes_target(const CurvePoint& point) const {
-  return targets_.between(value(), point.parameters(parameter_), same_value * parameter_scale());
+  if (stepper_.crossing() && stepper_.crossing()->s == s)
+    return !passes_target(stepper_.crossing()->point, same_value);
+  return stepper_.probe(s) && !passes_target(stepper_.probed_point(), same_value);
 }
 
 void Tracer::use(Hold hold) {
@@ -189,6 +174,7 @@ bool Tracer::leaves_range() const {
 }
 
 void Tracer::take() {
+  landing_failed_ = false;
   const bool whole = landing_ == nullptr && events_.empty() && !closing_;
   if (whole && leaves_range()) {
     if (branch_.points.size() > 1) store(PointType::end);
@@ -208,8 +194,11 @@ void Tracer::take() {
       if (event.kind == Event::Kind::border) stepper_.settle_on_border(static_cast<int>(event.index));
     }
   }
-  state_.arclength += stepper_.chord();
+  state_.last_value = value();
+  state_.last_chord = stepper_.chord();
+  state_.arclength += state_.last_chord;
   stepper_.advance();
+  targets_.keep_taken(value(), same_value * parameter_scale());
   if (whole) state_.distance *= factor;
   const Signs before = state_.signs;
   watch_.look(stepper_.here());
@@ -229,10 +218,7 @@ void Tracer::take_events(const Signs& before, int sign_beyond) {
   for (const Event& event : events_) take_event(event, before, sign_beyond);
   if (border != events_.end()) cross(static_cast<int>(border->index), on_several_borders());
   if (stopped_) return;
-  if (const Target* target = targets_.at(value(), same_value * parameter_scale());
-      target != nullptr && state_.arclength > 0) {
-    if (target->kind == Target::Kind::end || target->kind == Target::Kind::user) take_target(*target);
-  }
+  if (state_.arclength > 0) take_targets_around(before.parameter * state_.signs.parameter < 0);
 }
 
 void Tracer::take_event(const Event& event, const Signs& before, int sign_beyond) {
@@ -269,19 +255,6 @@ void Tracer::count_unstable(const Signs& before, bool turns) {
   Index nearest = 0;
   watch_.eigenvalues().cwiseAbs().minCoeff(&nearest);
   state_.signs.unstable += nearest < before.unstable ? -1 : 1;
-}
-
-void Tracer::take_target(const Target& target) {
-  switch (target.kind) {
-    case Target::Kind::landmark: return store(PointType::regular);
-    case Target::Kind::user: return store(PointType::user);
-    case Target::Kind::end:
-      store(PointType::end);
-      return stop(Stop::reached_end, "the last value was reached");
-    case Target::Kind::bound:
-      store(PointType::end);
-      return stop(Stop::left_range, "the branch came back to its first value");
-  }
 }
 
 /// Whether other borders are reached together with the one that was located, but for rounding.

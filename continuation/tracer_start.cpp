@@ -51,6 +51,7 @@ void Tracer::start(const Guess& guess, double forward) {
   if (std::abs(stepper_.parameter_slope(Hold::tangent)) < 1e-9) state_.signs.parameter = 0;
   state_.start = stepper_.here();
   store(PointType::start);
+  if (guess.direction.size() > 0) take_where_it_starts();
   const double same = same_value * parameter_scale();
   const double low = std::min(options_.from, options_.to);
   const double high = std::max(options_.from, options_.to);

@@ -45,6 +45,9 @@ struct Progress {
   double arclength = 0;
   CurvePoint start;                   ///< which a closed loop comes back to
   std::map<std::string, long> found;  ///< special points so far, by type
+  double last_value = 0;              ///< of the parameter, where the last step began
+  double last_chord = 0;              ///< of the last step
+  std::vector<double> taken;          ///< values of the parameter that have their point here
   double residual_size = 0;           ///< what the tolerance on F is relative to; 0: to be found again
   std::vector<double> borders;        ///< of an extended problem: those of its conditions
 };

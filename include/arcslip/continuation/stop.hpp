@@ -18,6 +18,7 @@ enum class Stop {
   interrupted,     ///< the observer asked for it
   no_value,        ///< the problem cannot be evaluated further on
   min_step,        ///< no step of at least `min_step` is acceptable
+  asymptotic,      ///< the branch comes ever nearer to a value on which it has no point
   grazing_border,  ///< the piece beyond a border does not leave it
   no_start         ///< there is no solution near the guess
 };

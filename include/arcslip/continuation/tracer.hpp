@@ -45,11 +45,16 @@ class Tracer {
   void check_limits();
   void step();
   bool try_step();
+  void take_where_it_starts();
   bool try_landing();
+  const Target* next_target(double reach, double direction) const;
+  bool only_approaches(const Target& target) const;
+  void rest_before(const Target& target);
   bool find_events();
   bool leaves_range() const;
   void take();
   void take_events(const Signs& before, int sign_beyond);
+  void take_targets_around(bool turns);
   void take_event(const Event& event, const Signs& before, int sign_beyond);
   void count_unstable(const Signs& before, bool turns);
   void take_target(const Target& target);
@@ -58,9 +63,10 @@ class Tracer {
   bool on_several_borders() const;
   Correction leave(int border, bool several);
   void corner_events(const Signs& before);
-  bool passes_target(const CurvePoint& point) const;
+  bool passes_target(const CurvePoint& point, double tolerance) const;
   double value() const { return stepper_.here().parameters(parameter_); }
   double parameter_scale() const { return stepper_.here().scale(stepper_.here().scale.size() - 1); }
+  double start_scale() const { return state_.start.scale(state_.start.scale.size() - 1); }
   double length() const { return state_.distance * stepper_.slope_length(state_.hold); }
   void use(Hold hold);
   void store(PointType type, const std::string& label = {}, const Vector& arrival = {});
@@ -77,6 +83,7 @@ class Tracer {
   Targets targets_;
   Progress state_;  // what changes along the branch, except for the point itself
   const Target* landing_ = nullptr;
+  bool landing_failed_ = false;  // from here
   std::optional<double> closing_;
   std::vector<Event> events_;
   std::vector<int> seen_in_regime_;  // regular points so far
