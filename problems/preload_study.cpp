@@ -196,10 +196,11 @@ Peak Assembly::peak_at(std::size_t piece, double preload) const {
   return peak;
 }
 
-/// The knots from the first to the last one at which Y_max is as low as anywhere, to the tolerance of Y; only
-/// the lowest where they are next to each other, as at the bottom of a valley.
+/// The knots from the first to the last one at which Y_max is as low as anywhere, as far as Y is known: of
+/// what slips and sticks there, what sticks, whose Y does not depend on P at all. Only the lowest where they
+/// are next to each other, as at the bottom of a valley.
 std::pair<std::size_t, std::size_t> Assembly::lowest() const {
-  constexpr double same = 1e-10;
+  constexpr double same = 1e-9;    // ln R is solved to 1e-10
   constexpr double valley = 1e-3;  // of ln P: within it even a curvature of 1e-3 would not show
   const std::vector<PeakEnvelope::Knot>& knots = envelope_.knots();
   const auto least = std::min_element(knots.begin(), knots.end(),
@@ -210,8 +211,15 @@ std::pair<std::size_t, std::size_t> Assembly::lowest() const {
   std::size_t last = position;
   while (first > 0 && is_lowest(first - 1)) --first;
   while (last + 1 < knots.size() && is_lowest(last + 1)) ++last;
-  if (std::log(knots[last].preload / knots[first].preload) > valley) return {first, last};
-  return {position, position};
+  const auto is_long = [&](std::size_t a, std::size_t b) {
+    return std::log(knots[b].preload / knots[a].preload) > valley;
+  };
+  if (!is_long(first, last)) return {position, position};
+  for (std::size_t a = first, b = first; a <= last; a = b + 1) {
+    for (b = a; b < last && knots[b + 1].log_Y == knots[a].log_Y;) ++b;
+    if (is_long(a, b)) return {a, b};
+  }
+  return {first, last};
 }
 
 Optimum Assembly::optimum() const {

@@ -1,10 +1,12 @@
 #include "study_results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "output.hpp"
 
@@ -15,6 +17,40 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t most_rows = 40;
 
+/// Which designs of a study of many: in 3 of 40 designs (curves 0, 7, 8).
+std::string places(const std::vector<std::size_t>& curves, std::size_t count) {
+  constexpr std::size_t most = 10;
+  if (count == 1) return "";
+  const auto shown = std::span(curves).first(std::min(most, curves.size()));
+  return fmt::format(" in {} of {} designs (curve{} {}{})", curves.size(), count,
+                     curves.size() == 1 ? "" : "s", fmt::join(shown, ", "),
+                     curves.size() > most ? ", ..." : "");
+}
+
+/// What the numbers do not say of themselves, in sentences.
+std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store) {
+  const problems::PreloadRange& range = study.range;
+  std::vector<std::size_t> without_resonance, at_end;
+  store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
+    if (design.kind == "failed") return true;
+    const bool on_edge = design.free_eta == range.eta_low || design.free_eta == range.eta_high;
+    if (on_edge) without_resonance.push_back(design.curve);
+    if (design.kind == "end") at_end.push_back(design.curve);
+    return true;
+  });
+  std::vector<std::string> sentences;
+  if (!without_resonance.empty())
+    sentences.push_back(
+        fmt::format("Without damper Y is highest on an end of the window eta = {:g} to {:g}, not at a "
+                    "resonance in it{}: the ratio compares with that.",
+                    range.eta_low, range.eta_high, places(without_resonance, study.count)));
+  if (!at_end.empty())
+    sentences.push_back(fmt::format(
+        "Y_max is lowest on an end of the range P = {:g} to {:g}{}: beyond it may lie a better preload.",
+        range.from, range.to, places(at_end, study.count)));
+  return sentences;
+}
+
 ordered_json summarize(const StudyCase& study, const StudyStore& store, const StudyWork& work) {
   ordered_json failed = ordered_json::array();
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
@@ -23,10 +59,9 @@ ordered_json summarize(const StudyCase& study, const StudyStore& store, const St
                       {"failure", design.failure}});
     return true;
   });
-  return {{"arcslip", ARCSLIP_VERSION}, {"title", study.title},
-          {"case", study.resolved},     {"designs", study.count},
-          {"failed", failed},           {"computed", work.computed},
-          {"seconds", work.seconds},    {"designs_per_second", work.rate()}};
+  return {{"arcslip", ARCSLIP_VERSION}, {"title", study.title},    {"case", study.resolved},
+          {"designs", study.count},     {"failed", failed},        {"remarks", remarks(study, store)},
+          {"computed", work.computed},  {"seconds", work.seconds}, {"designs_per_second", work.rate()}};
 }
 
 std::size_t width(const std::string& key) { return std::max<std::size_t>(key.size(), 10); }
@@ -79,6 +114,7 @@ std::string study_table(const StudyCase& study, const StudyStore& store) {
     return ++rows < most_rows;
   });
   if (study.count > most_rows) text += fmt::format("... and {} more\n", study.count - most_rows);
+  for (const std::string& sentence : remarks(study, store)) text += "\n" + sentence + "\n";
   return text;
 }
 

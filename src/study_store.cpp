@@ -339,14 +339,15 @@ void StudyStore::add_sweep(std::size_t curve, const problems::PreloadStudy& resu
 void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const {
   const bool robust = extras_.has_robust();
   Statement row = database_->prepare(fmt::format(
-      "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, {} FROM designs d {} {} "
+      "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, d.free_eta, {} FROM "
+      "designs d {} {} "
       "ORDER BY "
       "d.curve",
       robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
       which == Which::failed ? "WHERE d.failure <> ''" : ""));
   while (row.step()) {
     if (!visitor({static_cast<std::size_t>(row.integer(0)), row.text(1), row.text(2), row.real(3),
-                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8)}))
+                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8), row.real(9)}))
       return;
   }
 }

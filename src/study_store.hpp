@@ -27,6 +27,7 @@ struct StoredDesign {
   double eta = 0;             ///< eta_opt
   double Y = 0;               ///< Y_opt
   double ratio = 0;           ///< Y_opt/Y_nd_max
+  double free_eta = 0;        ///< of the highest amplitude without damper
   double robust_preload = 0;  ///< P_q95; nan of a study without scatter
   double robust_ratio = 0;    ///< Y_q95/Y_nd_max
 };

@@ -115,3 +115,41 @@ TEST_CASE("A ridge is known at preloads between points of equal eta, and right b
   ending.range = {10.768805510602878, 1802.4853970415195, 1.5101564734778503, 131.45809477815575, {end}};
   CHECK(complaints(ending, {end}) == none);
 }
+
+TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the middle of what sticks") {
+  RandomSystems draw(13);
+  int flat = 0;
+  for (int i = 0; i < 60; ++i) {
+    StudyRun run;
+    SystemParameters& s = run.system;
+    s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
+    s.wave_number = draw.integer(1, 3);
+    s.elements = draw.integer(2 * s.wave_number + 1, 60);
+    s.mass_ratio = draw.log_uniform(0.5, 50);
+    s.frequency_ratio = 1;
+    s.interface_stiffness = draw.log_uniform(10, 1e5);
+    s.base_damping = s.damper_damping = draw.log_uniform(1e-5, 1e-2);
+    const FrictionSystem system = build_system(s);
+    const double resonance =
+        joined_frequencies({&system.base, &system.damper}, system.contact_stiffness).front();
+    const double border = problems::ResponseSlopes::on_border(system, resonance).preload();
+    run.range = {border * draw.log_uniform(1e-3, 0.5),
+                 border * draw.log_uniform(2, 1e3),
+                 0.5 * resonance,
+                 1.2 * resonance,
+                 {}};
+    CAPTURE(i, describe(run));
+    const PreloadStudy study = problems::study_preload(run.system, run.range);
+    REQUIRE(study.optimum);
+    if (i < 6) CHECK(OptimumJudge(run, study, {}).complaints() == none);
+    const double Y = study.optimum->peak.Y;
+    const auto last =
+        std::find_if(study.branches.begin(), study.branches.end(),
+                     [](const problems::PeakBranch& branch) { return branch.back().is_global; });
+    REQUIRE(last != study.branches.end());
+    const bool is_flat = study.optimum->kind == problems::OptimumKind::flat;
+    CHECK(is_flat == (last->back().Y <= Y * (1 + 1e-9)));
+    if (is_flat) ++flat;
+  }
+  CHECK(flat > 40);
+}

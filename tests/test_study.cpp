@@ -170,6 +170,32 @@ TEST_CASE("Designs of the case files have the optima that closed forms and curve
   CHECK(waves[3][6] == "exchange");
 }
 
+TEST_CASE("study says in a sentence that a window has no resonance or an optimum lies on the range's end",
+          "[study]") {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("case.toml", study_text + "for_each = { frequency_ratio = [3.5, 4.0] }\n");
+  const auto remarks = [&](const std::string& settings) {
+    const Outcome outcome =
+        arcslip_program("study " + path + " -o " + folder.path("r") + " --set study.sweep=false" + settings);
+    CHECK(outcome.status == 0);
+    std::string all;
+    const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
+    for (const auto& sentence : summary.at("remarks")) all += "\n" + sentence.get<std::string>() + "\n";
+    CHECK_THAT(outcome.out, ContainsSubstring(all));
+    return all;
+  };
+  CHECK(remarks("").empty());
+  CHECK(remarks(" --set study.eta=[3.6,6]") ==
+        "\nWithout damper Y is highest on an end of the window eta = 3.6 to 6, not at a resonance in it in 1 "
+        "of "
+        "2 designs (curve 0): the ratio compares with that.\n");
+  CHECK(
+      remarks(" --set study.to=1.0") ==
+      "\nY_max is lowest on an end of the range P = 0.9 to 1 in 2 of 2 designs (curves 0, 1): beyond it may "
+      "lie a better preload.\n");
+}
+
 TEST_CASE("The tables do not depend on the number of threads", "[study]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", chart_text);
