@@ -22,12 +22,13 @@ std::string_view to_string(PointType type) {
     case PointType::hopf_hopf: return "hopf_hopf";
     case PointType::neimark_sacker: return "neimark_sacker";
     case PointType::period_doubling: return "period_doubling";
+    case PointType::symmetry_breaking: return "symmetry_breaking";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::period_doubling); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::symmetry_breaking); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

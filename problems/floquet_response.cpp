@@ -1,31 +1,135 @@
 #include "arcslip/problems/floquet_response.hpp"
 
-namespace arcslip::problems {
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
-FloquetResponse::FloquetResponse(const HarmonicSystem& system, const HarmonicSystem& even)
-    : HarmonicResponse(system), odd_(system, system.orders), even_(even, system.orders) {}
+#include "arcslip/problems/more_harmonics.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::Guess;
+using continuation::PointType;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Sign of the determinant.
+int orientation(const Matrix& matrix) {
+  const Eigen::PartialPivLU<Matrix> factors(matrix);
+  const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
+  return factors.permutationP().determinant() * (negative % 2 == 0 ? 1 : -1);
+}
+
+/// Gives the own exponent nearest to zero the sign that makes those above zero odd or even in number.
+void make_odd(bool odd, std::vector<RingDisturbances::Disturbance>& all) {
+  bool is_odd = false;
+  RingDisturbances::Disturbance* nearest = nullptr;
+  for (RingDisturbances::Disturbance& one : all) {
+    if (!one.is_own) continue;
+    is_odd = is_odd != (one.exponent.real() > 0);
+    if (nearest == nullptr || std::abs(one.exponent.real()) < std::abs(nearest->exponent.real()))
+      nearest = &one;
+  }
+  if (nearest != nullptr && is_odd != odd) nearest->exponent *= -1.0;
+}
+
+}  // namespace
+
+FloquetResponse::FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
+                                 std::shared_ptr<const FloquetResponse> finer)
+    : HarmonicResponse(system), disturbances_(system, waves), finer_(std::move(finer)) {}
+
+std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vector& p, int regime) const {
+  std::vector<StickPattern> all;
+  for (Index i = 0; i < contacts(); ++i)
+    all.push_back(stick_pattern(system().orders, motion(u, i), slip_threshold(i, p), slips(regime, i)));
+  return all;
+}
+
+RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vector& p, int regime,
+                                                      std::span<const StickPattern> contacts,
+                                                      bool active) const {
+  RingDisturbances::Disturbances found = disturbances_.at(p(eta), contacts, active);
+  const bool may_fold =
+      std::any_of(found.all.begin(), found.all.end(), [](const auto& one) { return one.is_own; });
+  if (disturbances_.is_balanced() || !may_fold) return found;
+  Matrix jacobian(size(), size());
+  continuation::Evaluation out;
+  out.jacobian = &jacobian;
+  if (evaluate(u, p, regime, out)) make_odd(orientation(jacobian) < 0, found.all);
+  return found;
+}
 
 bool FloquetResponse::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
-  std::vector<DisturbanceFlow::Contact> all;
-  for (Index i = 0; i < contacts(); ++i)
-    all.push_back({motion(u, i), slip_threshold(i, p), slips(regime, i)});
-  const ComplexVector odd = odd_.exponents(p(eta), all);
-  const ComplexVector even = even_.exponents(p(eta), all);
-  values.resize(odd.size() + even.size());
-  values << odd, even;
+  const auto all = found(u, p, regime, patterns(u, p, regime), true).all;
+  values.resize(std::ssize(all));
+  std::transform(all.begin(), all.end(), values.begin(), [](const auto& one) { return one.exponent; });
   return true;
 }
 
-std::vector<int> even_orders(const SystemParameters& parameters) {
-  std::vector<int> orders;
-  for (int h = 0; h <= parameters.harmonics.back() + 1; h += 2) orders.push_back(h);
-  return orders;
+std::vector<PointType> FloquetResponse::test_types() const {
+  return std::vector<PointType>(disturbances_.symmetries(), PointType::symmetry_breaking);
 }
 
-HarmonicSystem build_even_system(const SystemParameters& parameters) {
-  SystemParameters between = parameters;
-  between.harmonics = even_orders(parameters);
-  return build_harmonic_system(between);
+void FloquetResponse::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  const std::vector<double> all = disturbances_.at(p(eta), patterns(u, p, regime), true).symmetries;
+  values = Vector::Map(all.data(), std::ssize(all));
+}
+
+std::vector<RingDisturbances::Disturbance> FloquetResponse::disturbances(const Vector& u, const Vector& p,
+                                                                         int regime) const {
+  return found(u, p, regime, patterns(u, p, regime), false).all;
+}
+
+FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p, int regime) const {
+  const std::vector<StickPattern> contacts = patterns(u, p, regime);
+  const auto all = found(u, p, regime, contacts, false).all;
+  const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.exponent.real() < b.exponent.real();
+  });
+  if (most == all.end()) return {0, 0};
+  return {std::exp(2 * std::numbers::pi * most->exponent.real() / p(eta)),
+          disturbances_.wave_of(*most, p(eta), contacts)};
+}
+
+std::vector<continuation::Observable> FloquetResponse::observables() const {
+  std::vector<continuation::Observable> all = HarmonicResponse::observables();
+  for (const char* name : {"growth", "growth_error", "worst_wave"}) all.push_back({name});
+  return all;
+}
+
+void FloquetResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  HarmonicResponse::observe(u, p, regime, values);
+  const Worst found = worst(u, p, regime);
+  const Index before = values.size();
+  values.conservativeResize(before + 3);
+  values.tail<3>() << found.growth, growth_error(u, p, regime, found.growth), static_cast<double>(found.wave);
+}
+
+/// What is left out falls as h^-3.
+double FloquetResponse::growth_error(const Vector& u, const Vector& p, int regime, double growth) const {
+  if (finer_ == nullptr) return none;
+  if (regime == 0) return 0;
+  const std::optional<Guess> at = solved_in(*finer_, *this, {u, p, regime});
+  if (!at) return none;
+  const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;
+  const double ratio = static_cast<double>(system().orders.back()) / finer_->system().orders.back();
+  return std::abs(growth - other) / std::abs(1 - std::pow(ratio, 3));
+}
+
+std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
+  constexpr int most = 2 * most_harmonics - 1;
+  const auto build = [](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
+    return std::make_shared<FloquetResponse>(build_harmonic_system(one),
+                                             ring_waves(one, one.harmonics.back() + 1), std::move(finer));
+  };
+  SystemParameters other = parameters;
+  const int highest = parameters.harmonics.back();
+  other.harmonics = odd_up_to(highest < most ? std::min(2 * highest + 1, most) : most / 2);
+  return build(parameters, build(other, nullptr));
 }
 
 }  // namespace arcslip::problems

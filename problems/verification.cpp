@@ -8,6 +8,7 @@
 
 #include "arcslip/continuation/newton.hpp"
 #include "arcslip/problems/forced_response.hpp"
+#include "arcslip/problems/more_harmonics.hpp"
 #include "arcslip/problems/power_balance.hpp"
 #include "arcslip/ring_record.hpp"
 #include "arcslip/ring_stability.hpp"
@@ -66,22 +67,6 @@ class BalancedPoints {
 
 double power_error(const HarmonicResponse& problem, const Guess& at) {
   return power_balance(problem, at.unknowns, at.parameters, at.regime).error();
-}
-
-/// The same motion in the harmonics of another problem, those that are new being zero.
-Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
-  Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
-  for (Index i = 0; i < from.contacts(); ++i) {
-    for (Index a = 0; a < from.harmonics(); ++a) {
-      const std::vector<int>& orders = to.system().orders;
-      const auto place =
-          std::lower_bound(orders.begin(), orders.end(), from.system().orders[static_cast<std::size_t>(a)]) -
-          orders.begin();
-      guess.unknowns.segment<2>(2 * (i * to.harmonics() + place)) =
-          at.unknowns.segment<2>(2 * (i * from.harmonics() + a));
-    }
-  }
-  return guess;
 }
 
 double first_harmonic(const HarmonicResponse& problem, const Guess& at) {

@@ -198,7 +198,6 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
   if (system.sectors && system.sectors->path() == SectorPath::full)
     section.fail("stability", R"(needs the modes of path = "reduced")");
-  check_waves(section, "stability", system, problems::even_orders(system));
 }
 
 /// The value of the second parameter at which the first points of a curve are looked for.

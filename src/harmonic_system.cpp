@@ -22,7 +22,9 @@ ContactModes one_contact(const ModalModel& model) {
   return {1, std::move(modes), model.loss()};
 }
 
-ContactSystem contact_system(const SystemParameters& parameters) {
+}  // namespace
+
+ContactSystem build_wave(const SystemParameters& parameters) {
   if (parameters.sectors) return build_contact_system(parameters);
   const FrictionSystem system = build_system(parameters);
   return {one_contact(system.base),
@@ -30,8 +32,6 @@ ContactSystem contact_system(const SystemParameters& parameters) {
           {{system.contact_stiffness, system.slip_per_preload}},
           system.outputs};
 }
-
-}  // namespace
 
 void check(const HarmonicSystem& system) {
   const auto refuse = [](const char* why) {
@@ -64,11 +64,11 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     wave.eta_low = h * parameters.eta_low;
     wave.eta_high = std::max(h, 1) * parameters.eta_high;
     if (h == 1) {
-      system = one_harmonic(contact_system(parameters));
+      system = one_harmonic(build_wave(parameters));
       continue;
     }
     wave.force = 0;
-    ContactSystem of_order = contact_system(wave);
+    ContactSystem of_order = build_wave(wave);
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));

@@ -52,7 +52,7 @@ Subject build_library(const ProblemRequest& request, const std::string& paramete
 template <class Type>
 std::shared_ptr<Type> build_problem(const SystemParameters& system) {
   if constexpr (std::is_same_v<Type, problems::FloquetResponse>) {
-    return std::make_shared<Type>(build_harmonic_system(system), problems::build_even_system(system));
+    return problems::build_floquet_response(system);
   } else if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
     return std::make_shared<Type>(build_harmonic_system(system));
   } else {

@@ -1,15 +1,32 @@
 #include "arcslip/spectrum.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace arcslip {
+namespace {
 
-ComplexVector spectrum(const Matrix& matrix) {
-  ComplexVector values = matrix.eigenvalues();
+ComplexVector sorted(ComplexVector values) {
   std::sort(values.begin(), values.end(),
             [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
   return values;
+}
+
+}  // namespace
+
+ComplexVector spectrum(const Matrix& matrix) { return sorted(matrix.eigenvalues()); }
+
+ComplexVector spectrum(const ComplexMatrix& matrix) { return sorted(matrix.eigenvalues()); }
+
+ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
+  const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);
+  const Eigen::PartialPivLU<ComplexMatrix> solver(
+      matrix - beside * ComplexMatrix::Identity(matrix.rows(), matrix.rows()));
+  ComplexVector vector(matrix.rows());  // in no invariant subspace
+  for (Index i = 0; i < vector.size(); ++i) vector(i) = std::polar(1.0, static_cast<double>(i * i));
+  for (int round = 0; round < 3; ++round) vector = solver.solve(vector).normalized();
+  return vector;
 }
 
 }  // namespace arcslip

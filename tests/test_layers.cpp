@@ -33,12 +33,13 @@ std::set<std::string, std::less<>> words(const std::string& text) {
 
 const std::set<std::string, std::less<>> mechanics = words(R"(
 annular_plate bracketed_newton chain_sector complex_factors contact contact_force contact_modes disturbance_flow
+disturbed_wave
 dynamic_stiffness
 elements extended_sector finite_sector first_crossing full_receptance harmonic_system
 hysteresis_loop interval interval_response krylov_space lowest_frequency matrix_market modal_model odd_motion
-physical_scale precise reduced_pair refined_solve ring ring_motion ring_record ring_response ring_sector
-ring_stability ritz_space sector sector_modes sector_pair sector_reduction sector_solver
-shape_functions spectrum system)");
+physical_scale precise reduced_pair refined_solve ring ring_disturbances ring_motion ring_record ring_response ring_sector
+ring_stability ring_waves ritz_space sector sector_modes sector_pair sector_reduction sector_solver
+shape_functions spectrum stick_pattern stick_schedule system turned_flow)");
 const std::set<std::string, std::less<>> files = words(R"(
 case_file certificate_results continuation_section database for_each geometry_section output results runs sector_files
 sector_section study_case study_checksum study_extras study_results study_run study_store system_section

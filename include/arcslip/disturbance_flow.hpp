@@ -17,58 +17,48 @@
 // number of points. Response and loop being odd, odd and even h do not mix. The matrix of the response's own
 // harmonics is singular exactly where the Jacobian of their balance is.
 //
-// With all h, odd and even, e^{2 pi sigma n/(eta N)} are the multipliers nu of the ring in time
-// (ring_stability.hpp) for disturbances of h n waves: all there are where n has no factor in common with N.
-// With more than N/n harmonics several exponents stand for the same nu.
-
-#include <span>
+// These h stand for as many waves, of h n and -h n lengths: where the ring has no more of them, several
+// exponents would stand for the same multiplier, and turned_flow.hpp has each once.
 
 #include "arcslip/harmonic_system.hpp"
-#include "arcslip/hysteresis_loop.hpp"
+#include "arcslip/ring_waves.hpp"
+#include "arcslip/stick_pattern.hpp"
 
 namespace arcslip {
 
 class DisturbanceFlow {
  public:
-  /// Of disturbances in the harmonics of `system`, all odd or all even, of a response with `orders`. Throws
-  /// std::invalid_argument where damping is structural, of which there is no motion in time, or where the
-  /// response is not a sum over modes.
-  DisturbanceFlow(const HarmonicSystem& system, std::vector<int> orders);
-
-  /// What a contact does in the response.
-  struct Contact {
-    HarmonicVector motion;  ///< r_h
-    double slip_threshold;  ///< S
-    bool slips;
-  };
+  /// Of disturbances in the harmonics of `system`, all odd or all even, of a response with harmonics up to
+  /// `highest`. Throws as oscillators() does.
+  DisturbanceFlow(const HarmonicSystem& system, int highest);
 
   /// sigma, in any order: a disturbance grows by |mu| = e^{2 pi Re sigma/eta} in a period. Real parts within
   /// rounding of 0 are 0. Sliders of contacts that do not slip are constants of the motion and left out, as
   /// is the neutral drift of base against damper as rigid bodies where all contacts slip.
-  ComplexVector exponents(double eta, std::span<const Contact> contacts) const;
+  ComplexVector exponents(double eta, std::span<const StickPattern> contacts) const;
+
+  /// The wave round a ring that the disturbance with this exponent mostly is, as disturbed_wave.hpp says.
+  Index wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+                const RingWaves& ring) const;
 
  private:
-  struct Oscillator {
-    Index order;  ///< position of h
-    double frequency;
-    double damping;  ///< of p'' + damping p' + frequency^2 p, time in units of 1/(2 pi)
-    ContactVector shape;
+  struct Coordinate {
+    Oscillator mode;
+    Index order;      ///< position of h
     Index place = 0;  ///< of its state
   };
-  std::vector<Oscillator> oscillators(Index order, const ContactModes& structure, double slowest) const;
-  static std::vector<Oscillator> joined(const std::vector<Oscillator>& rigid);
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
-  Index drifts(std::span<const Contact> contacts) const;
+  Index drifts(std::span<const StickPattern> contacts) const;
 
+  Matrix matrix(double eta, std::span<const StickPattern> contacts) const;
   ComplexMatrix relative_motion(Index size) const;
   struct Flow;
-  void add_sliders(double eta, Index contact, const HysteresisLoop& loop, Index first, Flow& flow) const;
+  void add_sliders(double eta, Index contact, const StickPattern& pattern, Index first, Flow& flow) const;
   void add_modes(double eta, Flow& flow) const;
 
   std::vector<int> orders_;
-  std::vector<int> response_orders_;
   Vector springs_;  ///< k of each contact
-  std::vector<Oscillator> modes_;
+  std::vector<Coordinate> coordinates_;
   Index modal_states_ = 0;
   Vector places_;      ///< Chebyshev points from -1 to 1
   Vector weights_;     ///< of the values there in the integral

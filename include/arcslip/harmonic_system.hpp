@@ -27,6 +27,9 @@ struct HarmonicSystem {
 /// threshold is not positive.
 void check(const HarmonicSystem& system);
 
+/// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
+ContactSystem build_wave(const SystemParameters& parameters);
+
 /// A system in the first harmonic alone.
 HarmonicSystem one_harmonic(ContactSystem system);
 

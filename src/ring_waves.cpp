@@ -1,0 +1,118 @@
+#include "arcslip/ring_waves.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "arcslip/harmonic_system.hpp"
+#include "arcslip/system.hpp"
+
+namespace arcslip {
+namespace {
+
+/// The modes that count.
+std::vector<ContactMode> noticeable(const ContactModes& structure, double slowest) {
+  constexpr double fast = 1e5;  // over the slowest one
+  constexpr double stiff = 1e-13;
+  const auto flexibility = [&](const ContactMode& mode) {
+    return mode.shape.squaredNorm() / (mode.frequency * mode.frequency + slowest * slowest);
+  };
+  double most = 0;
+  for (const ContactMode& mode : structure.modes()) most = std::max(most, flexibility(mode));
+  std::vector<ContactMode> all;
+  for (const ContactMode& mode : structure.modes()) {
+    if (mode.frequency <= fast * slowest || flexibility(mode) > stiff * most) all.push_back(mode);
+  }
+  return all;
+}
+
+std::vector<Oscillator> joined(const std::vector<Oscillator>& rigid) {
+  const auto other = [&](const Oscillator& mode) { return mode.damping != rigid.front().damping; };
+  if (rigid.size() < 2 || std::any_of(rigid.begin(), rigid.end(), other)) return rigid;
+  ComplexMatrix shapes(std::ssize(rigid), rigid.front().shape.size());
+  for (Index k = 0; k < shapes.rows(); ++k)
+    shapes.row(k) = rigid[static_cast<std::size_t>(k)].shape.adjoint();
+  const Eigen::ColPivHouseholderQR<ComplexMatrix> parts(shapes);
+  const ComplexMatrix upper = parts.matrixR().topRows(parts.rank()).triangularView<Eigen::Upper>();
+  std::vector<Oscillator> all;
+  for (Index k = 0; k < parts.rank(); ++k) {
+    all.push_back(rigid.front());
+    all.back().shape = parts.colsPermutation() * upper.row(k).adjoint();
+  }
+  return all;
+}
+
+/// Under a wave that runs the other way, without load.
+ContactModes conjugate(const ContactModes& structure) {
+  std::vector<ContactMode> modes = structure.modes();
+  for (ContactMode& mode : modes) {
+    mode.shape = mode.shape.conjugate().eval();
+    mode.load = 0;
+  }
+  return {structure.contacts(), std::move(modes), structure.loss()};
+}
+
+}  // namespace
+
+double slowest_rate(const ContactModes& base, const ContactModes& damper) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const ContactModes* structure : {&base, &damper}) {
+    for (const ContactMode& mode : structure->modes()) {
+      if (mode.frequency > 0) slowest = std::min(slowest, mode.frequency);
+    }
+  }
+  return slowest;
+}
+
+std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes& damper, double slowest,
+                                    bool real) {
+  std::vector<Oscillator> all;
+  std::vector<Oscillator> rigid;
+  for (const ContactModes* structure : {&base, &damper}) {
+    const Loss& loss = structure->loss();
+    if (loss.structural != 0 || structure->is_solved())
+      throw std::invalid_argument("stability needs modes with viscous or modal damping");
+    for (const ContactMode& mode : noticeable(*structure, slowest)) {
+      Oscillator one{mode.frequency, loss.part_eta(mode.frequency), mode.shape};
+      Index largest = 0;
+      const double size = mode.shape.cwiseAbs().maxCoeff(&largest);
+      if (real && size > 0) one.shape *= std::conj(mode.shape(largest)) / size;
+      (mode.frequency > 0 ? all : rigid).push_back(std::move(one));
+    }
+  }
+  for (Oscillator& mode : joined(rigid)) all.push_back(std::move(mode));
+  return all;
+}
+
+RingWaves::RingWaves(Index wave_number, Index nodes, Build build)
+    : wave_number_(wave_number), nodes_(nodes), build_(std::move(build)) {}
+
+Index RingWaves::within(Index wave) const { return (wave % nodes_ + nodes_) % nodes_; }
+
+RingWaves::Structures RingWaves::structures(Index wave) const {
+  const Index forward = within(wave);
+  const Index least = std::min(forward, nodes_ - forward);
+  const Structures found = build_(least);
+  if (forward == least) return found;
+  return {conjugate(found.base), conjugate(found.damper)};
+}
+
+std::vector<Oscillator> RingWaves::at(Index wave) const {
+  const Structures found = structures(wave);
+  return oscillators(found.base, found.damper, slowest_rate(found.base, found.damper), within(2 * wave) == 0);
+}
+
+RingWaves ring_waves(const SystemParameters& parameters, int highest) {
+  SystemParameters wide = parameters;
+  wide.force = 0;
+  wide.eta_high *= highest;
+  return {parameters.wave_number, parameters.elements, [wide](Index wave) {
+            SystemParameters one = wide;
+            one.wave_number = wave;
+            ContactSystem system = build_wave(one);
+            return RingWaves::Structures{std::move(system.base), std::move(system.damper)};
+          }};
+}
+
+}  // namespace arcslip
