@@ -81,6 +81,15 @@ void add_candidates(const std::vector<ComplexMatrix>& coefficients, double w, In
 /// lambda + j w Z with |Im| <= w/2.
 Complex folded(Complex exponent, double w) { return {exponent.real(), std::remainder(exponent.imag(), w)}; }
 
+double hill_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h) {
+  Matrix hill = hill_matrix(coefficients, w, twice_h);
+  const Index n = coefficients.front().rows();
+  for (Index row = 0; row <= twice_h; ++row)  // to the size of -j i w, which the far ones approach
+    hill.middleRows(row * n, n) /=
+        std::hypot(1, w * (static_cast<double>(row) - 0.5 * static_cast<double>(twice_h)));
+  return hill.determinant();
+}
+
 }  // namespace
 
 FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h) {
@@ -105,13 +114,12 @@ FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficient
 }
 
 double doubling_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h) {
-  const Index odd = twice_h + 1 - twice_h % 2;
-  Matrix hill = hill_matrix(coefficients, w, odd);
-  const Index n = coefficients.front().rows();
-  for (Index row = 0; row <= odd; ++row)  // to the size of -j i w, which the far ones approach
-    hill.middleRows(row * n, n) /=
-        std::hypot(1, w * (static_cast<double>(row) - 0.5 * static_cast<double>(odd)));
-  return hill.determinant();
+  return hill_determinant(coefficients, w, twice_h + 1 - twice_h % 2);
+}
+
+double returning_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h) {
+  const double sign = coefficients.front().rows() % 2 == 0 ? 1 : -1;  // of -1 for each multiplier
+  return sign * hill_determinant(coefficients, w, twice_h + twice_h % 2);
 }
 
 Index significant(const ComplexVector& coefficients) {

@@ -9,7 +9,7 @@ note_point(i, y) = (xs[i] = column(parameter), ys[i] = y, slip_ys[i] = slips(0) 
 
 # Of a point at which the stability changes, the count may be either: that of the next one counts.
 is_between(type) = type eq "start" || type eq "fold" || type eq "corner_fold" || type eq "hopf" || type eq "branch_point" \
-                   || type eq "neimark_sacker" || type eq "period_doubling"
+                   || type eq "neimark_sacker" || type eq "period_doubling" || type eq "symmetry_breaking"
 unstable(row) = lines ne "stability" ? 0 : is_between(strcol("type")) ? -1 : int(column("unstable"))
 note_special(i, k) = k == 0 ? 0 : \
   (s = s + 1, special_points[s] = i, special_kinds[s] = k, special_branches[s] = branch(0))

@@ -64,19 +64,19 @@ shade = 0xEAEAEA
 
 # ---- Special points, in the order in which they are drawn, each over its own shape in white ----
 
-kinds = 25
+kinds = 26
 array kind_type[kinds] = ["switch", "user", "event", "branch_point", "corner_fold", "hopf", "peak", "trough", "fold", \
                           "cusp", "bogdanov_takens", "zero_hopf", "hopf_hopf", "neimark_sacker", "period_doubling", \
-                          "corner", "birth", "death", "exchange", "optimum", \
+                          "symmetry_breaking", "corner", "birth", "death", "exchange", "optimum", \
                           "optimum smooth", "optimum exchange", "optimum corner", "optimum flat", "optimum end"]
 r_equals_s = "{/:Italic R}".blank."=".blank."{/:Italic S}"
 array kind_title[kinds] = [r_equals_s, "requested", "event", "branch".blank."point", "corner".blank."fold", "Hopf", \
                            "peak", "trough", "fold", "cusp", "Bogdanov–Takens", "zero–Hopf", "double".blank."Hopf", \
-                           "Neimark–Sacker", "period".blank."doubling", \
+                           "Neimark–Sacker", "period".blank."doubling", "symmetry".blank."breaking", \
                            r_equals_s, "birth", "death", "exchange", "optimum", \
                            "smooth", "exchange of peaks", "corner", "flat", "end of the range"]
-array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8, 7, 10, 6, 9, 11, 13, 7, 7, 13, 6, 5, 2]
-array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9, 7, 11, 7, 9, 11, 13, 7, 7, 13, 7, 5, 7]  # 0: a fold may be a peak
+array symbol[kinds] = [6, 2, 1, 13, 5, 7, 9, 11, 4, 12, 15, 14, 8, 7, 10, 12, 6, 9, 11, 13, 7, 7, 13, 6, 5, 2]
+array backing[kinds] = [7, 7, 7, 13, 5, 7, 9, 11, 0, 13, 15, 15, 9, 7, 11, 13, 7, 9, 11, 13, 7, 7, 13, 7, 5, 7]  # 0: a fold may be a peak
 is_triangle(k) = symbol[k] == 8 || symbol[k] == 9 || symbol[k] == 10 || symbol[k] == 11
 enlarged(k) = symbol[k] == 4 ? 1.5 : is_triangle(k) && !is_svg ? 1.2 : symbol[k] > 11 ? 1.25 : 1
 symbol_size(k) = (are_many ? 0.6 : 1) * (is_svg ? 0.5 : 1.25) * enlarged(k)

@@ -12,6 +12,11 @@ namespace {
 
 double order(Index which) { return static_cast<double>(2 * which + 1); }
 
+/// i = +-1/2, ... over half a period: the response's own harmonics.
+Index twice_order(const std::vector<ComplexMatrix>& coefficients) {
+  return static_cast<Index>(coefficients.size()) - 1;
+}
+
 /// The response in the first harmonic without the cubic term.
 Vector linear_response(const continuation::Problem& problem, const Vector& p) {
   using Duffing = DuffingOscillator;
@@ -110,9 +115,8 @@ double DuffingOscillator::observe(const Vector& u, const Vector& /*p*/, int /*re
   return factor * norm;
 }
 
-bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regime*/,
-                                    ComplexVector& values) const {
-  if (!u.allFinite() || !p.allFinite()) return false;
+/// A_0, A_1, ... of disturbances (y, y') over the harmonics 0, 2, 4, ... of the force.
+std::vector<ComplexMatrix> DuffingOscillator::variation(const Vector& u, const Vector& p) const {
   ComplexVector half(count());
   for (Index k = 0; k < count(); ++k) half(k) = 0.5 * Complex(u(2 * k), -u(2 * k + 1));
   const Index pairs = continuation::significant(half);
@@ -126,7 +130,21 @@ bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regi
     const Complex square = (upper * upper.reverse()).sum();
     coefficients[static_cast<std::size_t>(k)](1, 0) -= 3 * p(cubic) * square;
   }
-  values = continuation::floquet_exponents(coefficients, 2 * p(frequency), 2 * pairs - 1).rates;
+  return coefficients;
+}
+
+void DuffingOscillator::test(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const {
+  values.setConstant(1, std::nan(""));
+  if (!u.allFinite() || !p.allFinite()) return;
+  const auto coefficients = variation(u, p);
+  values(0) = continuation::returning_determinant(coefficients, 2 * p(frequency), twice_order(coefficients));
+}
+
+bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regime*/,
+                                    ComplexVector& values) const {
+  if (!u.allFinite() || !p.allFinite()) return false;
+  const auto coefficients = variation(u, p);
+  values = continuation::floquet_exponents(coefficients, 2 * p(frequency), twice_order(coefficients)).rates;
   if (values(0).imag() != 0) values.real().setConstant(-0.5 * p(damping));  // Liouville, without rounding
   return values.allFinite();
 }

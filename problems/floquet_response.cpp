@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "arcslip/problems/more_harmonics.hpp"
 
@@ -36,6 +37,17 @@ void make_odd(bool odd, std::vector<RingDisturbances::Disturbance>& all) {
   if (nearest != nullptr && is_odd != odd) nearest->exponent *= -1.0;
 }
 
+/// The highest harmonic of the response by which one tells its error: four times as high, so that little of
+/// the error is left, where exponents then cost no more; else twice as high; half as high where that is none.
+int other_highest(const SystemParameters& parameters) {
+  constexpr int most = 2 * most_harmonics - 1;
+  const int highest = parameters.harmonics.back();
+  if (highest == most) return most / 2;
+  const int wide = std::min(4 * highest + 3, most);
+  const Index waves = parameters.elements / std::gcd(parameters.wave_number, parameters.elements);
+  return RingDisturbances::is_exact(waves, wide) ? wide : std::min(2 * highest + 1, most);
+}
+
 }  // namespace
 
 FloquetResponse::FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
@@ -63,8 +75,26 @@ RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vec
   return found;
 }
 
+/// What was found where a thread last looked: eigenvalues and test functions are asked for one after the
+/// other.
+struct FloquetResponse::Last {
+  const FloquetResponse* problem = nullptr;
+  Vector unknowns;
+  Vector parameters;
+  int regime = 0;
+  RingDisturbances::Disturbances active;
+};
+
+const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector& p, int regime) const {
+  thread_local Last last;
+  const bool known =
+      last.problem == this && last.regime == regime && last.unknowns == u && last.parameters == p;
+  if (!known) last = {this, u, p, regime, found(u, p, regime, patterns(u, p, regime), true)};
+  return last;
+}
+
 bool FloquetResponse::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
-  const auto all = found(u, p, regime, patterns(u, p, regime), true).all;
+  const auto& all = last(u, p, regime).active.all;
   values.resize(std::ssize(all));
   std::transform(all.begin(), all.end(), values.begin(), [](const auto& one) { return one.exponent; });
   return true;
@@ -75,7 +105,7 @@ std::vector<PointType> FloquetResponse::test_types() const {
 }
 
 void FloquetResponse::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  const std::vector<double> all = disturbances_.at(p(eta), patterns(u, p, regime), true).symmetries;
+  const std::vector<double>& all = last(u, p, regime).active.symmetries;
   values = Vector::Map(all.data(), std::ssize(all));
 }
 
@@ -97,19 +127,21 @@ FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p, 
 
 std::vector<continuation::Observable> FloquetResponse::observables() const {
   std::vector<continuation::Observable> all = HarmonicResponse::observables();
-  for (const char* name : {"growth", "growth_error", "worst_wave"}) all.push_back({name});
+  for (const char* name : {"growth", "growth_error", "worst_wave", "stable"}) all.push_back({name});
   return all;
 }
 
 void FloquetResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   HarmonicResponse::observe(u, p, regime, values);
   const Worst found = worst(u, p, regime);
+  const double error = growth_error(u, p, regime, found.growth);
+  const double stable = found.growth + error <= 1 ? 1 : found.growth - error > 1 ? 0 : none;
   const Index before = values.size();
-  values.conservativeResize(before + 3);
-  values.tail<3>() << found.growth, growth_error(u, p, regime, found.growth), static_cast<double>(found.wave);
+  values.conservativeResize(before + 4);
+  values.tail<4>() << found.growth, error, static_cast<double>(found.wave), stable;
 }
 
-/// What is left out falls as h^-3.
+/// What is left out falls as h^-3, though not from each harmonic to the next: twice what that gives.
 double FloquetResponse::growth_error(const Vector& u, const Vector& p, int regime, double growth) const {
   if (finer_ == nullptr) return none;
   if (regime == 0) return 0;
@@ -117,18 +149,58 @@ double FloquetResponse::growth_error(const Vector& u, const Vector& p, int regim
   if (!at) return none;
   const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;
   const double ratio = static_cast<double>(system().orders.back()) / finer_->system().orders.back();
-  return std::abs(growth - other) / std::abs(1 - std::pow(ratio, 3));
+  if (growth == other) return 0;
+  return 2 * std::abs(growth - other) / std::abs(1 - std::pow(ratio, 3));
+}
+
+/// By secants.
+std::optional<double> FloquetResponse::moved_by(const Guess& at, Index parameter) const {
+  if (finer_ == nullptr) return std::nullopt;
+  const auto own = disturbances(at.unknowns, at.parameters, at.regime);
+  const auto on_axis = std::min_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.exponent.real()) < std::abs(b.exponent.real());
+  });
+  if (on_axis == own.end()) return std::nullopt;
+  Complex nu = disturbances_.turned(*on_axis, at.parameters(eta));
+  std::optional<Guess> finer = solved_in(*finer_, *this, at);
+  const double start = at.parameters(parameter);
+  double here = start;
+  double rate_before = 0;
+  double before = 0;
+  for (int round = 0; finer && round < 12; ++round) {
+    const auto all = finer_->disturbances(finer->unknowns, finer->parameters, finer->regime);
+    const auto same = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+      return std::abs(finer_->disturbances_.turned(a, finer->parameters(eta)) - nu) <
+             std::abs(finer_->disturbances_.turned(b, finer->parameters(eta)) - nu);
+    });
+    nu = finer_->disturbances_.turned(*same, finer->parameters(eta));
+    const double rate = same->exponent.real();
+    const double step = round == 0 ? 1e-5 * start : -rate * (here - before) / (rate - rate_before);
+    if (rate == 0 || (round > 0 && std::abs(step) < 1e-10 * start)) return here - start;
+    if (!(std::abs(here + step - start) < 0.1 * start)) return std::nullopt;
+    before = here;
+    rate_before = rate;
+    here += step;
+    finer->parameters(parameter) = here;
+    finer = solved_in(*finer_, *finer_, *finer);
+  }
+  return std::nullopt;
+}
+
+std::set<Index> disturbed_waves(const SystemParameters& parameters) {
+  std::set<Index> all;
+  for (const int highest : {parameters.harmonics.back(), other_highest(parameters)})
+    all.merge(RingDisturbances::waves(parameters.wave_number, parameters.elements, highest));
+  return all;
 }
 
 std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
-  constexpr int most = 2 * most_harmonics - 1;
   const auto build = [](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
     return std::make_shared<FloquetResponse>(build_harmonic_system(one),
                                              ring_waves(one, one.harmonics.back() + 1), std::move(finer));
   };
   SystemParameters other = parameters;
-  const int highest = parameters.harmonics.back();
-  other.harmonics = odd_up_to(highest < most ? std::min(2 * highest + 1, most) : most / 2);
+  other.harmonics = odd_up_to(other_highest(parameters));
   return build(parameters, build(other, nullptr));
 }
 

@@ -185,6 +185,18 @@ bool is_structural(const SystemParameters& system) {
          (damper != nullptr && damper->loss(system.damper_damping).structural != 0);
 }
 
+/// Refuses sectors that disturbances cannot run through.
+void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
+  if (!system.sectors) return;
+  for (const Index wave : problems::disturbed_waves(system)) {
+    try {
+      system.sectors->check({wave, system.elements});
+    } catch (const SectorError& error) {
+      section.fail("stability", fmt::format("disturbances of {} waves: {}", wave, error.what()));
+    }
+  }
+}
+
 /// Refuses stability of what has no exponents.
 void check_stability(const TomlSection& section, const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
@@ -198,6 +210,7 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
   if (system.sectors && system.sectors->path() == SectorPath::full)
     section.fail("stability", R"(needs the modes of path = "reduced")");
+  check_disturbed_waves(section, system);
 }
 
 /// The value of the second parameter at which the first points of a curve are looked for.

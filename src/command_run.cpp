@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "stability_results.hpp"
 #include "verification_results.hpp"
 
 namespace arcslip {
@@ -63,7 +64,8 @@ std::string tables(const Case& input, const std::vector<TracedBranch>& traced, c
     if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
     const ProblemRequest& problem = traced[i].request->problem;
     if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
-    text += describe_harmonics(traced[i]) + special_table_header(traced[i]) + special_table(i, traced[i]);
+    text += describe_harmonics(traced[i]) + special_table_header(traced[i]) + special_table(i, traced[i]) +
+            describe_stability(traced[i]);
     if (traced[i].branch.stop != continuation::Stop::reached_end)
       text += fmt::format("{}: {}\n", to_string(traced[i].branch.stop), traced[i].branch.explanation);
     points += traced[i].branch.points.size();

@@ -145,12 +145,26 @@ void DisturbanceFlow::add_modes(double eta, Flow& flow) const {
 }
 
 /// Where all contacts slip, base and damper are free to move as rigid bodies with all sliders.
-Index DisturbanceFlow::drifts(std::span<const StickPattern> contacts) const {
+Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> contacts) const {
+  Matrix found(size, 0);
   if (orders_.front() != 0 ||
       !std::all_of(contacts.begin(), contacts.end(), [](const StickPattern& one) { return one.slips; }))
-    return 0;
-  return std::count_if(coordinates_.begin(), coordinates_.end(),
-                       [](const Coordinate& one) { return one.order == 0 && one.mode.frequency == 0; });
+    return found;
+  const Index inner = places_.size() - 1;
+  for (const Coordinate& one : coordinates_) {
+    if (one.order != 0 || one.mode.frequency > 0) continue;
+    found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+    auto drift = found.col(found.cols() - 1);
+    drift.setZero();
+    drift(one.place) = 1;
+    Index slider = modal_states_;
+    for (Index i = 0; i < springs_.size(); ++i) {
+      const Index count = inner * std::ssize(contacts[static_cast<std::size_t>(i)].arcs);
+      drift.segment(slider, count).setConstant(one.mode.shape(i).real());
+      slider += count;
+    }
+  }
+  return found;
 }
 
 /// rho_h of each contact, by `size` states.
@@ -190,8 +204,7 @@ Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> contact
 
 ComplexVector DisturbanceFlow::exponents(double eta, std::span<const StickPattern> contacts) const {
   const Matrix flow = matrix(eta, contacts);
-  ComplexVector found = spectrum(flow);
-  found.conservativeResize(found.size() - drifts(contacts));
+  ComplexVector found = spectrum(deflated(flow, drifts(flow.rows(), contacts)));
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * flow.norm();
   for (Complex& sigma : found) {
     if (std::abs(sigma.real()) < rounding) sigma.real(0);

@@ -12,6 +12,7 @@
 #include "arcslip/sector_pair.hpp"
 #include "certificate_results.hpp"
 #include "full_receptance.hpp"
+#include "stability_results.hpp"
 #include "verification_results.hpp"
 
 namespace arcslip {
@@ -54,7 +55,7 @@ class Columns {
   /// Those that tables and summaries show of a special point.
   std::vector<Index> shown() const {
     std::vector<Index> indices;
-    for (const char* name : {"eta", "zeta", "zeta_B", "P", "R_over_S", "Y"}) {
+    for (const char* name : {"eta", "zeta", "zeta_B", "P", "R_over_S", "Y", "growth", "worst_wave"}) {
       if (const Index i = find(name); i >= 0) indices.push_back(i);
     }
     if (find("R_over_S") >= 0) return indices;
@@ -149,6 +150,7 @@ ordered_json special_points(const TracedBranch& traced) {
       special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
     const std::vector<double> in_units = physical.values(values);
     for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
+    if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
     listed.push_back(std::move(special));
   }
   return listed;

@@ -54,7 +54,7 @@ struct RingDisturbances::Builder {
   bool is_odd = waves.nodes() / common % 2 == 1;
 
   /// Whether all waves are taken exactly.
-  bool is_small() const { return waves.nodes() / common < 2 * highest + 3; }
+  bool is_small() const { return is_exact(waves.nodes() / common, highest); }
 
   void cell(TurnedFlow::Kind kind, Index wave, Index nodes, Index from, Index to, bool own, int symmetries) {
     std::vector<TurnedFlow::Wave> all;
@@ -139,6 +139,21 @@ RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves
   }
 }
 
+std::set<Index> RingDisturbances::waves(Index wave_number, Index nodes, int highest) {
+  std::set<Index> found;
+  const RingWaves asked(wave_number, nodes, [&](Index wave) {
+    found.insert(wave);
+    return RingWaves::Structures{ContactModes(1, {}, {}), ContactModes(1, {}, {})};
+  });
+  std::vector<Cell> cells;
+  Builder builder{asked, Vector::Ones(1), highest, cells};
+  builder.build();
+  if (!builder.is_small()) {
+    for (int h = 0; h <= highest + 1; h += 2) asked.structures(h * wave_number);
+  }
+  return found;
+}
+
 std::size_t RingDisturbances::symmetries() const {
   return std::accumulate(
       cells_.begin(), cells_.end(), std::size_t{balanced_ ? 1U : 0U},
@@ -195,6 +210,12 @@ RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const 
     }
   }
   return found;
+}
+
+Complex RingDisturbances::turned(const Disturbance& one, double eta) const {
+  const double node = 2 * pi / static_cast<double>(waves_.nodes());
+  return std::exp(one.exponent * (node * static_cast<double>(waves_.wave_number()) / eta) -
+                  Complex(0, node * static_cast<double>(one.wave)));
 }
 
 Index RingDisturbances::wave_of(const Disturbance& one, double eta,

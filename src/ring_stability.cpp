@@ -6,21 +6,6 @@
 #include "arcslip/spectrum.hpp"
 
 namespace arcslip {
-namespace {
-
-/// What `matrix` does across its eigenvector `unit`: a reflection takes this to the first axis.
-Matrix deflated(const Matrix& matrix, const Vector& unit) {
-  Vector mirror = unit;
-  mirror(0) += unit(0) < 0 ? -1 : 1;
-  mirror.normalize();
-  Matrix turned = matrix - 2 * mirror * (mirror.transpose() * matrix);
-  turned -= 2 * (turned * mirror) * mirror.transpose();
-  const Index rest = matrix.rows() - 1;
-  return turned.bottomRightCorner(rest, rest);
-}
-
-}  // namespace
-
 double RingStability::growth() const { return std::pow(std::abs(turned(0)), periods); }
 
 Index RingStability::unstable(double margin) const {
@@ -41,7 +26,7 @@ RingStability floquet_stability(RingMotion& motion, const RingState& state) {
   stability.periods = static_cast<double>(ring.nodes()) / static_cast<double>(ring.wave_number);
   stability.slips = motion.count().events > before ||
                     std::any_of(state.slip.begin(), state.slip.end(), [](int sign) { return sign != 0; });
-  const Matrix free = stability.slips ? deflated(derivative, neutral_drift(ring))
+  const Matrix free = stability.slips ? deflated(derivative, Matrix(neutral_drift(ring)))
                                       : Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates));
   stability.turned = spectrum(free);
   return stability;

@@ -2,10 +2,20 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 
 namespace arcslip {
 namespace {
+
+template <class Dense>
+Dense deflate(Dense matrix, const Dense& subspace) {
+  const Eigen::HouseholderQR<Dense> turned(subspace);
+  matrix.applyOnTheLeft(turned.householderQ().adjoint());
+  matrix.applyOnTheRight(turned.householderQ());
+  const Index rest = matrix.rows() - subspace.cols();
+  return matrix.bottomRightCorner(rest, rest);
+}
 
 ComplexVector sorted(ComplexVector values) {
   std::sort(values.begin(), values.end(),
@@ -18,6 +28,12 @@ ComplexVector sorted(ComplexVector values) {
 ComplexVector spectrum(const Matrix& matrix) { return sorted(matrix.eigenvalues()); }
 
 ComplexVector spectrum(const ComplexMatrix& matrix) { return sorted(matrix.eigenvalues()); }
+
+Matrix deflated(const Matrix& matrix, const Matrix& subspace) { return deflate(matrix, subspace); }
+
+ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace) {
+  return deflate(matrix, subspace);
+}
 
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
   const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);

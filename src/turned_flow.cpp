@@ -80,6 +80,25 @@ class Flow {
     return state;
   }
 
+  /// Rigid motions that all sliders follow, which nothing resists.
+  Dense<Scalar> drifts() const {
+    const auto size = std::ssize(coordinates_);
+    const std::vector<Slot>& sticking = schedule_.intervals().front().sticking;
+    const bool all_slip =
+        std::all_of(contacts_.begin(), contacts_.end(), [](const StickPattern& one) { return one.slips; });
+    Dense<Scalar> found(2 * size + std::ssize(sticking), 0);
+    for (Index i = 0; i < size && all_slip; ++i) {
+      if (coordinates_[static_cast<std::size_t>(i)].mode.frequency > 0) continue;
+      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+      auto drift = found.col(found.cols() - 1);
+      drift.setZero();
+      drift(i) = 1;
+      Index slider = 2 * size;
+      for (const Slot& slot : sticking) drift(slider++) = row(slot)(i);
+    }
+    return found;
+  }
+
   /// Relative error that rounding may have left in an eigenvalue of modulus 1.
   double rounding() const { return 64 * std::numeric_limits<double>::epsilon() * (1 + rate_); }
 
@@ -170,33 +189,6 @@ class Flow {
   double rate_ = 0;
 };
 
-/// The multipliers of rigid motions that all sliders follow.
-std::vector<Complex> drifts(const std::vector<Coordinate>& coordinates, Index nodes,
-                            std::span<const StickPattern> contacts) {
-  std::vector<Complex> all;
-  if (!std::all_of(contacts.begin(), contacts.end(), [](const StickPattern& one) { return one.slips; }))
-    return all;
-  for (const Coordinate& one : coordinates) {
-    if (one.mode.frequency > 0) continue;
-    const Complex factor = std::polar(1.0, -one.order * pi / static_cast<double>(nodes));
-    all.push_back(one.part == Part::imaginary ? std::conj(factor) : factor);
-  }
-  return all;
-}
-
-/// The eigenvalues that count.
-std::vector<Complex> kept(const ComplexVector& found, const std::vector<Complex>& left_out) {
-  std::vector<Complex> all(found.begin(), found.end());
-  for (const Complex& drift : left_out) {
-    const auto nearer = [&](const Complex& a, const Complex& b) {
-      return std::abs(a - drift) < std::abs(b - drift);
-    };
-    all.erase(std::min_element(all.begin(), all.end(), nearer));
-  }
-  std::erase_if(all, [](const Complex& nu) { return std::abs(nu) < forgotten; });
-  return all;
-}
-
 /// Exponents of an oscillator by itself.
 std::array<Complex, 2> roots(const Oscillator& mode) {
   const Complex root =
@@ -263,8 +255,8 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
     for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
   }
   const auto add = [&]<class Scalar>(Flow<Scalar> flow) {
-    const ComplexVector found = spectrum(flow.turned_map());
-    for (const Complex& nu : kept(found, drifts(apart.held, nodes_, contacts))) {
+    for (const Complex& nu : spectrum(deflated(flow.turned_map(), flow.drifts()))) {
+      if (std::abs(nu) < forgotten) continue;
       const double size = std::log(std::abs(nu));
       const double angle = nu.imag() != 0 ? std::arg(nu) / pi : nu.real() < 0 ? 1 : 0;
       all.emplace_back(std::abs(size) < flow.rounding() ? 0 : size / step(eta),

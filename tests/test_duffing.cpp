@@ -1,5 +1,6 @@
 // Duffing's oscillator q'' + 0.05 q' + q + 0.1 q^3 = 0.18 cos(W t), example 1 of NLvib, by harmonic balance.
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "arcslip/continuation/newton.hpp"
@@ -233,5 +234,34 @@ TEST_CASE("Duffing's exponents are those of the monodromy matrix", "[hill]") {
     CAPTURE(W, found);
     // Next to each other multipliers are as the square root of an error, their sum is not.
     CHECK(std::abs(found.sum() - monodromy(variation, period, 500).trace()) < 1e-7);  // 80 steps a radian
+  }
+}
+
+TEST_CASE("Where Duffing's motion loses its symmetry a multiplier of half a period passes 1", "[hill]") {
+  const Instance duffing("duffing", {{"harmonics", 25}, {"k3", 1}, {"delta", 0.2}, {"W", 1}});
+  const Branch branch = duffing.trace(over("force", 0.01, 12));
+  REQUIRE(branch.complete());
+  const std::vector<BranchPoint> broken = of_type(branch, PointType::symmetry_breaking);
+  REQUIRE(broken.size() == 2);
+  for (const BranchPoint& point : broken) {
+    const double W = point.parameters(0);
+    const auto variation = [&](double t) {
+      double q = 0;
+      for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
+        const double turn = static_cast<double>(2 * k + 1) * W * t;
+        q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
+      }
+      return Eigen::Matrix2d{{0, 1}, {-1 - 3 * q * q, -0.2}};
+    };
+    const Matrix half = monodromy(variation, M_PI / W, 2000);
+    CHECK_THAT((half - Matrix::Identity(2, 2)).determinant(), WithinAbs(0, 1e-8));  // of 25 harmonics
+    CHECK(point.eigenvalues.cwiseAbs().minCoeff() < 1e-8);
+  }
+  for (const BranchPoint& point : branch.points) {
+    if (point.type != PointType::regular) continue;
+    CAPTURE(point.parameters(1));
+    const bool between =
+        point.parameters(1) > broken[0].parameters(1) && point.parameters(1) < broken[1].parameters(1);
+    CHECK(point.unstable == (between ? 1 : 0));
   }
 }

@@ -42,7 +42,7 @@ ring_stability ring_waves ritz_space sector sector_modes sector_pair sector_redu
 shape_functions spectrum stick_pattern stick_schedule system turned_flow)");
 const std::set<std::string, std::less<>> files = words(R"(
 case_file certificate_results continuation_section database for_each geometry_section output results runs sector_files
-sector_section study_case study_checksum study_extras study_results study_run study_store system_section
+sector_section stability_results study_case study_checksum study_extras study_results study_run study_store system_section
 toml_reader uncertain_section verification_results)");
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.

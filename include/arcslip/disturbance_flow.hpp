@@ -48,7 +48,7 @@ class DisturbanceFlow {
     Index place = 0;  ///< of its state
   };
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
-  Index drifts(std::span<const StickPattern> contacts) const;
+  Matrix drifts(Index size, std::span<const StickPattern> contacts) const;
 
   Matrix matrix(double eta, std::span<const StickPattern> contacts) const;
   ComplexMatrix relative_motion(Index size) const;

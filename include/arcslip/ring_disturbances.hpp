@@ -13,6 +13,7 @@
 // those of cells left out.
 
 #include <optional>
+#include <set>
 
 #include "arcslip/disturbance_flow.hpp"
 #include "arcslip/turned_flow.hpp"
@@ -41,6 +42,12 @@ class RingDisturbances {
     std::vector<double> symmetries;
   };
 
+  /// Whether all classes are looked at as a whole, where N/gcd(n, N) is `waves` and H `highest`.
+  static bool is_exact(Index waves, int highest) { return waves < 2 * highest + 3; }
+
+  /// The waves, 0 .. N/2, under which the structures are asked for.
+  static std::set<Index> waves(Index wave_number, Index nodes, int highest);
+
   /// How many symmetries there are.
   std::size_t symmetries() const;
 
@@ -50,6 +57,9 @@ class RingDisturbances {
 
   /// `active`: only those of cells in which something may grow, and of the response's own.
   Disturbances at(double eta, std::span<const StickPattern> contacts, bool active) const;
+
+  /// nu of ring_stability.hpp, which is the same for whatever l and lambda stand for a disturbance.
+  Complex turned(const Disturbance& one, double eta) const;
 
   /// The wave, of 0 .. N - 1, that one of these mostly is (disturbed_wave.hpp).
   Index wave_of(const Disturbance& one, double eta, std::span<const StickPattern> contacts) const;

@@ -8,6 +8,11 @@ namespace arcslip {
 ComplexVector spectrum(const Matrix& matrix);
 ComplexVector spectrum(const ComplexMatrix& matrix);
 
+/// What is left of a matrix without the subspace that these columns span, which it maps into itself: its
+/// other eigenvalues are those of this. Exact where some of them come near those of the subspace, too.
+Matrix deflated(const Matrix& matrix, const Matrix& subspace);
+ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace);
+
 /// The vector of an eigenvalue, of length 1.
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value);
 

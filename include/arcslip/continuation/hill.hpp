@@ -33,6 +33,10 @@ FloquetExponents floquet_exponents(const std::vector<ComplexMatrix>& coefficient
 /// zero where a rate of the same `twice_h` passes mu = -1.
 double doubling_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h);
 
+/// prod (1 - mu) but for a positive factor: that of whole i, with a simple zero where a rate of the same
+/// `twice_h` passes mu = 1.
+double returning_determinant(const std::vector<ComplexMatrix>& coefficients, double w, Index twice_h);
+
 /// How many of the coefficients c_0, c_1, ... of a smooth periodic solution its exponents depend on: those
 /// above 1e-12 of the largest and two more, since what is left out counts by its square.
 Index significant(const ComplexVector& coefficients);

@@ -42,9 +42,16 @@ class DuffingOscillator : public continuation::Problem {
   bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
+  /// Zero where it does.
+  std::vector<continuation::PointType> test_types() const override {
+    return {continuation::PointType::symmetry_breaking};
+  }
+  void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+
  private:
   Index count() const { return basis_.cols() / 2; }  // of harmonics
   Matrix linear_part(const Vector& p) const;
+  std::vector<ComplexMatrix> variation(const Vector& u, const Vector& p) const;
 
   Matrix basis_;  // samples x n: cos k t, sin k t at t in [0, pi)
 };

@@ -50,15 +50,28 @@ class FloquetResponse : public HarmonicResponse {
   };
   Worst worst(const Vector& u, const Vector& p, int regime) const;
 
+  /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has
+  /// it there in the harmonics of `finer`; none without them, and where no such place is found.
+  std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const;
+
+  /// The highest of those harmonics; 0 without them.
+  int finer_highest() const { return finer_ ? finer_->system().orders.back() : 0; }
+
  private:
   std::vector<StickPattern> patterns(const Vector& u, const Vector& p, int regime) const;
   RingDisturbances::Disturbances found(const Vector& u, const Vector& p, int regime,
                                        std::span<const StickPattern> contacts, bool active) const;
+  struct Last;
+  const Last& last(const Vector& u, const Vector& p, int regime) const;
+  Complex turned(const RingDisturbances::Disturbance& one, double eta_value) const;
   double growth_error(const Vector& u, const Vector& p, int regime, double growth) const;
 
   RingDisturbances disturbances_;
   std::shared_ptr<const FloquetResponse> finer_;
 };
+
+/// The numbers of waves, 0 .. N/2, under which it and the response by which it tells its error are disturbed.
+std::set<Index> disturbed_waves(const SystemParameters& parameters);
 
 /// The response of `parameters`, and that in more harmonics by which it tells its error. Throws SectorError.
 std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters);
