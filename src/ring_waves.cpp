@@ -1,6 +1,7 @@
 #include "arcslip/ring_waves.hpp"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -43,6 +44,32 @@ std::vector<Oscillator> joined(const std::vector<Oscillator>& rigid) {
   return all;
 }
 
+/// Real shapes in place of each group of modes of one frequency and damping, of a structure whose waves are
+/// their own conjugates: sum s s^H over the group, all that the contacts know of it, is real.
+std::vector<Oscillator> made_real(std::vector<Oscillator> modes) {
+  constexpr double alike = 1e-9;  // well above what is left of equal frequencies by their computation
+  std::sort(modes.begin(), modes.end(),
+            [](const Oscillator& a, const Oscillator& b) { return a.frequency < b.frequency; });
+  for (std::size_t first = 0; first < modes.size();) {
+    std::size_t next = first + 1;
+    while (next < modes.size() &&
+           modes[next].frequency - modes[next - 1].frequency <= alike * modes[next].frequency)
+      ++next;
+    Matrix parts(modes[first].shape.size(), 2 * static_cast<Index>(next - first));
+    for (std::size_t k = first; k < next; ++k)
+      parts.middleCols(2 * static_cast<Index>(k - first), 2) << modes[k].shape.real(), modes[k].shape.imag();
+    const Eigen::JacobiSVD<Matrix> axes(parts, Eigen::ComputeThinU);
+    for (std::size_t k = first; k < next; ++k) {
+      const auto i = static_cast<Index>(k - first);
+      modes[k].shape.setZero();
+      if (i < axes.singularValues().size())
+        modes[k].shape.real() = axes.matrixU().col(i) * axes.singularValues()(i);
+    }
+    first = next;
+  }
+  return modes;
+}
+
 /// Under a wave that runs the other way, without load.
 ContactModes conjugate(const ContactModes& structure) {
   std::vector<ContactMode> modes = structure.modes();
@@ -73,13 +100,12 @@ std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes
     const Loss& loss = structure->loss();
     if (loss.structural != 0 || structure->is_solved())
       throw std::invalid_argument("stability needs modes with viscous or modal damping");
+    std::vector<Oscillator> of_structure;
     for (const ContactMode& mode : noticeable(*structure, slowest)) {
-      Oscillator one{mode.frequency, loss.part_eta(mode.frequency), mode.shape};
-      Index largest = 0;
-      const double size = mode.shape.cwiseAbs().maxCoeff(&largest);
-      if (real && size > 0) one.shape *= std::conj(mode.shape(largest)) / size;
-      (mode.frequency > 0 ? all : rigid).push_back(std::move(one));
+      of_structure.push_back({mode.frequency, loss.part_eta(mode.frequency), mode.shape});
     }
+    if (real) of_structure = made_real(std::move(of_structure));
+    for (Oscillator& one : of_structure) (one.frequency > 0 ? all : rigid).push_back(std::move(one));
   }
   for (Oscillator& mode : joined(rigid)) all.push_back(std::move(mode));
   return all;

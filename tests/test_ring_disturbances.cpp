@@ -263,7 +263,7 @@ TEST_CASE("The worst disturbance of random rings is that of all nodes in time as
   CAPTURE(seed, ring.system.wave_number, ring.system.elements);
   const std::vector<double> found = errors(ring, {9, 59});
   CHECK(found[1] < 2e-5);  // where harmonics of many times w meet the ring's lowest modes again; else 1e-6
-  CHECK(found[1] < 0.02 * found[0]);  // as h^-3: 280 times
+  CHECK((found[1] < 1e-7 || found[1] < 0.02 * found[0]));  // as h^-3: 280 times; the former by chance at 9
   CHECK(found[0] < growth_of(ring, 9, false).error);
 }
 
@@ -340,10 +340,11 @@ TEST_CASE("A limit cycle that its own wave leaves alone may lose it to the other
 TEST_CASE("Points of a branch grow as those that are verified in time", "[stability]") {
   const bool beams = GENERATE(false, true);
   const Traced run(
-      (beams ? std::string("[system]\nmodel = \"beams\"\nwave_number = 2\nelements = 6\nmass_ratio = 5.0\n"
-                           "frequency_ratio = 4.0\ninterface_stiffness = 2000.0\n"
-                           "damping = { base = 0.02, damper = 0.05 }\nforce = 1.0\npreload = 0.03\nharmonics = 15\n"
-                           "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 14.5\nto = 16.0\n")
+      (beams ? std::string(
+                   "[system]\nmodel = \"beams\"\nwave_number = 2\nelements = 6\nmass_ratio = 5.0\n"
+                   "frequency_ratio = 4.0\ninterface_stiffness = 2000.0\n"
+                   "damping = { base = 0.02, damper = 0.05 }\nforce = 1.0\npreload = 0.03\nharmonics = 15\n"
+                   "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 14.5\nto = 16.0\n")
              : driven_case(2, 6, 15, "from = 3.3\nto = 3.45\n")));
   const auto verified = problems::verify(run.input.branches.front().problem.system, odd_up_to(15),
                                          run.traced.branch, {.samples = 0});
@@ -361,15 +362,18 @@ TEST_CASE("Points of a branch grow as those that are verified in time", "[stabil
 }
 
 TEST_CASE("Negative damping in proportion to stiffness is worst in the shortest waves", "[stability]") {
-  // More waves than one harmonic holds: those beside it are looked at in cells of few.
+  // More waves than five harmonics hold: those beside them are looked at in cells of few.
   const Traced run(
-      driven_case(1, 12, 1, "from = 1.3\nto = 2.0\n[continuation]\nstop_at = [1.45, 1.7, 1.9]\n"));
-  for (const BranchPoint& point : points(run.traced, PointType::user)) {
+      driven_case(1, 16, 5, "from = 1.3\nto = 2.0\n[continuation]\nstop_at = [1.45, 1.7, 1.9]\n"));
+  const auto at = points(run.traced, PointType::user);
+  REQUIRE(at.size() == 3);
+  for (const BranchPoint& point : at) {
     const RingStability ring = in_time(run.traced, point);
-    CAPTURE(point.parameters(0));
-    CHECK(run.value_of(point, "worst_wave") == 6);
-    CHECK_THAT(run.value_of(point, "growth"), WithinRel(ring.growth(), 0.02));  // one harmonic
-    CHECK(point.unstable == ring.unstable());
+    CAPTURE(point.parameters(0), ring.unstable());
+    CHECK(run.value_of(point, "worst_wave") == 8);
+    CHECK_THAT(run.value_of(point, "growth"), WithinAbs(ring.growth(), run.value_of(point, "growth_error")));
+    CHECK_THAT(run.value_of(point, "growth"), WithinRel(ring.growth(), 0.03));
+    CHECK(run.value_of(point, "stable") == 0);
   }
 }
 
@@ -394,9 +398,13 @@ TEST_CASE("What grows without bounds takes no digits from the rest", "[stability
 TEST_CASE("Sectors of several elements and contacts grow as the rods that they are", "[stability]") {
   const TemporaryFolder folder;
   const std::string branch = "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 3.4\nto = 3.5\n";
-  std::string text = paper_system(folder, false, 5);
-  for (std::size_t at = text.find("contact = [1]"); at != std::string::npos; at = text.find("contact = [1]"))
-    text.replace(at, 13, "contact = [1, 2, 3, 4, 5]");
+  // Of 6 and 3 sectors; waves that are their own conjugates have modes of equal frequencies.
+  const int count = GENERATE(5, 10);
+  std::string contacts = "contact = [1";
+  for (int node = 2; node <= count; ++node) contacts += ", " + std::to_string(node);
+  std::string text = paper_system(folder, false, count);
+  for (const std::string one = "contact = [1]"; text.find(one) != std::string::npos;)
+    text.replace(text.find(one), one.size(), contacts + "]");
   text.insert(text.find("wave_number"), "harmonics = 15\n");
   const Traced sectors(folder, text + branch);
   const Traced rods(
