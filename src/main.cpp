@@ -72,7 +72,7 @@ A case file; what follows "optional" need not be given:
   start = 3.0                # trace both ways from here
   all_solutions = false      # true: trace through every solution at start that deflation finds
   switching = false          # true: follow all branches that meet this one; not beside start
-  stability = false          # true: Floquet exponents of a forced response, Neimark-Sacker points
+  stability = false          # true: growth of disturbances of a forced response, in every wave
   extrema_of = ["Y"]         # observables whose peaks and troughs are located
   for_each = { preload = [0.1, 1.0, 10.0] }   # one branch for each; several lists are walked together
   [continuation]             # all optional
