@@ -67,6 +67,7 @@ void Corrector::set_residual_size(double size) {
 }
 
 bool Corrector::evaluate(CurvePoint& point) {
+  if (options_.watch) options_.watch();
   ++work_.evaluations;
   if (!linearization_.evaluate(point.unknowns, point.parameters, point.regime)) return false;
   point.residual = linearization_.residual().lpNorm<Eigen::Infinity>();

@@ -147,10 +147,11 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
   guess.regime = start.regime;
 
   const TraceOptions all = bounded(problem, options, window);
+  const TimeBudget time(all);
   std::string why_first_ended;
   Branch curve = trace_parts([&] { return begin_half(problem, guess, true, all, observer); },
                              [&] {
-                               Branch first = begin_half(problem, guess, false, all, observer);
+                               Branch first = begin_half(problem, guess, false, time.rest(), observer);
                                why_first_ended = first.explanation;
                                return first;
                              },
@@ -165,20 +166,21 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     throw std::invalid_argument(
         "resume: the checkpoint was written by a version that keeps no curve's window");
   if (!checkpoint.window) return resume(as_branch, checkpoint, options, observer);
-  const TraceOptions all = bounded(problem, options, *checkpoint.window);
+  const TimeBudget time(bounded(problem, options, *checkpoint.window));
   std::string why_first_ended;
   const auto go_on = [&](const Progress& progress) {
     problem.set_borders(progress.borders);
     Checkpoint half;
     half.of = checkpoint.of;
     half.ahead = progress;
-    Branch rest = follow_half(problem, observer,
-                              [&](const Observer& follow) { return resume(as_branch, half, all, follow); });
+    Branch rest = follow_half(problem, observer, [&](const Observer& follow) {
+      return resume(as_branch, half, time.rest(), follow);
+    });
     why_first_ended = rest.explanation;
     return rest;
   };
   const auto begin_back = [&](const Guess& guess) {
-    Branch first = begin_half(problem, guess, false, all, observer);
+    Branch first = begin_half(problem, guess, false, time.rest(), observer);
     why_first_ended = first.explanation;
     return first;
   };

@@ -119,7 +119,7 @@ class Collector {
         plain_(problem, {options.tolerance}) {}
 
   void exhaust(const Guess& start) {
-    while (true) {
+    while (!options_.go_on || options_.go_on()) {
       Solution deflated = newton_.run(start, known_);
       if (deflated.outcome != Correction::converged) return;
       // Once more without deflation, which would stretch the last corrections.

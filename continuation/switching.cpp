@@ -94,6 +94,7 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
 
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow, const Observer& observer) {
+  const TimeBudget time(options);
   Map map(problem, index_of(problem.parameter_names(), options.parameter));
   std::vector<Branch> branches;
   std::deque<Guess> waiting;
@@ -116,7 +117,7 @@ std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, 
     Way way = map.way(next.unknowns, next.parameters, next.direction);
     if (map.gone(way)) continue;
     map.go(std::move(way));
-    collect(trace(problem, next, options, observer));
+    collect(trace(problem, next, time.rest(), observer));
   }
   return branches;
 }
@@ -124,7 +125,7 @@ std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, 
 std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,
                                   const TraceOptions& options, const Observer& observer) {
   const Index active = index_of(problem.parameter_names(), options.parameter);
-  TraceOptions landing = options;
+  const TimeBudget time(options);
   std::vector<Branch> branches;
   const auto passed = [&](const Guess& solution) {
     Vector scale(solution.unknowns.size());
@@ -141,10 +142,10 @@ std::vector<Branch> trace_through(const Problem& problem, const std::vector<Gues
   };
   for (const Guess& solution : solutions) {
     if (passed(solution)) continue;
-    landing.stop_at = options.stop_at;
+    TraceOptions landing = time.rest();
     landing.stop_at.push_back(solution.parameters(active));
     branches.push_back(trace_both(problem, solution, landing, observer));
-    if (branches.back().stop == Stop::interrupted) break;
+    if (branches.back().stop == Stop::interrupted || time.is_spent()) break;
   }
   return branches;
 }

@@ -44,6 +44,17 @@ double sense(const TraceOptions& options) { return options.to > options.from ? 1
 
 }  // namespace
 
+double TimeBudget::seconds_left() const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
+  return options_.max_seconds - spent.count();
+}
+
+TraceOptions TimeBudget::rest() const {
+  TraceOptions rest = options_;
+  rest.max_seconds = std::max(seconds_left(), std::numeric_limits<double>::min());
+  return rest;
+}
+
 Guess restart(const BranchPoint& point, bool forward) {
   return {point.unknowns, point.parameters, point.regime, forward ? point.tangent : Vector(-point.tangent)};
 }
@@ -68,8 +79,9 @@ Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to
 
 Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,
                   const Observer& observer) {
+  const TimeBudget time(options);
   return trace_parts([&] { return trace_one_way(problem, guess, true, options, observer); },
-                     [&] { return trace_one_way(problem, guess, false, options, observer); }, guess);
+                     [&] { return trace_one_way(problem, guess, false, time.rest(), observer); }, guess);
 }
 
 Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,
@@ -78,7 +90,11 @@ Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Bra
   if (second.stop == Stop::interrupted && second.checkpoint) second.checkpoint->begin_back = guess;
   if (second.stop == Stop::closed_loop || second.stop == Stop::no_start || second.stop == Stop::interrupted)
     return second;
-  return join(back(), std::move(second));
+  Branch first = back();
+  const bool is_begun = !first.points.empty();
+  Branch whole = join(std::move(first), std::move(second));
+  if (!is_begun && whole.checkpoint) whole.checkpoint->begin_back = guess;
+  return whole;
 }
 
 namespace {
@@ -146,17 +162,19 @@ Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(con
 Branch resume(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
               const Observer& observer) {
   check(problem, options);
+  const TimeBudget time(options);
   if (checkpoint.window)
     throw std::invalid_argument(
         "resume: the checkpoint is one of a curve, which goes on as an ExtendedProblem, by curve.hpp");
   return resume_parts(
       checkpoint,
       [&](const Progress& progress) {
-        Tracer tracer(problem, options, observer);
+        const TraceOptions rest = time.rest();
+        Tracer tracer(problem, rest, observer);
         if (checkpoint.of) tracer.require_same(*checkpoint.of);
         return tracer.run(progress);
       },
-      [&](const Guess& guess) { return trace_one_way(problem, guess, false, options, observer); });
+      [&](const Guess& guess) { return trace_one_way(problem, guess, false, time.rest(), observer); });
 }
 
 }  // namespace arcslip::continuation

@@ -24,6 +24,11 @@ std::vector<Index> tracked_observables(const Problem& problem, const TraceOption
   return tracked;
 }
 
+/// Ends a branch in the midst of a step.
+struct Halt {
+  Stop reason;
+};
+
 }  // namespace
 
 Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observer& observer)
@@ -31,7 +36,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       options_(options),
       observer_(observer),
       parameter_(index_of(problem.parameter_names(), options.parameter)),
-      corrector_(problem, parameter_, {options.tolerance}),
+      corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step),
       watch_(problem, options.events),
       targets_(problem, parameter_, options),
@@ -41,25 +46,37 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
 }
 
 Branch Tracer::run(const Guess& guess, double forward) {
-  start(guess, forward);
-  return go_on();
+  return finished([&] { start(guess, forward); });
 }
 
 Branch Tracer::run(const Progress& progress) {
   require_same(progress);
-  state_ = progress;
-  stepper_.restore(progress);
-  targets_.restore(progress.taken);
-  watch_.look(stepper_.here());
-  return go_on();
+  return finished([&] {
+    state_ = progress;
+    stepper_.restore(progress);
+    targets_.restore(progress.taken);
+    watch_.look(stepper_.here());
+  });
 }
 
-Branch Tracer::go_on() {
+void Tracer::go_on() {
   while (!stopped_) {
+    storing_ = false;
     check_limits();
     if (!stopped_) step();
   }
-  if (!branch_.points.empty() && branch_.stop != Stop::interrupted)
+}
+
+/// The branch that begins so.
+template <class Begin>
+Branch Tracer::finished(const Begin& begin) {
+  try {
+    begin();
+    go_on();
+  } catch (const Halt& ended) {
+    halt(ended.reason);
+  }
+  if (!branch_.points.empty() && branch_.stop != Stop::interrupted && branch_.stop != Stop::time_limit)
     look_at_derivatives(stepper_.here().unknowns, stepper_.here().parameters, stepper_.here().regime);
   if (!branch_.warning.empty()) branch_.explanation += "; " + branch_.warning;
   branch_.work = corrector_.work();
@@ -83,19 +100,30 @@ bool Tracer::out_of_time() const {
   return spent.count() >= options_.max_seconds;
 }
 
+/// A point that was found is stored first.
+void Tracer::watch_clock() const {
+  if (storing_) return;
+  if (options_.go_on && !options_.go_on()) throw Halt{Stop::interrupted};
+  if (out_of_time()) throw Halt{Stop::time_limit};
+}
+
+void Tracer::halt(Stop reason) {
+  const std::string why = reason == Stop::interrupted ? "told to end" : "max_seconds have passed";
+  if (branch_.points.empty()) return stop(reason, why + " before the first point was found");
+  const double last = branch_.points.back().parameters(parameter_);
+  stop(reason, fmt::format("{}; the branch stands at {} = {:.10g}", why, options_.parameter, last));
+}
+
 void Tracer::check_limits() {
   const CurvePoint& here = stepper_.here();
   const Index n = corrector_.size();
-  if (interrupted_) return stop(Stop::interrupted, fmt::format("interrupted at {}", place()));
+  if (interrupted_) return halt(Stop::interrupted);
   if (satisfied_) return stop(Stop::requested, fmt::format("stop_after was satisfied at {}", place()));
   if (static_cast<long>(branch_.points.size()) >= options_.max_points) {
     return stop(Stop::max_points, fmt::format("max_points = {} points were stored; the branch stands at {}",
                                               options_.max_points, place()));
   }
-  if (out_of_time()) {
-    return stop(Stop::time_limit, fmt::format("max_seconds = {:g} have passed; the branch stands at {}",
-                                              options_.max_seconds, place()));
-  }
+  if (out_of_time()) return halt(Stop::time_limit);
   const double largest = here.unknowns.cwiseQuotient(state_.start.scale.head(n)).lpNorm<Eigen::Infinity>();
   if (largest > options_.bound) {
     stop(Stop::unbounded,
@@ -175,6 +203,7 @@ bool Tracer::leaves_range() const {
 
 void Tracer::take() {
   landing_failed_ = false;
+  storing_ = true;
   const bool whole = landing_ == nullptr && events_.empty() && !closing_;
   if (whole && leaves_range()) {
     if (branch_.points.size() > 1) store(PointType::end);
@@ -318,6 +347,7 @@ void Tracer::cross(int border, bool several) {
 
 /// Corners within a regime that no step can pass.
 bool Tracer::turn_back() {
+  storing_ = true;
   const Signs before = state_.signs;
   const std::size_t stored = branch_.points.size();
   if (!stepper_.turn_back()) return false;

@@ -45,6 +45,7 @@ void Tracer::start(const Guess& guess, double forward) {
                               problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
     }
   }
+  storing_ = true;
   watch_.look(stepper_.here());
   state_.signs = signs_at_start(stepper_, watch_);
   // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.

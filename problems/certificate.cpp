@@ -229,6 +229,7 @@ std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<Bran
                                           const CertificateOptions& options) {
   if (points.size() < 2) return Certificate::Gap{0, "there is no second point"};
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (options.go_on && !options.go_on()) return Certificate::Gap{i, "interrupted"};
     const PlanePoint from = prover.point(points[i]);
     const PlanePoint to = prover.point(points[i + 1]);
     std::string reason = i == 0 ? prover.check(from, options.tolerance) : "";

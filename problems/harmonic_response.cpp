@@ -352,7 +352,8 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
   return values;
 }
 
-continuation::Guess HarmonicResponse::guess(double eta_value, double preload_value) const {
+continuation::Guess HarmonicResponse::guess(double eta_value, double preload_value,
+                                            const continuation::TraceOptions& limits) const {
   continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
   guess.parameters << eta_value, preload_value;
   if (!(eta_value > 0 && preload_value > 0 && load(guess.parameters) > 0))
@@ -375,7 +376,11 @@ continuation::Guess HarmonicResponse::guess(double eta_value, double preload_val
   options.from = 1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
   options.to = preload_value;
   options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
+  options.max_seconds = limits.max_seconds;
+  options.go_on = limits.go_on;
   const continuation::Branch branch = trace(*this, guess, options);
+  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+    throw continuation::Unfinished(branch.stop, "on the way from a high preload: " + branch.explanation);
   if (!branch.complete())
     throw std::invalid_argument("HarmonicResponse: no way from a high preload: " + branch.explanation);
   const continuation::BranchPoint& end = branch.points.back();

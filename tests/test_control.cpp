@@ -1,6 +1,8 @@
 // What a user controls: stops, events, observers, restarts.
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "arcslip/continuation/trace.hpp"
 #include "catch.hpp"
@@ -96,6 +98,62 @@ TEST_CASE("The observer sees each point once, in order, and may end the branch")
   REQUIRE(branch.points.size() == seen.size());
   for (std::size_t i = 0; i < seen.size(); ++i) CHECK(branch.points[i].arclength == seen[i]);
   CHECK(branch.checkpoint);
+}
+
+TEST_CASE("A branch that is told to end does so before the next evaluation, wherever it stands") {
+  const Guess guess{vector_of({-1.5}), vector_of({-2})};
+  TraceOptions options = over("mu", -2, 2);
+  options.stop_at = {0.3};
+  const Branch whole = trace(Cusp(), guess, options);
+  REQUIRE(whole.complete());
+  long resumed = 0;
+  for (long allowed = 0;; ++allowed) {
+    long asked = 0;
+    options.go_on = [&] { return asked++ < allowed; };
+    const Branch cut = trace(Cusp(), guess, options);
+    if (cut.complete()) break;
+    CHECK(asked == allowed + 1);
+    CHECK(cut.stop == Stop::interrupted);
+    REQUIRE(cut.points.size() <= whole.points.size());
+    for (std::size_t i = 0; i < cut.points.size(); ++i) check_same(cut.points[i], whole.points[i]);
+    CHECK_THAT(cut.explanation,
+               ContainsSubstring(cut.points.empty() ? "before the first point" : "stands at mu"));
+    REQUIRE(cut.checkpoint.has_value() == !cut.points.empty());
+    if (!cut.checkpoint) continue;
+    options.go_on = {};
+    const Branch rest = resume(Cusp(), *cut.checkpoint, options);
+    CHECK(rest.complete());
+    CHECK_THAT(rest.points.back().unknowns(0), WithinRel(whole.points.back().unknowns(0), 1e-9));
+    ++resumed;
+  }
+  CHECK(resumed > whole.work.evaluations / 2);
+}
+
+TEST_CASE("Time is limited from the first evaluation on, for all parts of a branch together") {
+  long evaluations = 0;
+  const ScalarProblem slow{{"p"},
+                           [&](double x, const Vector& p) {
+                             ++evaluations;
+                             std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                             return std::sin(x) - p(0);
+                           },
+                           [](double x, const Vector&) { return std::cos(x); },
+                           {[](double, const Vector&) { return -1.0; }}};
+  TraceOptions options = over("p", -0.9, 0.9);
+  options.max_seconds = 0.001;
+  const Branch first = trace(slow, {vector_of({1}), vector_of({0})}, options);
+  CHECK(first.stop == Stop::time_limit);
+  CHECK(first.points.empty());
+  CHECK(first.explanation == "max_seconds have passed before the first point was found");
+  CHECK(evaluations == 1);
+
+  options.max_seconds = 0.5;
+  options.max_step = 0.01;
+  evaluations = 0;
+  const Branch both = trace_both(slow, {vector_of({0}), vector_of({0})}, options);
+  CHECK(both.stop == Stop::time_limit);
+  CHECK(both.first_stop == Stop::time_limit);
+  CHECK(evaluations <= 27);  // as many as half a second has room for, and one more in each part
 }
 
 TEST_CASE("A limit of time ends a branch that would go on") {

@@ -8,6 +8,8 @@
 // vector of the parameter it keeps the parameter, which lands on a value exactly [Rheinboldt & Burkardt
 // 1983]. Either way the Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
 
+#include <functional>
+
 #include "arcslip/continuation/bordered_solver.hpp"
 #include "arcslip/continuation/linearization.hpp"
 
@@ -30,6 +32,7 @@ enum class Correction { converged, cannot_evaluate, singular, diverging, too_man
 struct CorrectorOptions {
   double tolerance = 1e-10;  ///< on the largest entry of F
   int max_iterations = 10;
+  std::function<void()> watch = {};  ///< called before each evaluation of F; what it throws ends the work
 };
 
 /// Work counted over a branch.

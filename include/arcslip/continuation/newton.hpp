@@ -32,7 +32,8 @@ struct SolveAllOptions {
   Vector upper;      ///< n
   int starts = 100;  ///< how many are taken in the box, in each regime
   std::uint64_t seed = 1;
-  double distinct = 1e-6;  ///< solutions nearer than this, in the problem's scale, are the same
+  double distinct = 1e-6;            ///< solutions nearer than this, in the problem's scale, are the same
+  std::function<bool()> go_on = {};  ///< asked before each start; false ends the search
 };
 
 /// All solutions at the guesses' parameters that deflated Newton finds [Farrell, Birkisson & Funke 2015] from

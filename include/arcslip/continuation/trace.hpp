@@ -2,8 +2,10 @@
 
 // Pseudo-arclength continuation of F(u, p) = 0 in one parameter, through regimes with located borders.
 
+#include <chrono>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,8 +45,34 @@ struct TraceOptions {
   double max_step = 0.1;     ///< largest step, in scaled arclength
   double min_step = 1e-10;   ///< smallest step; a branch that asks for less has ended
   long max_points = 100000;  ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock
+  /// Wall clock, of all parts of a branch together, the search for its first point included.
+  double max_seconds = std::numeric_limits<double>::infinity();
   double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
+  /// Asked before each evaluation of F; false ends the branch as `interrupted`.
+  std::function<bool()> go_on = {};
+};
+
+/// Thrown where a search ended before it had found what it looked for, for want of time or by an interrupt.
+class Unfinished : public std::runtime_error {
+ public:
+  Unfinished(Stop reason, const std::string& explanation) : std::runtime_error(explanation), stop(reason) {}
+  Stop stop;
+};
+
+/// The time that several branches may take together, from now on.
+class TimeBudget {
+ public:
+  explicit TimeBudget(const TraceOptions& options) : options_(options) {}
+
+  /// The options with the time that is left.
+  TraceOptions rest() const;
+  bool is_spent() const { return !(seconds_left() > 0); }
+
+ private:
+  double seconds_left() const;
+
+  TraceOptions options_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 /// Called at each point stored; false ends the branch as `interrupted`.

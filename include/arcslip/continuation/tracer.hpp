@@ -33,7 +33,9 @@ class Tracer {
   Branch run(const Progress& progress);
 
  private:
-  Branch go_on();
+  template <class Begin>
+  Branch finished(const Begin& begin);
+  void go_on();
   void start(const Guess& guess, double forward);
   Vector raw_tangent() const;
   void look_at_derivatives(const Vector& u, const Vector& p, int regime);
@@ -42,6 +44,8 @@ class Tracer {
   void require_same(const Progress& progress) const;
   Correction start_singular(const Guess& guess, double forward);
   bool out_of_time() const;
+  void watch_clock() const;
+  void halt(Stop reason);
   void check_limits();
   void step();
   bool try_step();
@@ -91,6 +95,7 @@ class Tracer {
   bool stopped_ = false;
   bool interrupted_ = false;
   bool satisfied_ = false;
+  bool storing_ = false;  // when the state is not one to go on from
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   Branch branch_;
 };

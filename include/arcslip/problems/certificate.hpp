@@ -19,6 +19,7 @@
 // The proof is of the equation with the system's numbers as they are in double precision. See interval.hpp
 // for what is assumed of the machine.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ struct CertificateOptions {
   double tolerance = 1e-10;
   /// Of the branch, in (ln q, rho): a segment of more than twice this lacks points.
   double max_step = 0.1;
+  std::function<bool()> go_on = {};  ///< asked before each segment; false leaves it unproven
 };
 
 /// A range of the parameter in which the branch may fold.

@@ -57,8 +57,10 @@ class HarmonicResponse : public continuation::Problem {
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
   /// The solution at (eta, P) on the branch that begins where all contacts stick, under a high preload.
-  /// Throws std::invalid_argument where that cannot be traced.
-  continuation::Guess guess(double eta_value, double preload_value) const;
+  /// Throws std::invalid_argument where that cannot be traced, Unfinished where max_seconds or go_on of the
+  /// limits end it.
+  continuation::Guess guess(double eta_value, double preload_value,
+                            const continuation::TraceOptions& limits = {}) const;
 
   Index contacts() const { return std::ssize(system_.contacts); }
   Index harmonics() const { return std::ssize(system_.orders); }
