@@ -126,11 +126,14 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 
 }  // namespace
 
-BalanceErrors largest_errors(const SystemParameters& parameters, const std::vector<int>& orders,
-                             const continuation::Branch& branch) {
+std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
+                                            const std::vector<int>& orders,
+                                            const continuation::Branch& branch,
+                                            const std::function<bool()>& go_on) {
   BalanceErrors largest;
   const BalancedPoints known(parameters, orders, branch);
   for (const BranchPoint& point : branch.points) {
+    if (go_on && !go_on()) return std::nullopt;
     const Guess at = known.at(point);
     largest.power = std::max(largest.power, power_error(known.problem(), at));
     largest.motion =
@@ -161,6 +164,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
       one.growth = timed.growth;
     }
     all.push_back(one);
+    if (options.found) options.found(one);
   }
   return all;
 }

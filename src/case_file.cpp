@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <tuple>
 
 #include "arcslip/problems/floquet_response.hpp"
@@ -17,6 +18,11 @@
 #include "toml_reader.hpp"
 
 namespace arcslip {
+
+std::vector<std::string> case_sections() {
+  return {"title", "system", "geometry", "branch", "study", "continuation"};
+}
+
 namespace {
 
 using continuation::PointType;
@@ -145,10 +151,9 @@ std::vector<std::string> for_each_keys(const TomlDocument& document, const Libra
 }
 
 /// The input as it is understood, defaults included, without what belongs to [study].
-ordered_json resolve(const TomlDocument& document, const Case& built) {
+ordered_json resolve(const TomlDocument& document, const CaseBranch& first) {
   ordered_json resolved = to_json(document.root());
   resolved.erase("study");
-  const CaseBranch& first = built.branches.front();
   resolve_system(first.problem, resolved["system"]);
   resolve_continuation(first.options, resolved["continuation"]);
   return resolved;
@@ -230,7 +235,7 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
   if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
   if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
-  for (std::size_t i = 0; i < for_each.count(); ++i) {
+  for (const std::size_t i : for_each.samples()) {
     const ForEachSet set = for_each.at(i);
     const double eta = TomlSection(document, "branch", &set.replacements).number("eta", positive());
     range = {std::min(range.first, eta), std::max(range.second, eta)};
@@ -238,55 +243,113 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
   return range;
 }
 
+/// What the branches are made from.
+class BranchSource {
+ public:
+  explicit BranchSource(std::shared_ptr<const TomlDocument> document);
+
+  std::size_t count() const { return for_each_->count(); }
+  CaseBranch branch(std::size_t index) const;
+
+  /// The first branch, after a look at all of them. Each key's rule is an interval, so that of very many
+  /// branches some tell; what another one may still be ends the run when it is met.
+  CaseBranch checked() const;
+
+ private:
+  std::shared_ptr<const TomlDocument> document_;
+  TomlSection section_;
+  const LibraryModel* model_;
+  CaseBranch common_;      ///< what is the same in all branches
+  std::string parameter_;  ///< of a curve, that of the branch on which its first points are looked for
+  std::optional<ForEach> for_each_;
+  SystemUse use_{};
+};
+
+BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
+    : document_(std::move(document)), section_(*document_, "branch") {
+  TomlSection(*document_, "").allow_only(case_sections());
+  if (section_.table() == nullptr) document_->fail(nullptr, "branch", "missing; expected a section [branch]");
+  section_.allow_only(branch_keys);
+  model_ = read_model(*document_);
+  common_ = BranchSection(*document_, section_, model_).read(read_continuation(*document_));
+  parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
+  for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
+  if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
+  if (model_ != nullptr && section_.has("eta")) section_.fail("eta", "only for systems with friction");
+  check_keys(*document_, model_);
+  use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
+  use_.balanced = common_.problem.response == Response::forced || common_.problem.is_mode();
+  if (use_.sectors)
+    std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
+}
+
+CaseBranch BranchSource::branch(std::size_t index) const {
+  auto [values, replacements, made] = for_each_->at(index);
+  CaseBranch branch = common_;
+  branch.values = std::move(values);
+  read_system(*document_, replacements, use_, branch.problem);
+  const TomlSection system(*document_, "system", &replacements);
+  if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
+    system.fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
+  if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
+    system.fail("harmonics", "\"auto\" is only for the forced response");
+  if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())
+    branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
+  if (branch.curve) find_seed(section_, branch);
+  check_stability(section_, branch);
+  return branch;
+}
+
+CaseBranch BranchSource::checked() const {
+  for (const std::size_t index : for_each_->samples()) branch(index);
+  CaseBranch first = branch(0);
+  check_extrema(section_, first);
+  return first;
+}
+
 }  // namespace
 
-std::vector<std::string> case_sections() {
-  return {"title", "system", "geometry", "branch", "study", "continuation"};
+CaseFile::CaseFile(const std::string& path, const std::vector<std::string>& settings)
+    : document_(std::make_shared<const TomlDocument>(path, settings)) {}
+
+const std::string& CaseFile::path() const { return document_->path(); }
+
+bool CaseFile::has(const std::string& section) const { return document_->root().contains(section); }
+
+void CaseFile::named(const std::string& section, const std::function<void()>& work) const {
+  const auto fail = [&](const std::string& why) {
+    document_->fail(document_->root().get(section), section, why);
+  };
+  try {
+    work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail("there is not enough memory for what it asks for");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
 }
 
 bool has_section(const std::string& path, const std::string& name, const std::vector<std::string>& settings) {
-  return TomlDocument(path, settings).root().contains(name);
+  return CaseFile(path, settings).has(name);
+}
+
+CasePlan plan_case(const CaseFile& file) {
+  const auto source = std::make_shared<const BranchSource>(file.document());
+  const TomlSection root(*file.document(), "");
+  CasePlan plan;
+  plan.title = root.has("title") ? root.text("title", {}) : "";
+  plan.count = source->count();
+  plan.branch = [source](std::size_t index) { return source->branch(index); };
+  plan.resolved = resolve(*file.document(), source->checked());
+  return plan;
 }
 
 Case read_case(const std::string& path, const std::vector<std::string>& settings) {
-  const TomlDocument document(path, settings);
-  const TomlSection root(document, "");
-  root.allow_only(case_sections());
-  const TomlSection section(document, "branch");
-  if (section.table() == nullptr) document.fail(nullptr, "branch", "missing; expected a section [branch]");
-  section.allow_only(branch_keys);
-  const LibraryModel* model = read_model(document);
-
-  Case result;
-  result.title = root.has("title") ? root.text("title", {}) : "";
-  const CaseBranch common = BranchSection(document, section, model).read(read_continuation(document));
-  // Of a curve, the branch on which its first points are looked for is what counts.
-  const std::string& parameter = common.curve ? common.curve->active : common.options.parameter;
-  const ForEach for_each(document, section, for_each_keys(document, model), ForEach::Lists::together);
-  if (model == nullptr) check_fixed(section, for_each, common, parameter);
-  if (model != nullptr && section.has("eta")) section.fail("eta", "only for systems with friction");
-  SystemUse use{model, parameter, false, model == nullptr ? read_sectors(document) : nullptr};
-  use.balanced = common.problem.response == Response::forced || common.problem.is_mode();
-  if (use.sectors) std::tie(use.eta_low, use.eta_high) = eta_range(document, for_each, common, parameter);
-  for (std::size_t i = 0; i < for_each.count(); ++i) {
-    const auto [values, replacements, made] = for_each.at(i);
-    CaseBranch branch = common;
-    branch.values = values;
-    read_system(document, replacements, use, branch.problem);
-    if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
-      TomlSection(document, "system", &replacements)
-          .fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
-    if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
-      TomlSection(document, "system", &replacements)
-          .fail("harmonics", "\"auto\" is only for the forced response");
-    if (model == nullptr && parameter != "eta" && !branch.problem.is_limit_cycle())
-      branch.problem.eta = TomlSection(document, "branch", &replacements).number("eta", positive());
-    if (branch.curve) find_seed(section, branch);
-    check_stability(section, branch);
-    result.branches.push_back(std::move(branch));
-  }
-  check_extrema(section, result.branches.front());
-  result.resolved = resolve(document, result);
+  CasePlan plan = plan_case(CaseFile(path, settings));
+  Case result{std::move(plan.title), std::move(plan.resolved), {}};
+  for (std::size_t i = 0; i < plan.count; ++i) result.branches.push_back(plan.branch(i));
   return result;
 }
 

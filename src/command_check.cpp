@@ -12,7 +12,9 @@
 #include "arcslip/sector_pair.hpp"
 #include "arcslip/study_case.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
+#include "printable.hpp"
 
 namespace arcslip {
 
@@ -136,22 +138,31 @@ bool report_derivatives(const CaseBranch& request, std::string& text) {
   return report->worst <= exact;
 }
 
-std::string heading(const CheckOptions& options, const std::string& title) {
-  return fmt::format("{}: {}\n", options.case_path, title.empty() ? "valid" : title);
+std::string heading(const CaseFile& file, const std::string& title) {
+  constexpr std::size_t longest = 200;
+  return fmt::format("{}: {}\n", printable(file.path()), title.empty() ? "valid" : printable(title, longest));
 }
 
+/// Of very many the first ones and the last one are shown.
+constexpr std::size_t most_shown = 100;
+
 /// Prints the branches and, if asked for, how exact their derivatives are; false if one is not.
-bool check_branches(const CheckOptions& options) {
-  const Case input = read_case(options.case_path, options.settings);
-  std::string text = heading(options, input.title);
+bool check_branches(const CaseFile& file, bool derivatives) {
+  const CasePlan plan = plan_case(file);
+  std::string text = heading(file, plan.title);
   bool good = true;
-  for (std::size_t i = 0; i < input.branches.size(); ++i) {
-    const CaseBranch& branch = input.branches[i];
+  for (std::size_t i = 0; i < plan.count; ++i) {
+    if (!derivatives && i == most_shown - 1 && plan.count > most_shown) {
+      text += fmt::format("... and {} more, of which the last one is\n", plan.count - i);
+      i = plan.count - 1;
+    }
+    const CaseBranch branch = plan.branch(i);
+    file.named("system", [&] { try_to_build(branch.problem); });
     const std::string values = arcslip::describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
     if (branch.problem.geometry) text += fmt::format("  {}\n", describe_units(branch.problem));
-    if (options.derivatives) good = report_derivatives(branch, text) && good;
+    if (derivatives) file.named("system", [&] { good = report_derivatives(branch, text) && good; });
   }
   print(text);
   return good;
@@ -180,10 +191,10 @@ std::string describe(const problems::Uncertainty& uncertainty) {
                      describe(uncertainty.force), uncertainty.samples, uncertainty.seed);
 }
 
-void check_study(const CheckOptions& options) {
-  const StudyCase study = read_study(options.case_path, options.settings);
+void check_study(const CaseFile& file) {
+  const StudyCase study = read_study(file);
   const problems::PreloadRange& range = study.range;
-  std::string text = heading(options, study.title);
+  std::string text = heading(file, study.title);
   text += fmt::format("study of {} design{}: P from {:g} to {:g}, peaks between eta = {:g} and {:g}{}\n",
                       study.count, study.count == 1 ? "" : "s", range.from, range.to, range.eta_low,
                       range.eta_high, study.sweep ? "" : ", no sweep.csv");
@@ -202,6 +213,7 @@ void check_study(const CheckOptions& options) {
     const StudyDesign design = study.design(i);
     problem.system = design.system;
     problem.geometry = design.geometry;
+    file.named("system", [&] { try_to_build(problem); });
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
                         arcslip::describe(design.values), describe(problem));
     if (problem.geometry) text += fmt::format("  {}\n", describe_units(problem));
@@ -213,12 +225,15 @@ void check_study(const CheckOptions& options) {
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  const bool study = has_section(options.case_path, "study", options.settings);
-  const bool branches = has_section(options.case_path, "branch", options.settings);
-  if (study) check_study(options);
+  catch_interrupts();
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
+  const CaseFile file(options.case_path, options.settings);
+  const bool study = file.has("study");
+  const bool branches = file.has("branch");
+  if (study) check_study(file);
   if (study && !branches && options.derivatives)
     throw InputError(options.case_path + ": branch: missing; --derivatives compares those of branches");
-  const bool good = (study && !branches) || check_branches(options);
+  const bool good = (study && !branches) || check_branches(file, options.derivatives);
   return good ? status::done : status::incomplete_branch;
 }
 

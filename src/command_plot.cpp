@@ -7,12 +7,15 @@
 
 #include "commands.hpp"
 #include "gnuplot.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
 #include "pictures.hpp"
 
 namespace arcslip {
 
 int plot_command(const std::string& folder) {
+  catch_interrupts();
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   const std::vector<Picture> pictures = pictures_of(folder);
   if (access(folder.c_str(), W_OK) != 0) {
     throw OutputError(
@@ -21,11 +24,9 @@ int plot_command(const std::string& folder) {
   try {
     draw(folder, pictures);
   } catch (const GnuplotNotFound&) {
-    fmt::print(stderr,
-               "arcslip plot: gnuplot was not found; install it (Debian: apt-get install gnuplot-nox)\n");
+    complain("arcslip plot: gnuplot was not found; install it (Debian: apt-get install gnuplot-nox)");
     return status::cannot_write;
   }
-  if (std::fflush(stdout) != 0) throw OutputError("standard output: cannot be written");
   return status::done;
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <iterator>
+#include <utility>
 
 #include "arcslip/case_file.hpp"
 #include "arcslip/results.hpp"
@@ -10,7 +12,10 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
+#include "output_folder.hpp"
+#include "printable.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 #include "stability_results.hpp"
 #include "verification_results.hpp"
 
@@ -23,27 +28,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string progress(std::size_t i, const Case& input, const continuation::BranchPoint& point,
-                     std::size_t points) {
-  const continuation::TraceOptions& options = input.branches[i].options;
-  return fmt::format("branch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}", i + 1,
-                     input.branches.size(), points, point.arclength, options.parameter, options.from,
-                     options.to);
-}
-
-std::vector<TracedBranch> trace_all(const Case& input, bool quiet) {
-  std::vector<TracedBranch> all;
-  ProgressLine line(!quiet);
-  for (std::size_t i = 0; i < input.branches.size() && !interrupted(); ++i) {
-    std::size_t points = 0;
-    const auto watch = [&](const continuation::BranchPoint& point) {
-      if (++points % 256 == 0) line.show([&] { return progress(i, input, point, points); });
-      return !interrupted();
-    };
-    std::vector<TracedBranch> traced = trace(input.branches[i], watch);
-    std::move(traced.begin(), traced.end(), std::back_inserter(all));
-  }
-  return all;
+std::string plural(std::size_t count, const char* what, const char* ending) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : ending);
 }
 
 /// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
@@ -55,84 +41,180 @@ std::string complaint(const continuation::Branch& branch) {
   return "";
 }
 
-std::string tables(const Case& input, const std::vector<TracedBranch>& traced, const std::string& folder,
-                   double seconds) {
-  std::string text = input.title.empty() ? "" : input.title + "\n\n";
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < traced.size(); ++i) {
-    const std::string values = describe(traced[i].request->values);
-    if (!values.empty()) text += fmt::format("{}{}\n", i == 0 ? "" : "\n", values);
-    const ProblemRequest& problem = traced[i].request->problem;
-    if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
-    text += describe_harmonics(traced[i]) + special_table_header(traced[i]) + special_table(i, traced[i]) +
-            describe_stability(traced[i]);
-    if (traced[i].branch.stop != continuation::Stop::reached_end)
-      text += fmt::format("{}: {}\n", to_string(traced[i].branch.stop), traced[i].branch.explanation);
-    points += traced[i].branch.points.size();
-  }
-  return text + fmt::format("\n{} branch{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
-                            traced.size(), traced.size() == 1 ? "" : "es", points, seconds, folder);
+/// Refuses what cannot be verified or what no certificate covers.
+void require_provable(const CaseBranch& branch, const RunOptions& options) {
+  std::string why = options.verify ? why_not_verifiable(branch) : "";
+  if (!why.empty())
+    throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", options.case_path, why));
+  if (options.certify) why = why_not_certifiable(branch);
+  if (why.empty()) return;
+  throw InputError(
+      fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
+                  options.case_path, why));
 }
 
-/// Refuses before anything runs what cannot be verified.
-void require_verifiable(const Case& input, const std::string& path) {
-  for (const CaseBranch& branch : input.branches) {
-    const std::string why = why_not_verifiable(branch);
-    if (!why.empty())
-      throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", path, why));
-  }
+/// The same before anything runs, of as many branches as are looked at in no time.
+void require_provable(const CasePlan& plan, const RunOptions& options) {
+  constexpr std::size_t some = 10'000;
+  if (!options.verify && !options.certify) return;
+  for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
 }
 
-std::vector<VerifiedBranch> verify_all(const std::vector<TracedBranch>& traced, bool quiet) {
-  std::vector<VerifiedBranch> all;
-  ProgressLine line(!quiet);
-  for (std::size_t i = 0; i < traced.size() && !interrupted(); ++i) {
-    const auto progress = [&](std::size_t point, std::size_t points) {
-      line.show([&] {
-        return fmt::format("verifying branch {} of {}: point {} of {}", i + 1, traced.size(), point + 1,
-                           points);
-      });
-      return !interrupted();
-    };
-    all.push_back(verify(i, traced[i], progress));
-  }
-  return all;
-}
+/// One run of the program.
+class Run {
+ public:
+  explicit Run(const RunOptions& options)
+      : options_(options),
+        file_(options.case_path, options.settings),
+        plan_(plan_case(file_)),
+        title_(plan_.title.empty() ? "" : printable(plan_.title) + "\n\n") {}
 
-/// Refuses before anything runs what no certificate covers.
-void require_certifiable(const Case& input, const std::string& path) {
-  for (const CaseBranch& branch : input.branches) {
-    const std::string why = why_not_certifiable(branch);
-    if (why.empty()) continue;
-    throw InputError(
-        fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
-                    path, why));
-  }
-}
+  int execute();
 
-void certify_all(std::vector<TracedBranch>& traced) {
-  for (TracedBranch& branch : traced) {
-    if (interrupted()) return;
-    certify(branch);
-  }
-}
+ private:
+  void trace_request(std::size_t i, RunFiles& files);
+  void report(const TracedBranch& traced, std::size_t number);
+  void certify_branch(TracedBranch& traced, RunFiles& files);
+  void verify_branch(const TracedBranch& traced, RunFiles& files);
+  void show(const std::string& text);
+  void say_interrupted() const;
 
-/// Prints what is proven, on stderr what is not. Whether all is.
-bool report_certificates(const std::vector<TracedBranch>& traced, bool quiet) {
-  bool all = true;
-  for (std::size_t i = 0; i < traced.size(); ++i) {
-    const auto& certificate = traced[i].certificate;
-    const bool proven = certificate && certificate->proven();
-    all = all && proven;
-    if (!certificate) {
-      fmt::print(stderr, "arcslip: branch {}: not certified: interrupted\n", i);
-    } else if (!proven) {
-      fmt::print(stderr, "arcslip: {}", describe_certificate(i, traced[i]));
-    } else if (!quiet) {
-      print(describe_certificate(i, traced[i]));
+  const RunOptions& options_;
+  CaseFile file_;
+  CasePlan plan_;
+  std::string title_;  ///< still to be printed
+  Clock::time_point start_ = Clock::now();
+  std::atomic<std::size_t> begun_ = 0;
+  std::atomic<std::size_t> ended_ = 0;
+  std::size_t points_ = 0;
+  bool complete_ = true;
+  std::string unprinted_;  ///< why standard output cannot be written
+};
+
+int Run::execute() {
+  require_provable(plan_, options_);
+  file_.named("system", [&] { try_to_build(plan_.branch(0).problem); });
+  const OutputFolder folder(results_folder(options_.folder, options_.case_path));
+  RunFiles files(folder.path(), plan_, options_.verify);
+  const BeforeTheEnd finish_by_itself({});
+  {
+    const BeforeTheEnd write_what_there_is([&] {
+      files.finish(seconds_since(start_), true);
+      say_interrupted();
+    });
+    try {
+      for (std::size_t i = 0; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
+    } catch (const InputError&) {
+      files.finish(seconds_since(start_), true);
+      throw;
     }
   }
-  return all;
+  files.finish(seconds_since(start_), interrupted() && (ended_ < plan_.count || !complete_));
+  show(fmt::format("\n{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
+                   plural(files.count(), "branch", "es"), points_, seconds_since(start_), folder.path()));
+  if (ended_ < plan_.count) say_interrupted();
+  if (!unprinted_.empty()) throw OutputError(unprinted_);
+  return complete_ && ended_ == plan_.count ? status::done : status::incomplete_branch;
+}
+
+void Run::trace_request(std::size_t i, RunFiles& files) {
+  CaseBranch request = plan_.branch(i);
+  require_provable(request, options_);
+  request.options.go_on = [] { return !interrupted(); };
+  begun_ = i + 1;
+  ProgressLine line(!options_.quiet);
+  std::size_t points = 0;
+  const auto watch = [&](const continuation::BranchPoint& point) {
+    if (++points % 256 == 0) {
+      line.show([&] {
+        const continuation::TraceOptions& options = request.options;
+        return fmt::format("branch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}", i + 1,
+                           plan_.count, points, point.arclength, options.parameter, options.from, options.to);
+      });
+    }
+    return !interrupted();
+  };
+  std::vector<TracedBranch> traced;
+  try {
+    file_.named("system", [&] { traced = trace(request, watch); });
+  } catch (const InputError& error) {
+    files.add_failed(request, error.what());
+    complete_ = false;
+    complain(fmt::format("{} (branch {}{}{})", error.what(), files.count() - 1,
+                         request.values.empty() ? "" : ": ", describe(request.values)));
+  }
+  for (TracedBranch& one : traced) {
+    {
+      const Undisturbed writing;
+      files.add(one);
+    }
+    report(one, files.count() - 1);
+    if (options_.certify) certify_branch(one, files);
+    if (options_.verify) verify_branch(one, files);
+  }
+  ended_ = i + 1;
+}
+
+void Run::report(const TracedBranch& traced, std::size_t number) {
+  std::string text = std::exchange(title_, "");
+  const std::string values = describe(traced.request->values);
+  if (!values.empty()) text += fmt::format("{}{}\n", number == 0 ? "" : "\n", values);
+  const ProblemRequest& problem = traced.request->problem;
+  if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
+  text += describe_harmonics(traced) + special_table_header(traced) + special_table(number, traced) +
+          describe_stability(traced);
+  if (traced.branch.stop != continuation::Stop::reached_end)
+    text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);
+  points_ += traced.branch.points.size();
+  show(text);
+  const std::string why = complaint(traced.branch);
+  if (why.empty()) return;
+  complete_ = false;
+  complain(fmt::format("arcslip: branch {}: {}", number, why));
+}
+
+/// Prints what is proven, on stderr what is not.
+void Run::certify_branch(TracedBranch& traced, RunFiles& files) {
+  certify(traced);
+  files.add_certificate(*traced.certificate);
+  const std::string text = describe_certificate(files.count() - 1, traced);
+  if (traced.certificate->proven()) return show(text);
+  complete_ = false;
+  complain("arcslip: " + text);
+}
+
+void Run::verify_branch(const TracedBranch& traced, RunFiles& files) {
+  const std::size_t number = files.count() - 1;
+  ProgressLine line(!options_.quiet);
+  problems::VerifyOptions options;
+  options.progress = [&](std::size_t point, std::size_t points) {
+    line.show([&] { return fmt::format("verifying branch {}: point {} of {}", number, point + 1, points); });
+    return !interrupted();
+  };
+  options.found = [&](const problems::Verification& point) { files.add(traced, point); };
+  files.begin_verification();
+  const VerifiedBranch verified = verify(number, traced, options);
+  files.end_verification(verified);
+  if (verified.is_complete()) return show(describe_verification(verified));
+  complete_ = false;
+  complain(fmt::format("arcslip: branch {}: not verified: interrupted after {} of {} points", number,
+                       verified.points.size(), verified.chosen));
+}
+
+/// What cannot be printed is said at the end: the results are to be written whatever becomes of the table.
+void Run::show(const std::string& text) {
+  if (options_.quiet || !unprinted_.empty()) return;
+  try {
+    print(text);
+  } catch (const OutputError& error) {
+    unprinted_ = error.what();
+  }
+}
+
+void Run::say_interrupted() const {
+  complain(fmt::format("arcslip: interrupted: {} of {} not begun{}", plan_.count - begun_,
+                       plural(plan_.count, "branch", "es"),
+                       begun_ > ended_ ? ", one not brought to its end" : ""));
 }
 
 }  // namespace
@@ -142,55 +224,9 @@ std::string results_folder(const std::string& given, const std::string& case_pat
 }
 
 int run_command(const RunOptions& options) {
-  const Clock::time_point start = Clock::now();
-  const Case input = read_case(options.case_path, options.settings);
-  const std::string folder = results_folder(options.folder, options.case_path);
-  if (options.verify) require_verifiable(input, options.case_path);
-  if (options.certify) require_certifiable(input, options.case_path);
-  create_folder(folder);
-  AtomicFile branches(folder + "/branches.csv");
-  AtomicFile summary(folder + "/summary.json");
-
   catch_interrupts();
-  std::vector<TracedBranch> traced = trace_all(input, options.quiet);
-  if (options.certify) certify_all(traced);
-  const double seconds = seconds_since(start);
-
-  write_branches(traced, [&](std::string_view text) { branches.write(text); });
-  summary.write(summarize(input, traced, seconds).dump(2));
-  summary.write("\n");
-  branches.sync();
-  summary.sync();
-  branches.commit();
-  summary.commit();
-  if (!options.quiet) print(tables(input, traced, folder, seconds));
-  if (options.verify) {
-    const std::vector<VerifiedBranch> verified = verify_all(traced, options.quiet);
-    AtomicFile file(folder + "/verify.csv");
-    write_verification(verified, [&](std::string_view text) { file.write(text); });
-    file.sync();
-    file.commit();
-    for (const VerifiedBranch& branch : verified) {
-      if (!options.quiet) print(describe_verification(branch));
-    }
-  }
-
-  int result = status::done;
-  for (std::size_t i = 0; i < traced.size(); ++i) {
-    const std::string why = complaint(traced[i].branch);
-    if (why.empty()) continue;
-    result = status::incomplete_branch;
-    fmt::print(stderr, "arcslip: branch {}: {}\n", i, why);
-  }
-  if (options.certify && !report_certificates(traced, options.quiet)) result = status::incomplete_branch;
-  const auto begun = traced.empty() ? 0 : traced.back().request - input.branches.data() + 1;
-  const auto missing = static_cast<std::ptrdiff_t>(input.branches.size()) - begun;
-  if (missing > 0) {
-    result = status::incomplete_branch;
-    fmt::print(stderr, "arcslip: interrupted: {} of {} branches were not begun\n", missing,
-               input.branches.size());
-  }
-  return result;
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
+  return Run(options).execute();
 }
 
 }  // namespace arcslip

@@ -4,6 +4,7 @@
 
 #include "arcslip/case_file.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
 
 namespace arcslip {
@@ -214,12 +215,15 @@ CLI::App* add_sector_command(CLI::App& app, SectorOptions& options) {
 }
 
 int sector_command(const SectorOptions& options) {
+  catch_interrupts();
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   SectorCase made;
   try {
     made = make(options);
   } catch (const std::invalid_argument& error) {
     throw InputError(fmt::format("arcslip sector: {}", error.what()));
   }
+  const BeforeTheEnd finish_by_itself({});  // all files or none
   write_sector_case(options.folder, made);
   print(fmt::format("{}{} dofs of the base, {} of the damper, eta from {:g} to {:g}: {}/case.toml\n",
                     made.notes, made.base.mass.rows(), made.damper.mass.rows(), made.eta_from, made.eta_to,

@@ -7,6 +7,8 @@
 #include "crew.hpp"
 #include "interrupt.hpp"
 #include "output.hpp"
+#include "output_folder.hpp"
+#include "printable.hpp"
 #include "progress.hpp"
 #include "study_results.hpp"
 
@@ -52,8 +54,8 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
     ++failures;
     const std::string values = describe(study.design(design.curve).values);
-    fmt::print(stderr, "arcslip: design {}{}: {}\n", design.curve, values.empty() ? "" : " (" + values + ")",
-               design.failure);
+    complain(fmt::format("arcslip: design {}{}: {}", design.curve, values.empty() ? "" : " (" + values + ")",
+                         design.failure));
     return true;
   });
   return failures;
@@ -66,7 +68,7 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
   store.tidy();
   if (!options.quiet) {
     const std::size_t before = study.count - work.computed;
-    print((study.title.empty() ? "" : study.title + "\n\n") + study_table(study, store) +
+    print((study.title.empty() ? "" : printable(study.title) + "\n\n") + study_table(study, store) +
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
                       plural(study.count, "design"), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
@@ -78,16 +80,26 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
 int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, Crew& crew) {
   const Clock::time_point start = Clock::now();
   const std::string folder = results_folder(options.folder, options.case_path);
-  create_folder(folder);
+  const OutputFolder held(folder);
   StudyStore store(folder, study, options.resume);
   PendingDesigns pending(store.finished());
   const std::size_t before = study.count - pending.left();
   StudyWork work;
+  const auto say_how_far = [&] {
+    complain(fmt::format("arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}",
+                         before + work.computed, study.count, folder));
+  };
+  const BeforeTheEnd finish_by_itself({});
   {
+    const BeforeTheEnd leave_what_there_is([&] {
+      store.tidy();
+      say_how_far();
+    });
     ProgressLine line(!options.quiet);
     crew.compute(
         study, jobs, pending,
         [&](const FinishedDesign& design) {
+          const Undisturbed storing;
           store.add(design.curve, design.values, design.result, design.scatter());
           ++work.computed;
         },
@@ -99,8 +111,7 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
   }
   work.seconds = seconds_since(start);
   if (before + work.computed == study.count) return conclude(options, study, folder, store, work);
-  fmt::print(stderr, "arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}\n",
-             before + work.computed, study.count, folder);
+  say_how_far();
   return status::incomplete_branch;
 }
 
@@ -109,16 +120,24 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
 int study_command(const StudyOptions& options) {
   Crew crew;
   catch_interrupts();
+  const BeforeTheEnd say_so([leads = crew.leads()] {
+    if (leads) complain("arcslip: interrupted");
+  });
   std::optional<StudyCase> study;
   std::string error;
   try {
-    study = read_study(options.case_path, options.settings);
-  } catch (const InputError& wrong) {
+    const CaseFile file(options.case_path, options.settings);
+    study = read_study(file);
+    file.named("system", [&] { build_system(study->design(0).system); });
+  } catch (const std::exception& wrong) {
     error = wrong.what();
   }
   if (!crew.agree(error)) return status::wrong_input;
   const std::size_t jobs = options.jobs > 0 ? options.jobs : crew.default_jobs();
-  if (!crew.leads()) return crew.assist(*study, jobs);
+  if (!crew.leads()) {
+    const BeforeTheEnd wait_for_the_leader({});
+    return crew.assist(*study, jobs);
+  }
   // What went wrong is said before the others leave: their end may end this process as well.
   const int status = guarded([&] { return lead(options, *study, jobs, crew); });
   crew.dismiss(status);

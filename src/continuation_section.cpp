@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "printable.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -23,16 +25,18 @@ std::vector<continuation::StopAfter> read_stop_after(const TomlDocument& documen
   const auto type_of = [&](const std::string& name, const toml::node& place, const std::string& key) {
     const auto type = continuation::point_type(name);
     if (!type || *type == PointType::regular || *type == PointType::start || *type == PointType::end)
-      document.fail(&place, key, fmt::format("unknown type '{}'; expected {}", name, expected));
+      document.fail(&place, key,
+                    fmt::format("unknown type '{}'; expected {}", printable(name, longest_text), expected));
     return *type;
   };
   if (const toml::table* table = node.as_table()) {
     const TomlSection counts(document, "continuation.stop_after");
     for (const auto& [key, value] : *table) {
       const std::string name(key.str());
-      rules.push_back({type_of(name, value, counts.name(name)),
-                       counts.integer(name, 1, std::numeric_limits<int>::max(), "an integer >= 1"),
-                       {}});
+      rules.push_back(
+          {type_of(name, value, counts.name(name)),
+           counts.integer(name, 1, std::numeric_limits<int>::max(), [] { return "an integer >= 1"; }),
+           {}});
     }
     return rules;
   }
@@ -54,8 +58,8 @@ continuation::TraceOptions read_continuation(const TomlDocument& document) {
   options.min_step = section.number(
       "min_step", {[&](double h) { return h > 0 && h <= options.max_step; }, " > 0 and <= max_step"},
       options.min_step);
-  options.max_points = section.integer("max_points", 2, std::numeric_limits<int>::max(), "an integer >= 2",
-                                       options.max_points);
+  options.max_points = section.integer(
+      "max_points", 2, std::numeric_limits<int>::max(), [] { return "an integer >= 2"; }, options.max_points);
   options.max_seconds = section.number("max_seconds", positive(), options.max_seconds);
   options.stop_after = read_stop_after(document, section);
   return options;

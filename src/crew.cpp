@@ -1,9 +1,10 @@
 #include "crew.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <stdexcept>
 #include <thread>
+
+#include "output.hpp"
 
 namespace arcslip {
 
@@ -17,7 +18,7 @@ bool Crew::leads() const { return true; }
 std::size_t Crew::default_jobs() const { return std::max(1U, std::thread::hardware_concurrency()); }
 
 bool Crew::agree(const std::string& error) const {
-  if (!error.empty()) std::cerr << error << '\n';
+  if (!error.empty()) complain(error);
   return error.empty();
 }
 

@@ -4,12 +4,12 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 #include <cstdlib>
-#include <iostream>
 #include <optional>
 #include <thread>
 
 #include "commands.hpp"
 #include "crew.hpp"
+#include "output.hpp"
 
 namespace arcslip::problems {
 
@@ -143,7 +143,7 @@ bool Crew::agree(const std::string& error) const {
   const int none = processes_ ? processes_->world.size() : 1;
   int first = error.empty() ? none : self;
   if (processes_) first = mpi::all_reduce(processes_->world, first, mpi::minimum<int>());
-  if (first == self) std::cerr << error << std::endl;
+  if (first == self) complain(error);
   if (processes_) processes_->world.barrier();
   return first == none;
 }
@@ -217,7 +217,7 @@ int Crew::assist(const StudyCase& study, std::size_t jobs) {
         report.finished = workers.take(std::chrono::milliseconds(100));
     }
   } catch (const std::exception& error) {
-    std::cerr << "arcslip: " << error.what() << '\n';
+    complain(std::string("arcslip: ") + error.what());
     mpi::environment::abort(status::wrong_input);
   }
   int status = 0;

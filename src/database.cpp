@@ -125,12 +125,18 @@ void Statement::write_bits(int column, std::string& row) const {
 }
 
 // Statements may outlive the connection, which is then closed with the last of them.
-Database::Database(const std::string& path) : path_(path), connection_(nullptr, &sqlite3_close_v2) {
+Database::Database(const std::string& path, const std::string& name)
+    : path_(path), connection_(nullptr, &sqlite3_close_v2) {
   sqlite3* connection = nullptr;
-  const int code = sqlite3_open(path.c_str(), &connection);
+  const int code = sqlite3_open(name.c_str(), &connection);
   connection_.reset(connection);
   if (code != SQLITE_OK) fail(connection, path);
 }
+
+// With a folder before it, no path is taken for anything else.
+Database::Database(const std::string& path) : Database(path, path.starts_with('/') ? path : "./" + path) {}
+
+Database::Database() : Database("a database in memory", ":memory:") {}
 
 void Database::execute(const std::string& sql) {
   if (sqlite3_exec(connection_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)

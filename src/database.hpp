@@ -65,13 +65,15 @@ class Database {
   /// Opens the file, or makes it where there is none.
   explicit Database(const std::string& path);
   /// One in memory.
-  Database() : Database(":memory:") {}
+  Database();
 
   void execute(const std::string& sql);
   Statement prepare(std::string_view sql) const;
   const std::string& path() const { return path_; }
 
  private:
+  Database(const std::string& path, const std::string& name);
+
   std::string path_;
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> connection_;
 };

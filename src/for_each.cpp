@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "printable.hpp"
 #include "system_section.hpp"
 
 namespace arcslip {
@@ -14,7 +15,9 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t most_sets = 1'000'000'000;
-constexpr std::size_t most_samples = 10'000;  // of all sets, a fraction of a second
+constexpr std::size_t most_samples = 10'000;  // of sets that are combined, a fraction of a second
+constexpr std::size_t most_together =
+    1'000'000;  // of those that are not, which no longer lists make, seconds
 
 /// A key, dotted if it stands in a table of its own, with its value.
 struct Entry {
@@ -56,7 +59,7 @@ std::string keys_of(const std::vector<Entry>& entries) {
   std::vector<std::string> keys;
   keys.reserve(entries.size());
   for (const Entry& entry : entries) keys.push_back(entry.key);
-  return fmt::format("{}", fmt::join(keys, ", "));
+  return printable(fmt::format("{}", fmt::join(keys, ", ")), longest_name);
 }
 
 }  // namespace
@@ -156,21 +159,28 @@ ForEach::Range ForEach::read_range(const TomlSection& section, std::size_t& coun
   range.from = section.number("from", rule);
   range.to = section.number("to", rule);
   if (range.from == range.to) section.mismatch("to", "a number that differs from " + section.name("from"));
-  count = static_cast<std::size_t>(
-      section.integer("count", 2, static_cast<Index>(most_sets), "an integer >= 2 and <= 1e9"));
+  count = static_cast<std::size_t>(section.integer("count", 2, static_cast<Index>(most_sets),
+                                                   [] { return "an integer >= 2 and <= 1e9"; }));
   range.integers = !range.logarithmic && section.require("from", "").is_integer() &&
                    section.require("to", "").is_integer();
   return range;
 }
 
 double ForEach::Axis::number(std::size_t index) const {
-  if (!range) return listed[index]->value<double>().value_or(0);
+  if (!range) return exact_number(*listed[index]).value_or(0);
   if (index == 0) return range->from;
   if (index == count - 1) return range->to;
   const auto steps = static_cast<double>(index);
   const auto whole = static_cast<double>(count - 1);
-  if (range->logarithmic) return range->from * std::pow(range->to / range->from, steps / whole);
-  return range->from + steps * (range->to - range->from) / whole;
+  const double part = steps / whole;
+  if (range->logarithmic) {
+    const double ratio = range->to / range->from;
+    if (std::isnormal(ratio)) return range->from * std::pow(ratio, part);
+    return std::pow(range->from, 1 - part) * std::pow(range->to, part);
+  }
+  const double span = range->to - range->from;
+  if (std::isfinite(whole * span)) return range->from + steps * span / whole;
+  return range->from * (1 - part) + range->to * part;
 }
 
 std::unique_ptr<const toml::node> ForEach::Axis::make(std::size_t index) const {
@@ -209,7 +219,9 @@ ForEachSet ForEach::at(std::size_t index) const {
 std::vector<std::size_t> ForEach::samples() const {
   std::vector<std::size_t> indices;
   if (!combined_ || count_ <= most_samples) {
-    for (std::size_t i = 0; i < count_; ++i) indices.push_back(i);
+    const std::size_t stride = (count_ + most_together - 1) / most_together;
+    for (std::size_t i = 0; i < count_; i += stride) indices.push_back(i);
+    if (stride > 1) indices.insert(indices.end(), {1, count_ - 1});
     return indices;
   }
   std::size_t base = 0;

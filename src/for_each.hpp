@@ -31,9 +31,9 @@ class ForEach {
   std::size_t count() const { return count_; }  ///< of sets; one, which is empty, without `for_each`
   ForEachSet at(std::size_t index) const;
 
-  /// Indices of all sets or, of more than 10^4 that are combined, of sets among which each value of a key
-  /// stands beside the largest one of each other key: as many as the lists are long, not as their product. Of
-  /// ranges the first two values and the last one do.
+  /// Indices of all sets or, of more than 10^6, of as many among them. Of more than 10^4 that are combined,
+  /// of sets among which each value of a key stands beside the largest one of each other key: as many as the
+  /// lists are long, not as their product. Of ranges the first two values and the last one do.
   std::vector<std::size_t> samples() const;
 
   /// As it was written, keys in the order of the file.

@@ -26,9 +26,7 @@ constexpr const char* replaced_keys[] = {"mass_ratio",    "frequency_ratio", "sl
 class GeometrySection {
  public:
   GeometrySection(const TomlDocument& document, const Replacements& replacements)
-      : document_(document), replacements_(replacements), section_(document, "geometry", &replacements) {
-    section_.allow_only(keys);
-  }
+      : document_(document), replacements_(replacements), section_(document, "geometry", &replacements) {}
 
   Geometry read(bool needs_shear, bool needs_preload) const {
     Geometry geometry;
@@ -58,7 +56,6 @@ class GeometrySection {
   RectangularRing read_ring(const std::string& which, bool needs_shear) const {
     section_.require(which, "a table { elastic_modulus, density, poisson_ratio, width, height }");
     const TomlSection section(document_, "geometry." + which, &replacements_);
-    section.allow_only(ring_keys);
     RectangularRing ring;
     ring.elastic_modulus = section.number("elastic_modulus", positive());
     ring.density = section.number("density", positive());
@@ -83,6 +80,14 @@ class GeometrySection {
 };
 
 }  // namespace
+
+void check_geometry_keys(const TomlDocument& document) {
+  const TomlSection section(document, "geometry");
+  section.allow_only(keys);
+  for (const char* ring : {"base", "damper"}) {
+    if (section.has(ring)) TomlSection(document, section.name(ring)).allow_only(ring_keys);
+  }
+}
 
 bool has_geometry(const TomlDocument& document) { return document.root().contains("geometry"); }
 

@@ -9,6 +9,9 @@ namespace arcslip {
 /// Whether the case has the section.
 bool has_geometry(const TomlDocument& document);
 
+/// Refuses keys that it does not have.
+void check_geometry_keys(const TomlDocument& document);
+
 /// Its values by their dotted names, as "preload_per_length" and "damper.width".
 std::vector<std::string> geometry_keys();
 

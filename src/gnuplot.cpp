@@ -2,20 +2,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string_view>
 #include <system_error>
 
+#include "atomic_file.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
 
 namespace arcslip {
@@ -24,6 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array formats = {"png", "svg"};
+
+// Exit statuses of a process that could not become gnuplot, which has none such.
+constexpr int not_found = 127;
+constexpr int not_started = 126;
 
 /// Where the scripts are: beside the program, as in the build tree so after installation.
 fs::path scripts_folder() {
@@ -36,11 +43,19 @@ fs::path scripts_folder() {
   return folder;
 }
 
-/// gnuplot as it writes one picture: under a temporary name beside the final one until it is done.
+/// Gnuplot would take a path that begins with "<" or "|" for a command, with "-" for an option.
+std::string whole_path(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  return error ? "./" + path.string() : whole.string();
+}
+
+/// gnuplot as it writes one picture, to a file that has no name until it is done.
 class Drawing {
  public:
-  explicit Drawing(fs::path picture);
-  /// Stops gnuplot, and removes what it has written, unless the picture is finished.
+  explicit Drawing(const fs::path& picture)
+      : format_(picture.extension().string().substr(1)), file_(picture) {}
+  /// Stops gnuplot unless the picture is finished.
   ~Drawing();
   Drawing(const Drawing&) = delete;
   Drawing& operator=(const Drawing&) = delete;
@@ -50,45 +65,49 @@ class Drawing {
   /// Starts gnuplot. Throws GnuplotNotFound, OutputError.
   void start(const fs::path& script, const fs::path& table, const std::vector<std::string>& settings);
 
-  /// Waits for gnuplot and gives the picture its name. Throws OutputError.
+  /// Waits for gnuplot and gives the picture its name. Throws OutputError, Interrupted.
   void finish();
 
-  const fs::path& picture() const { return picture_; }
+  const std::string& picture() const { return file_.path(); }
 
  private:
-  std::string format() const { return picture_.extension().string().substr(1); }
   std::string read_complaints();
+  bool is_whole() const;
   [[noreturn]] void fail(const std::string& reason) const;
 
-  fs::path picture_;
-  std::string temporary_;
+  std::string format_;
+  AtomicFile file_;
   pid_t process_ = -1;
   int complaints_ = -1;  ///< what gnuplot writes to its stderr
 };
 
-Drawing::Drawing(fs::path picture)
-    : picture_(std::move(picture)), temporary_(fmt::format("{}.{}.tmp", picture_.string(), getpid())) {}
-
 Drawing::~Drawing() {
   if (process_ > 0) {
-    kill(process_, SIGTERM);
+    kill(process_, SIGKILL);
     waitpid(process_, nullptr, 0);
   }
   if (complaints_ >= 0) close(complaints_);
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+}
+
+/// Becomes gnuplot, which ends with the program that wants its pictures, whatever ends that one.
+[[noreturn]] void become_gnuplot(char* const* arguments, int picture, int complaints, pid_t parent) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_DFL);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (getppid() == parent && dup2(nothing, STDIN_FILENO) >= 0 && dup2(picture, STDOUT_FILENO) >= 0 &&
+      dup2(complaints, STDERR_FILENO) >= 0)
+    execvp("gnuplot", arguments);
+  _exit(errno == ENOENT || errno == ENOTDIR || errno == EACCES ? not_found : not_started);
 }
 
 void Drawing::start(const fs::path& script, const fs::path& table, const std::vector<std::string>& settings) {
-  // Absolute paths: gnuplot would take one that begins with "<" or "|" for a command, with "-" for an option.
-  std::vector<std::string> arguments = {"gnuplot",
-                                        "-d",  // without the user's own settings
-                                        "-c",
-                                        script.string(),
-                                        script.parent_path().string(),
-                                        fs::absolute(table).string(),
-                                        fs::absolute(temporary_).string(),
-                                        format()};
+  std::vector<std::string> arguments = {
+      "gnuplot",
+      "-d",  // without the user's own settings
+      "-c",      script.string(), script.parent_path().string(), whole_path(table), "/dev/stdout", format_};
   arguments.insert(arguments.end(), settings.begin(), settings.end());
   std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
@@ -98,24 +117,24 @@ void Drawing::start(const fs::path& script, const fs::path& table, const std::ve
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(std::generic_category().message(errno));
   complaints_ = ends[0];
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
-  const int error = posix_spawnp(&process_, "gnuplot", &files, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
+  const pid_t self = getpid();
+  process_ = fork();
+  if (process_ == 0) become_gnuplot(pointers.data(), file_.descriptor(), ends[1], self);
+  const int error = errno;
   close(ends[1]);
-  if (error == 0) return;
-  process_ = -1;
-  if (error == ENOENT || error == ENOTDIR || error == EACCES) throw GnuplotNotFound();
-  fail(fmt::format("gnuplot cannot be started: {}", std::generic_category().message(error)));
+  if (process_ < 0)
+    fail(fmt::format("gnuplot cannot be started: {}", std::generic_category().message(error)));
 }
 
 std::string Drawing::read_complaints() {
+  constexpr int moment = 50;  // milliseconds
   std::string text;
   std::array<char, 4096> buffer{};
   for (;;) {
+    pollfd waiting{complaints_, POLLIN, 0};
+    const int ready = poll(&waiting, 1, moment);
+    if (interrupted()) throw Interrupted();
+    if (ready <= 0) continue;
     const ssize_t count = read(complaints_, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return text;
@@ -133,16 +152,13 @@ std::string last_line(std::string_view text) {
   return std::string(line_end == std::string_view::npos ? text : text.substr(line_end + 1));
 }
 
-/// Whether a picture was written to its end: gnuplot does not say when the disk is full.
-bool is_whole(const std::string& path, std::string_view format) {
-  constexpr std::streamoff longest_end = 16;
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size < longest_end) return false;
-  std::string end(longest_end, '\0');
-  file.seekg(size - longest_end);
-  file.read(end.data(), longest_end);
-  return file && end.find(format == "svg" ? "</svg>" : "IEND") != std::string::npos;
+/// Whether the picture was written to its end: gnuplot does not say when the disk is full.
+bool Drawing::is_whole() const {
+  std::array<char, 16> end{};
+  const off_t size = lseek(file_.descriptor(), 0, SEEK_END);
+  const ssize_t count = pread(file_.descriptor(), end.data(), end.size(), std::max<off_t>(0, size - 16));
+  const std::string_view text(end.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+  return text.find(format_ == "svg" ? "</svg>" : "IEND") != text.npos;
 }
 
 void Drawing::finish() {
@@ -152,13 +168,14 @@ void Drawing::finish() {
   }
   process_ = -1;
   if (WIFSIGNALED(state)) fail(fmt::format("gnuplot was ended by signal {}", WTERMSIG(state)));
+  if (WEXITSTATUS(state) == not_found && text.empty()) throw GnuplotNotFound();
   if (WEXITSTATUS(state) != 0) fail(fmt::format("gnuplot failed: {}", last_line(text)));
-  if (!is_whole(temporary_, format())) fail("gnuplot wrote only a part of it");
-  if (std::rename(temporary_.c_str(), picture_.c_str()) != 0) fail(std::generic_category().message(errno));
+  if (!is_whole()) fail("gnuplot wrote only a part of it");
+  file_.commit();
 }
 
 void Drawing::fail(const std::string& reason) const {
-  throw OutputError(fmt::format("{}: cannot be drawn: {}", picture_.string(), reason));
+  throw OutputError(fmt::format("{}: cannot be drawn: {}", picture(), reason));
 }
 
 }  // namespace
@@ -176,7 +193,7 @@ void draw(const std::string& folder, const std::vector<Picture>& pictures) {
   }
   for (const auto& drawing : drawings) {
     drawing->finish();
-    print(drawing->picture().string() + "\n");
+    print(drawing->picture() + "\n");
   }
 }
 

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <iostream>
+#include <new>
+#include <sstream>
 
 #include "arcslip/case_file.hpp"
 #include "command_sector.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "output.hpp"
 
 namespace {
@@ -27,11 +29,13 @@ Examples
   arcslip sector plate -o rotor                   finite-element matrices of a brake rotor and its ring
 
 Exit status
-  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end, or a branch not certified; 4 a file could not be written)";
+  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end, or a branch not certified,
+  or an interrupt; 4 a file or standard output could not be written)";
 
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
-the special points. Ctrl-C ends a run cleanly: what was traced is written and marked as interrupted.
+the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
+as interrupted.
 
 A case file; what follows "optional" need not be given:
   title = "Two beams"
@@ -80,7 +84,7 @@ A case file; what follows "optional" need not be given:
   max_step = 0.1
   min_step = 1e-10
   max_points = 100000
-  max_seconds = 60
+  max_seconds = 60           # of a branch with all its parts, from the search for its first point on
   stop_at = [3.9, 4.1]       # values to land on exactly
   stop_after = "fold"        # or { fold = 2, peak = 5 }: the branch ends there
 
@@ -191,9 +195,14 @@ int dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << "arcslip: " << error.what() << "; see arcslip --help\n";
-    return status::wrong_command_line;
+    if (error.get_exit_code() != 0) {
+      complain(std::string("arcslip: ") + error.what() + "; see arcslip --help");
+      return status::wrong_command_line;
+    }
+    std::ostringstream asked_for;  // --help, --version
+    app.exit(error, asked_for);
+    print(asked_for.str());
+    return status::done;
   }
   if (run->parsed()) return run_command(traced);
   if (study->parsed()) return study_command(studied);
@@ -208,18 +217,25 @@ int arcslip::guarded(const std::function<int()>& command) {
   try {
     return command();
   } catch (const InputError& error) {
-    std::cerr << error.what() << std::endl;
+    complain(error.what());
     return status::wrong_input;
   } catch (const OutputError& error) {
-    std::cerr << error.what() << std::endl;
+    complain(error.what());
     return status::cannot_write;
+  } catch (const Interrupted&) {
+    complain("arcslip: interrupted");
+    return status::incomplete_branch;
+  } catch (const std::bad_alloc&) {
+    complain("arcslip: there is not enough memory");
+    return status::wrong_input;
   } catch (const std::exception& error) {
-    std::cerr << "arcslip: " << error.what() << std::endl;
+    complain(std::string("arcslip: ") + error.what());
     return status::wrong_input;
   }
 }
 
 int main(int argc, char** argv) {
+  arcslip::keep_standard_streams();
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is reported as one that cannot be written
 #endif

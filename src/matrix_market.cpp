@@ -18,6 +18,11 @@ constexpr std::int64_t shortest_entry = 6;  // "1 1 0" and the end of its line
 constexpr std::int64_t largest_index = std::numeric_limits<SparseMatrix::StorageIndex>::max();
 constexpr std::string_view blanks = " \t\r\v\f";
 
+/// Whether a word may be a number, from its characters.
+bool is_like_a_number(std::string_view word) {
+  return word.find_first_not_of("0123456789+-.,;:eEdD") == word.npos || word == "nan" || word == "inf";
+}
+
 /// A piece of a text as an error quotes it: on one line, and not too long.
 std::string quoted(std::string_view piece) {
   constexpr std::size_t longest = 40;
@@ -60,6 +65,16 @@ class Lines {
     return word;
   }
 
+  /// From now on the text is known to be in its format.
+  void trust() { trusted_ = true; }
+
+  /// What an error says of a word: a file that is none of ours, whose name somebody else gave, may hold what
+  /// is not for the reader of the message.
+  std::string given(std::string_view word) const {
+    if (word.empty()) return "the end of the line";
+    return trusted_ || is_like_a_number(word) ? quoted(word) : "a word that is no number";
+  }
+
   std::string_view line() const { return line_; }
   std::int64_t bytes_left() const { return static_cast<std::int64_t>(rest_.size()); }
 
@@ -74,9 +89,8 @@ class Lines {
   const std::string& file_;
   std::string_view comment_;
   std::int64_t number_ = 0;
+  bool trusted_ = false;
 };
-
-std::string given(std::string_view word) { return word.empty() ? "the end of the line" : quoted(word); }
 
 /// from_chars takes no sign +.
 std::string_view without_plus(std::string_view word) {
@@ -90,7 +104,7 @@ std::int64_t integer(Lines& lines, std::int64_t low, std::int64_t high, const De
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || value < low || value > high) {
-    lines.fail(expected(), given(word));
+    lines.fail(expected(), lines.given(word));
   }
   return value;
 }
@@ -113,7 +127,7 @@ std::optional<double> finite_number(std::string_view word) {
 
 void end_of_line(Lines& lines, std::string_view after) {
   const std::string_view word = lines.word();
-  if (!word.empty()) lines.fail(fmt::format("the end of the line after {}", after), quoted(word));
+  if (!word.empty()) lines.fail(fmt::format("the end of the line after {}", after), lines.given(word));
 }
 
 MatrixSymmetry read_banner(Lines& lines) {
@@ -124,12 +138,13 @@ MatrixSymmetry read_banner(Lines& lines) {
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     const auto found = std::find(choices.begin(), choices.end(), lower);
     if (found == choices.end() || lower.size() != word.size()) {
-      lines.fail(fmt::format("{} {}", name, fmt::join(choices, " or ")), given(word));
+      lines.fail(fmt::format("{} {}", name, fmt::join(choices, " or ")), lines.given(word));
     }
     return *found;
   };
   if (!lines.advance()) lines.fail("a line that begins with %%MatrixMarket", "an empty file");
   require("a Matrix Market file, which begins with", {"%%matrixmarket"});
+  lines.trust();
   require("the object", {"matrix"});
   require("the format", {"coordinate"});
   require("values that are", {"real", "integer"});
@@ -183,7 +198,7 @@ void read_entry(Lines& lines, std::int64_t rows, MatrixSymmetry symmetry, std::v
   const auto column = index("column");
   const std::string_view word = lines.word();
   const std::optional<double> value = finite_number(word);
-  if (!value) lines.fail("a finite number", given(word));
+  if (!value) lines.fail("a finite number", lines.given(word));
   end_of_line(lines, "the value");
   if (symmetry == MatrixSymmetry::symmetric && column > row) {
     lines.fail("the lower triangle of a symmetric matrix",
@@ -193,6 +208,11 @@ void read_entry(Lines& lines, std::int64_t rows, MatrixSymmetry symmetry, std::v
 }
 
 }  // namespace
+
+void check_banner(std::string_view beginning, const std::string& file) {
+  Lines lines(beginning, file, "%");
+  read_banner(lines);
+}
 
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file) {
   Lines lines(text, file, "%");
@@ -241,7 +261,7 @@ ComplexVector read_load(std::string_view text, const std::string& file, Index si
     const std::int64_t dof = integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); });
     const auto number = [&](std::string_view word) {
       const std::optional<double> value = finite_number(word);
-      if (!value) lines.fail("a finite number", given(word));
+      if (!value) lines.fail("a finite number", lines.given(word));
       return *value;
     };
     const double real = number(lines.word());

@@ -1,59 +1,58 @@
 #include "output.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
+#include <cstdio>
 #include <system_error>
 
-namespace arcslip {
+#include "printable.hpp"
 
-void create_folder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!error && !std::filesystem::is_directory(path, error))
-    error = std::make_error_code(std::errc::not_a_directory);
-  if (error) throw OutputError(fmt::format("{}: the folder cannot be made: {}", path, error.message()));
+namespace arcslip {
+namespace {
+
+/// Each line as a terminal may show it.
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    shown += printable(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    shown += '\n';
+    text.remove_prefix(end + 1);
+  }
+  return shown;
+}
+
+}  // namespace
+
+void keep_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // Opened the wrong way, for whoever uses it to be told.
+    if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+  }
 }
 
 void print(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  const std::string shown = printable_lines(text);
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size() && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) return;  // the reader has seen enough
   throw OutputError(
       fmt::format("standard output: cannot be written: {}", std::generic_category().message(errno)));
 }
 
-AtomicFile::AtomicFile(std::string path)
-    : path_(std::move(path)),
-      temporary_(fmt::format("{}.{}.tmp", path_, getpid())),
-      file_(std::fopen(temporary_.c_str(), "wb"), &std::fclose) {
-  if (!file_) fail();
-}
-
-AtomicFile::~AtomicFile() {
-  if (!file_) return;
-  file_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
-
-void AtomicFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
-}
-
-void AtomicFile::sync() {
-  if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0) fail();
-}
-
-void AtomicFile::commit() {
-  sync();
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
-  file_.reset();
-}
-
-void AtomicFile::fail() const {
-  throw OutputError(fmt::format("{}: cannot be written: {}", path_, std::generic_category().message(errno)));
+void complain(std::string_view message) noexcept {
+  constexpr std::size_t longest = 4000;
+  try {
+    if (message.ends_with('\n')) message.remove_suffix(1);
+    const std::string line = printable(message, longest) + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);
+  } catch (const std::exception&) {
+    std::fputs("arcslip: there is not enough memory for the message\n", stderr);
+  }
 }
 
 }  // namespace arcslip

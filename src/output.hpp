@@ -1,10 +1,7 @@
 #pragma once
 
-// What the program writes: files that appear whole or not at all (written under a temporary name, then
-// renamed), and standard output.
+// Standard output and error, and what goes wrong where something is written.
 
-#include <cstdio>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,38 +14,15 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Creates the folder and its parents. Throws OutputError.
-void create_folder(const std::string& path);
+/// Keeps files that are opened later from taking the place of a standard stream that is closed.
+void keep_standard_streams();
 
-/// Prints on standard output, at once; a reader that has gone is no error. Throws OutputError.
+/// Prints on standard output, at once, lines without control characters; a reader that has gone is no error.
+/// Throws OutputError.
 void print(std::string_view text);
 
-class AtomicFile {
- public:
-  /// Opens the temporary file. Throws OutputError.
-  explicit AtomicFile(std::string path);
-  /// Removes the temporary file unless it was committed.
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-  AtomicFile(AtomicFile&&) = delete;
-  AtomicFile& operator=(AtomicFile&&) = delete;
-
-  void write(std::string_view text);
-
-  /// Brings the content to the disk. Throws OutputError.
-  void sync();
-
-  /// The same, then gives the file its name. Files that belong together are all synced before the first
-  /// commit.
-  void commit();
-
- private:
-  [[noreturn]] void fail() const;
-
-  std::string path_;
-  std::string temporary_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-};
+/// Prints one line on standard error, whatever the message holds; where that cannot be written, nobody is
+/// there to be told.
+void complain(std::string_view message) noexcept;
 
 }  // namespace arcslip

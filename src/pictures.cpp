@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "arcslip/case_file.hpp"
 #include "picture_text.hpp"
@@ -164,7 +165,8 @@ class Decision {
 }  // namespace
 
 std::vector<Picture> pictures_of(const std::string& folder) {
-  if (!fs::is_directory(folder)) {
+  std::error_code none;
+  if (!fs::is_directory(folder, none)) {
     throw InputError(
         fmt::format("{}: is not a folder; expected one that arcslip run or study has written", folder));
   }
@@ -172,10 +174,22 @@ std::vector<Picture> pictures_of(const std::string& folder) {
   std::ifstream file = open_results(path);
   try {
     const ordered_json summary = ordered_json::parse(file);
-    if (summary.at("case").contains("study")) return study_pictures(folder, summary.at("case"));
-    const ResultTable table(fs::path(folder) / "branches.csv", {"branch", "point", "type", "regime"},
-                            "points");
-    return Decision(table, summary).pictures();
+    const bool has_run = !summary.at("case").contains("study");
+    std::vector<Picture> all;
+    if (has_run) {
+      const ResultTable table(fs::path(folder) / "branches.csv", {"branch", "point", "type", "regime"},
+                              "points");
+      all = Decision(table, summary).pictures();
+    }
+    if (!has_run || summary.contains("study")) {
+      const ordered_json& study = has_run ? summary.at("study") : summary;
+      for (Picture& picture : study_pictures(folder, study.at("case"))) all.push_back(std::move(picture));
+    }
+    if (!all.empty()) return all;
+    throw InputError(
+        fmt::format("{}: nothing to draw; expected sweep.csv of at most {} designs beside it, or one or two "
+                    "keys of for_each with numbers",
+                    (fs::path(folder) / "optimum.csv").string(), most_curves));
   } catch (const ordered_json::parse_error& error) {
     throw InputError(fmt::format("{}: is not JSON (byte {})", path, error.byte));
   } catch (const ordered_json::exception&) {

@@ -2,7 +2,6 @@
 
 // One line on stderr that follows the work, where that is a terminal.
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,7 +14,7 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) != 0) {}
   ~ProgressLine() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) std::fputs("\r\033[K", stderr);
   }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -29,8 +28,7 @@ class ProgressLine {
     if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
     drawn_ = true;
-    fmt::print(stderr, "\r\033[K{}", std::string(text()));
-    std::fflush(stderr);
+    std::fputs(("\r\033[K" + std::string(text())).c_str(), stderr);
   }
 
  private:

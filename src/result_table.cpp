@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <system_error>
 
 #include "arcslip/case_file.hpp"
 
@@ -43,8 +44,10 @@ ordered_json value_of(const std::string& field) {
 }  // namespace
 
 std::ifstream open_results(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!fs::is_regular_file(path) || !file) {
+  std::error_code none;
+  std::ifstream file;
+  if (fs::is_regular_file(path, none)) file.open(path, std::ios::binary);
+  if (!file.is_open()) {
     throw InputError(
         fmt::format("{}: cannot be read; expected a file that arcslip has written", path.string()));
   }

@@ -10,6 +10,7 @@
 #include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/nonlinear_mode.hpp"
 #include "arcslip/sector_pair.hpp"
+#include "branch_columns.hpp"
 #include "certificate_results.hpp"
 #include "full_receptance.hpp"
 #include "stability_results.hpp"
@@ -21,104 +22,6 @@ namespace {
 using continuation::BranchPoint;
 using continuation::PointType;
 using nlohmann::ordered_json;
-
-/// What a point is described by: parameters and observables by name. Of a curve of special points the active
-/// parameter is an observable; it stands among the parameters, in the base's order.
-class Columns {
- public:
-  explicit Columns(const TracedBranch& traced) : problem_(traced.problem()), request_(*traced.request) {
-    names_ = problem_.parameter_names();
-    parameters_ = static_cast<Index>(names_.size());
-    if (traced.curve) moved_ = traced.curve->active();
-    for (const continuation::Observable& observable : problem_.observables()) {
-      const bool first = static_cast<Index>(names_.size()) == parameters_;
-      names_.insert(first && moved_ >= 0 ? names_.begin() + moved_ : names_.end(), observable.name);
-    }
-  }
-
-  const std::vector<std::string>& names() const { return names_; }
-
-  /// In the order of the names; valid until the next call.
-  const std::vector<double>& values(const BranchPoint& point) {
-    problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
-    values_.assign(point.parameters.begin(), point.parameters.end());
-    if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));
-    values_.insert(values_.end(), observed_.begin() + (moved_ >= 0 ? 1 : 0), observed_.end());
-    return values_;
-  }
-
-  Index find(const std::string& name) const {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    return found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
-  }
-
-  /// Those that tables and summaries show of a special point.
-  std::vector<Index> shown() const {
-    std::vector<Index> indices;
-    for (const char* name : {"eta", "zeta", "zeta_B", "P", "R_over_S", "Y", "growth", "worst_wave"}) {
-      if (const Index i = find(name); i >= 0) indices.push_back(i);
-    }
-    if (find("R_over_S") >= 0) return indices;
-    indices.clear();
-    for (Index i = 0; i < static_cast<Index>(names_.size()) && indices.size() < most_shown; ++i) {
-      if (!is_constant(names_[static_cast<std::size_t>(i)])) indices.push_back(i);
-    }
-    return indices;
-  }
-
- private:
-  static constexpr std::size_t most_shown = 8;
-
-  /// Whether a parameter is the same on all branches of the case.
-  bool is_constant(const std::string& name) const {
-    const std::vector<std::string> parameters = problem_.parameter_names();
-    return std::find(parameters.begin(), parameters.end(), name) != parameters.end() &&
-           name != request_.options.parameter && !request_.values.contains(name);
-  }
-
-  const continuation::Problem& problem_;
-  const CaseBranch& request_;
-  std::vector<std::string> names_;
-  Index parameters_ = 0;
-  Index moved_ = -1;
-  Vector observed_;
-  std::vector<double> values_;
-};
-
-/// The columns in SI units that a system given in them has besides; none of any other.
-class PhysicalColumns {
- public:
-  explicit PhysicalColumns(const TracedBranch& traced) {
-    const ProblemRequest& problem = traced.request->problem;
-    if (!problem.geometry) return;
-    scale_.emplace(*problem.geometry, problem.system);
-    const Columns columns(traced);
-    for (const char* name : {"eta", "P", "R", "S", "Y", "U", "dissipated"})
-      sources_.push_back(static_cast<std::size_t>(columns.find(name)));
-    names_ = {"frequency_Hz", "preload_N_per_m", "R_m", "S_m", "Y_m", "U_m", "dissipated_J"};
-  }
-
-  const std::vector<std::string>& names() const { return names_; }
-
-  /// In the order of the names, from the values of Columns.
-  std::vector<double> values(const std::vector<double>& row) const {
-    if (!scale_) return {};
-    const auto at = [&](std::size_t i) { return row[sources_[i]]; };
-    return {scale_->frequency(at(0)),        scale_->preload_per_length(at(1)), scale_->displacement(at(2)),
-            scale_->displacement(at(3)),     scale_->displacement(at(4)),       scale_->displacement(at(5)),
-            scale_->dissipated(at(6), at(3))};
-  }
-
-  /// Those that the table shows of a special point.
-  std::vector<std::size_t> shown() const {
-    return scale_ ? std::vector<std::size_t>{0, 4} : std::vector<std::size_t>{};
-  }
-
- private:
-  std::optional<PhysicalScale> scale_;
-  std::vector<std::size_t> sources_;
-  std::vector<std::string> names_;
-};
 
 /// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
 void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
@@ -169,6 +72,8 @@ ordered_json highest_peak(const TracedBranch& traced, const ordered_json& specia
 
 bool is_full(const SystemParameters& system) { return system.sectors->path() == SectorPath::full; }
 
+}  // namespace
+
 ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const ordered_json special = special_points(traced);
   const continuation::Work& work = traced.branch.work;
@@ -183,10 +88,11 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   if (why_not_verifiable(*traced.request).empty()) {
-    const problems::BalanceErrors errors =
-        problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch);
-    summary["power_error"] = errors.power;
-    summary["motion_error"] = errors.motion;
+    const std::optional<problems::BalanceErrors> errors =
+        problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
+                                 traced.request->options.go_on);
+    summary["power_error"] = errors ? ordered_json(errors->power) : ordered_json(nullptr);
+    summary["motion_error"] = errors ? ordered_json(errors->motion) : ordered_json(nullptr);
   }
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
@@ -197,62 +103,6 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   summary["seconds"] = traced.seconds;
   if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
   return summary;
-}
-
-/// The columns of all branches; those with more harmonics have more of them.
-std::vector<std::string> all_names(const std::vector<TracedBranch>& traced) {
-  std::vector<std::string> all;
-  for (const TracedBranch& one : traced) {
-    const Columns columns(one);
-    for (const std::string& name : columns.names()) {
-      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-    }
-  }
-  return all;
-}
-
-}  // namespace
-
-void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
-  fmt::memory_buffer row;
-  const auto out = std::back_inserter(row);
-  const auto flush = [&] {
-    sink({row.data(), row.size()});
-    row.clear();
-  };
-  const TracedBranch& first = traced.front();
-  const bool stability = !first.curve && std::any_of(traced.begin(), traced.end(), [](const auto& one) {
-    return !one.branch.points.empty() && one.branch.points.front().unstable >= 0;
-  });
-  fmt::format_to(out, "branch,point,type,regime");
-  const std::vector<std::string> header = all_names(traced);
-  for (const std::string& name : header) fmt::format_to(out, ",{}", name);
-  fmt::format_to(out, "{},arclength,iterations,residual", stability ? ",unstable" : "");
-  const PhysicalColumns physical_header(first);
-  for (const std::string& name : physical_header.names()) fmt::format_to(out, ",{}", name);
-  fmt::format_to(out, "\n");
-  flush();
-  for (std::size_t number = 0; number < traced.size(); ++number) {
-    const TracedBranch& one = traced[number];
-    Columns columns(one);
-    const PhysicalColumns physical(one);
-    std::vector<Index> places;
-    for (const std::string& name : header) places.push_back(columns.find(name));
-    const std::vector<std::string> regimes = one.base->regime_names();
-    for (std::size_t i = 0; i < one.branch.points.size(); ++i) {
-      const BranchPoint& point = one.branch.points[i];
-      fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
-                     regimes[static_cast<std::size_t>(point.regime)]);
-      const std::vector<double>& values = columns.values(point);
-      for (const Index place : places)
-        fmt::format_to(out, ",{:.17g}", place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
-      if (stability) fmt::format_to(out, ",{}", point.unstable);
-      fmt::format_to(out, ",{:.17g},{},{:.17g}", point.arclength, point.iterations, point.residual);
-      for (const double value : physical.values(values)) fmt::format_to(out, ",{:.17g}", value);
-      fmt::format_to(out, "\n");
-      flush();
-    }
-  }
 }
 
 ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds) {
@@ -341,36 +191,6 @@ std::string describe_harmonics(const TracedBranch& traced) {
   const std::vector<int> orders = harmonics_of(*traced.base);
   if (orders.size() == 1) return "";
   return fmt::format("{} harmonics, up to {}\n", orders.size(), orders.back());
-}
-
-std::string special_table_header(const TracedBranch& traced) {
-  const Columns columns(traced);
-  std::string header = fmt::format("{:>6} {:>6}  {:<12}", "branch", "point", "type");
-  for (const Index i : columns.shown()) {
-    const std::string& name = columns.names()[static_cast<std::size_t>(i)];
-    header += fmt::format(" {:>15}", name == "R_over_S" ? "R/S" : name);
-  }
-  const PhysicalColumns physical(traced);
-  for (const std::size_t i : physical.shown()) header += fmt::format(" {:>15}", physical.names()[i]);
-  return header + "\n";
-}
-
-std::string special_table(std::size_t number, const TracedBranch& traced) {
-  Columns columns(traced);
-  const PhysicalColumns physical(traced);
-  const std::vector<Index> shown = columns.shown();
-  std::string rows;
-  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
-    const BranchPoint& point = traced.branch.points[i];
-    if (point.type == PointType::regular) continue;
-    const std::vector<double>& values = columns.values(point);
-    rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, to_string(point.type));
-    for (const Index k : shown) rows += fmt::format(" {:>15.9g}", values[static_cast<std::size_t>(k)]);
-    const std::vector<double> in_units = physical.values(values);
-    for (const std::size_t k : physical.shown()) rows += fmt::format(" {:>15.9g}", in_units[k]);
-    rows += "\n";
-  }
-  return rows;
 }
 
 }  // namespace arcslip

@@ -25,6 +25,7 @@ using continuation::BasePoint;
 using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::PointType;
+using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
 /// Guesses throw std::invalid_argument where there is no solution.
@@ -35,6 +36,9 @@ Subject guessed(std::shared_ptr<const continuation::Problem> problem, Guess gues
     subject.guess = guess();
   } catch (const std::invalid_argument& error) {
     subject.failure = error.what();
+  } catch (const continuation::Unfinished& error) {
+    subject.failure = error.what();
+    subject.stop = error.stop;
   }
   return subject;
 }
@@ -74,7 +78,8 @@ auto with_type(const ProblemRequest& request, const Use& use) {
   return use(std::type_identity<problems::ForcedResponse>{});
 }
 
-Subject build_friction(const ProblemRequest& request, const std::string& parameter, double value) {
+Subject build_friction(const ProblemRequest& request, const std::string& parameter, double value,
+                       const continuation::TraceOptions& limits) {
   const auto value_of = [&](const std::string& name) {
     return name == parameter ? value : fixed_value(request, name);
   };
@@ -83,6 +88,8 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
     return guessed(problem, [&] {
       if constexpr (std::is_same_v<Type, problems::NonlinearMode>) {
         return problem->guess(request.eta, value, value_of("P"));
+      } else if constexpr (std::is_base_of_v<problems::HarmonicResponse, Type>) {
+        return problem->guess(value_of("eta"), value_of("P"), limits);
       } else {
         return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
       }
@@ -90,18 +97,23 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
   });
 }
 
-TracedBranch unstarted(const CaseBranch& request, const Subject& subject, const std::string& why) {
-  TracedBranch none{&request, subject.problem, nullptr, {}, 0};
+using Request = std::shared_ptr<const CaseBranch>;
+
+TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
+  TracedBranch none{request, subject.problem, nullptr, {}, 0};
+  none.branch.stop = subject.stop;
   none.branch.explanation = why;
   return none;
 }
 
 /// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
-std::vector<continuation::Guess> solutions_around(const Subject& subject) {
+std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time,
+                                                  const std::function<bool()>& go_on) {
   constexpr Index small = 50;
   constexpr double wide = 10;  // of the problem's scale
   const continuation::Guess& guess = subject.guess;
   continuation::SolveAllOptions options;
+  options.go_on = [&] { return !time.is_spent() && (!go_on || go_on()); };
   if (guess.unknowns.size() <= small) {
     Vector scale(guess.unknowns.size());
     Vector parameter_scale(guess.parameters.size());
@@ -112,23 +124,23 @@ std::vector<continuation::Guess> solutions_around(const Subject& subject) {
   return continuation::solve_all(*subject.problem, {guess}, options);
 }
 
-std::vector<TracedBranch> trace_branches(const CaseBranch& request, const Subject& subject,
-                                         const continuation::Observer& observer) {
+std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
+                                         const TimeBudget& time, const continuation::Observer& observer) {
+  const continuation::Problem& problem = *subject.problem;
   std::vector<Branch> branches;
-  if (request.switching) {
-    branches = continuation::trace_connected(*subject.problem, subject.guess, request.options, {}, observer);
-  } else if (request.all_solutions) {
-    branches =
-        continuation::trace_through(*subject.problem, solutions_around(subject), request.options, observer);
-  } else if (request.start) {
-    branches.push_back(continuation::trace_both(*subject.problem, subject.guess, request.options, observer));
+  if (request->switching) {
+    branches = continuation::trace_connected(problem, subject.guess, time.rest(), {}, observer);
+  } else if (request->all_solutions) {
+    const auto solutions = solutions_around(subject, time, request->options.go_on);
+    branches = continuation::trace_through(problem, solutions, time.rest(), observer);
+  } else if (request->start) {
+    branches.push_back(continuation::trace_both(problem, subject.guess, time.rest(), observer));
   } else {
-    branches.push_back(continuation::trace(*subject.problem, subject.guess, request.options, observer));
+    branches.push_back(continuation::trace(problem, subject.guess, time.rest(), observer));
   }
   std::vector<TracedBranch> traced;
   traced.reserve(branches.size());
-  for (Branch& branch : branches)
-    traced.push_back({&request, subject.problem, nullptr, std::move(branch), 0});
+  for (Branch& branch : branches) traced.push_back({request, subject.problem, nullptr, std::move(branch), 0});
   return traced;
 }
 
@@ -155,12 +167,14 @@ bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
 }
 
 /// The special points on the branch over the first parameter, then the curve through each, but once.
-std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject& subject,
+std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject, const TimeBudget& time,
                                        const continuation::Observer& observer) {
-  const CurveRequest& asked = *request.curve;
-  const Branch seeds = continuation::trace(*subject.problem, subject.guess, seed_branch(request).options);
+  const CurveRequest& asked = *request->curve;
+  continuation::TraceOptions seeking = seed_branch(*request).options;
+  seeking.max_seconds = time.rest().max_seconds;
+  const Branch seeds = continuation::trace(*subject.problem, subject.guess, seeking);
 
-  continuation::TraceOptions options = request.options;
+  continuation::TraceOptions options = request->options;
   const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
   const bool ridge = asked.type == PointType::peak || asked.type == PointType::trough;
   options.extrema_of = {ridge ? observable : asked.active};  // one of the two, or rows would be ambiguous
@@ -174,11 +188,12 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
         continuation::curve_through(*subject.problem, asked.active, seed, observable);
     const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
     const Clock::time_point begun = Clock::now();
+    options.max_seconds = time.rest().max_seconds;
     Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
     const std::chrono::duration<double> seconds = Clock::now() - begun;
     const bool interrupted = branch.stop == continuation::Stop::interrupted;
-    curves.push_back({&request, subject.problem, curve, std::move(branch), seconds.count()});
-    if (interrupted) break;
+    curves.push_back({request, subject.problem, curve, std::move(branch), seconds.count()});
+    if (interrupted || time.is_spent()) break;
   }
   for (TracedBranch& curve : curves) {
     for (BranchPoint& point : curve.branch.points) {
@@ -186,7 +201,9 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
     }
   }
   if (!curves.empty()) return curves;
-  return {unstarted(request, subject,
+  Subject none = subject;
+  if (!seeds.complete()) none.stop = seeds.stop;
+  return {unstarted(request, none,
                     fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
                                 asked.active, asked.from, asked.to, options.parameter, asked.seed,
                                 seeds.complete() ? "" : ": " + seeds.explanation))};
@@ -194,16 +211,22 @@ std::vector<TracedBranch> trace_curves(const CaseBranch& request, const Subject&
 
 }  // namespace
 
+namespace {
+
+std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& request) {
+  if (request.model != nullptr) return request.model->build(request.settings);
+  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
+    return std::shared_ptr<const continuation::Problem>(build_problem<Type>(request.system));
+  });
+}
+
+}  // namespace
+
+void try_to_build(const ProblemRequest& request) { problem_of(request); }
+
 std::vector<std::string> tracked_observables(const ProblemRequest& request) {
-  std::shared_ptr<const continuation::Problem> problem;
-  if (request.model != nullptr) {
-    problem = request.model->build(request.settings);
-  } else {
-    with_type(request,
-              [&]<class Type>(std::type_identity<Type>) { problem = build_problem<Type>(request.system); });
-  }
   std::vector<std::string> names;
-  for (const continuation::Observable& observable : problem->observables()) {
+  for (const continuation::Observable& observable : problem_of(request)->observables()) {
     if (observable.has_gradient) names.push_back(observable.name);
   }
   return names;
@@ -221,9 +244,10 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter) 
   return 0;
 }
 
-Subject build(const ProblemRequest& request, const std::string& parameter, double value) {
+Subject build(const ProblemRequest& request, const std::string& parameter, double value,
+              const continuation::TraceOptions& limits) {
   return request.model != nullptr ? build_library(request, parameter, value)
-                                  : build_friction(request, parameter, value);
+                                  : build_friction(request, parameter, value, limits);
 }
 
 CaseBranch seed_branch(const CaseBranch& request) {
@@ -239,18 +263,20 @@ CaseBranch seed_branch(const CaseBranch& request) {
 
 namespace {
 
-std::vector<TracedBranch> trace_given(const CaseBranch& request, const continuation::Observer& observer) {
+std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& time,
+                                      const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
-  const CaseBranch first = request.curve ? seed_branch(request) : request;
+  const CaseBranch first = request->curve ? seed_branch(*request) : *request;
   const Subject subject =
-      build(first.problem, first.options.parameter, first.start.value_or(first.options.from));
+      build(first.problem, first.options.parameter, first.start.value_or(first.options.from), time.rest());
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
-  if (request.curve) return trace_curves(request, subject, observer);
-  std::vector<TracedBranch> traced = trace_branches(request, subject, observer);
+  if (request->curve) return trace_curves(request, subject, time, observer);
+  std::vector<TracedBranch> traced = trace_branches(request, subject, time, observer);
   if (traced.empty()) {
+    const CaseBranch& asked = *request;
     return {unstarted(request, subject,
                       fmt::format("no solution was found at {} = {:.10g}, be it by deflation",
-                                  request.options.parameter, request.start.value_or(request.options.from)))};
+                                  asked.options.parameter, asked.start.value_or(asked.options.from)))};
   }
   const std::chrono::duration<double> seconds = Clock::now() - begun;
   for (TracedBranch& branch : traced) branch.seconds = seconds.count() / static_cast<double>(traced.size());
@@ -259,7 +285,8 @@ std::vector<TracedBranch> trace_given(const CaseBranch& request, const continuat
 
 /// The harmonics that `problem` leaves out although their force would move a contact by more than `tolerance`
 /// times R at some point of the branch. Looked for up to about twice its highest one.
-std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance) {
+std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance,
+                                const std::function<bool()>& go_on) {
   const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
   SystemParameters wide = system;
   wide.harmonics = odd_up_to(highest);
@@ -270,6 +297,7 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
   Vector residual(problem.size());
   Vector largest = Vector::Zero(problem.harmonics());
   for (const BranchPoint& point : branch.points) {
+    if (!go_on()) return {};
     padded.setZero();
     for (Index i = 0; i < contacts; ++i) {
       for (Index a = 0; a < known; ++a) {
@@ -294,19 +322,26 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
 }
 
 /// The branch with as many harmonics as its own points ask for.
-std::vector<TracedBranch> trace_balanced(const CaseBranch& request, const continuation::Observer& observer) {
-  CaseBranch widened = request;
-  std::vector<int>& orders = widened.problem.system.harmonics;
+std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudget& time,
+                                         const continuation::Observer& observer) {
+  const auto widened = std::make_shared<CaseBranch>(*request);
+  std::vector<int>& orders = widened->problem.system.harmonics;
+  const std::function<bool()>& asked = request->options.go_on;
+  const auto go_on = [&] { return !time.is_spent() && (!asked || asked()); };
   while (true) {
-    std::vector<TracedBranch> traced = trace_given(widened, observer);
+    std::vector<TracedBranch> traced = trace_given(widened, time, observer);
     std::vector<int> missing;
     for (TracedBranch& one : traced) {
-      one.request = &request;
+      one.request = request;
       if (!one.branch.complete() || one.curve) continue;
       const std::vector<int> more =
-          missing_orders(widened.problem.system, one.branch, *request.problem.harmonics_tolerance);
+          missing_orders(widened->problem.system, one.branch, *request->problem.harmonics_tolerance, go_on);
       missing.insert(missing.end(), more.begin(), more.end());
+      if (go_on()) continue;
+      one.branch.stop = time.is_spent() ? continuation::Stop::time_limit : continuation::Stop::interrupted;
+      one.branch.explanation = "ended before it was known whether its harmonics suffice";
     }
+    if (!go_on()) return traced;
     if (missing.empty()) return traced;
     orders.insert(orders.end(), missing.begin(), missing.end());
     std::sort(orders.begin(), orders.end());
@@ -317,8 +352,10 @@ std::vector<TracedBranch> trace_balanced(const CaseBranch& request, const contin
 }  // namespace
 
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
-  return request.problem.harmonics_tolerance ? trace_balanced(request, observer)
-                                             : trace_given(request, observer);
+  const auto kept = std::make_shared<const CaseBranch>(request);
+  const TimeBudget time(request.options);
+  return request.problem.harmonics_tolerance ? trace_balanced(kept, time, observer)
+                                             : trace_given(kept, time, observer);
 }
 
 std::string why_not_certifiable(const CaseBranch& request) {
@@ -340,8 +377,8 @@ void certify(TracedBranch& traced) {
   const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
   const auto parameter =
       options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
-  traced.certificate =
-      problems::certify(problem, traced.branch, parameter, {options.tolerance, options.max_step});
+  traced.certificate = problems::certify(problem, traced.branch, parameter,
+                                         {options.tolerance, options.max_step, options.go_on});
 }
 
 }  // namespace arcslip

@@ -6,7 +6,8 @@
 #include <deque>
 
 #include "arcslip/matrix_market.hpp"
-#include "output.hpp"
+#include "atomic_file.hpp"
+#include "output_folder.hpp"
 
 namespace arcslip {
 namespace {
@@ -14,10 +15,10 @@ namespace {
 /// Files that appear together.
 class Files {
  public:
-  explicit Files(std::string folder) : folder_(std::move(folder)) { create_folder(folder_); }
+  explicit Files(std::string folder) : folder_(std::move(folder)) {}
 
   void add(const std::string& name, const std::string& text) {
-    files_.emplace_back(fmt::format("{}/{}", folder_, name)).write(text);
+    files_.emplace_back(fmt::format("{}/{}", folder_.path(), name)).write(text);
   }
 
   void commit() {
@@ -26,7 +27,7 @@ class Files {
   }
 
  private:
-  std::string folder_;
+  OutputFolder folder_;
   std::deque<AtomicFile> files_;
 };
 

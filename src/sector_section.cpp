@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <new>
 #include <numbers>
 
 #include "arcslip/matrix_market.hpp"
+#include "input_file.hpp"
 
 namespace arcslip {
 namespace {
@@ -17,6 +20,12 @@ using nlohmann::ordered_json;
 constexpr double default_tolerance = 1e-10;
 constexpr double default_limit = 1;  // per preload
 
+/// The folder of a case file, which the names of other files start from. One in a pipe has none.
+std::filesystem::path folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder;
+}
+
 /// [system.base] or [system.damper].
 class PartSection {
  public:
@@ -24,7 +33,7 @@ class PartSection {
       : document_(document),
         path_(path),
         section_(document, path),
-        folder_(std::filesystem::path(document.path()).parent_path()),
+        folder_(folder_of(document.path())),
         loaded_(loaded),
         response_(response) {
     std::vector<std::string> keys = {
@@ -96,42 +105,43 @@ class PartSection {
     part.fixed.mass += section_.number("mass_factor", not_negative, 0) / (2 * std::numbers::pi);
   }
 
-  /// The text of the file that the key names, and its path.
-  std::pair<std::string, std::string> file(std::string_view key, const std::string& name) {
-    const std::string path = (folder_ / name).string();
-    try {
-      std::string text = read_text(path);
-      for (const char c : text) {  // FNV-1a
-        fingerprint_ ^= static_cast<unsigned char>(c);
-        fingerprint_ *= 1099511628211U;
-      }
-      return {std::move(text), path};
-    } catch (const InputError& error) {
-      section_.fail(key, error.what());
+  void add_to_fingerprint(const std::string& text) {
+    for (const char c : text) {  // FNV-1a
+      fingerprint_ ^= static_cast<unsigned char>(c);
+      fingerprint_ *= 1099511628211U;
     }
   }
 
+  /// What the file that the key names holds: `parse` of its text and its path.
   template <class Parse>
-  auto parsed(std::string_view key, const Parse& parse) {
-    const auto [text, path] = file(key, section_.text(key, {}));
+  auto parsed(std::string_view key, std::size_t largest, const Parse& parse,
+              const std::function<void(std::string_view, const std::string&)>& begins = {}) {
+    const std::string path = (folder_ / section_.text(key, {})).string();
     try {
+      const std::string text = read_text(path, largest, [&](std::string_view beginning) {
+        if (begins) begins(beginning, path);
+      });
+      add_to_fingerprint(text);
       return parse(text, path);
+    } catch (const InputError& error) {
+      section_.fail(key, error.what());
     } catch (const MatrixTextError& error) {
       section_.fail(key, error.what());
+    } catch (const std::bad_alloc&) {
+      section_.fail(key, path + ": there is not enough memory for it");
     }
   }
 
   SparseMatrix matrix(std::string_view key) {
     section_.require(key, "a Matrix Market file");
-    return parsed(
-        key, [](const std::string& text, const std::string& path) { return read_matrix_market(text, path); });
+    return parsed(key, largest_matrix, read_matrix_market, check_banner);
   }
 
   std::vector<Index> dofs(std::string_view key) {
     const char* expected = "a file of dofs, or an array of them";
     const toml::node& node = section_.require(key, expected);
     if (node.is_string()) {
-      return parsed(key, [&](const std::string& text, const std::string& path) {
+      return parsed(key, largest_list, [&](const std::string& text, const std::string& path) {
         return read_dofs(text, path, size_);
       });
     }
@@ -152,7 +162,7 @@ class PartSection {
     const char* expected = "a file of loads, or a table { dof = [...], value = [...] }";
     const toml::node& node = section_.require("load", expected);
     if (node.is_string()) {
-      return parsed("load", [&](const std::string& text, const std::string& path) {
+      return parsed("load", largest_list, [&](const std::string& text, const std::string& path) {
         return read_load(text, path, size_);
       });
     }
@@ -258,7 +268,6 @@ std::vector<std::string> sector_keys() {
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
   if (!is_sector(document)) return nullptr;
   const TomlSection section(document, "system");
-  section.allow_only(sector_keys());
   section.require("base", "a table with the matrices of the base's sector");
   const NumberRule rule{[](double x) { return x >= 1e-14 && x <= 1e-2; }, " >= 1e-14 and <= 0.01"};
   const double tolerance = section.number("reduction_tolerance", rule, default_tolerance);
@@ -281,10 +290,10 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
   constexpr Index most = 1'000'000'000;
   system.model = StructureModel::sector;
   system.sectors = use.sectors;
-  system.elements = section.integer("sectors", 1, most, "an integer >= 1 and <= 1e9");
-  system.wave_number =
-      section.integer("wave_number", 0, system.elements / 2,
-                      fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2));
+  system.elements = section.integer("sectors", 1, most, [] { return "an integer >= 1 and <= 1e9"; });
+  system.wave_number = section.integer("wave_number", 0, system.elements / 2, [&] {
+    return fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2);
+  });
   const bool forced = use.balanced && use.parameter != "R";
   if (system.sectors->path() == SectorPath::full && !forced)
     section.fail(

@@ -18,12 +18,13 @@ using nlohmann::ordered_json;
 
 /// What the designs are made from.
 struct Source {
-  TomlDocument document;
+  std::shared_ptr<const TomlDocument> file;
   std::optional<ForEach> for_each;
   std::shared_ptr<const SectorPair> sectors;
   problems::PreloadRange range;
 
   StudyDesign design(std::size_t index) const {
+    const TomlDocument& document = *file;
     auto [values, replacements, made] = for_each->at(index);
     ProblemRequest problem;
     read_system(document, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high},
@@ -59,7 +60,7 @@ problems::PreloadRange read_preloads(const TomlDocument& document, const TomlSec
 
 /// The input as it is understood, without what belongs to [branch].
 ordered_json resolve(const Source& source, const StudyCase& study) {
-  ordered_json resolved = to_json(source.document.root());
+  ordered_json resolved = to_json(source.file->root());
   resolved.erase("branch");
   ProblemRequest first;
   first.system = study.design(0).system;
@@ -74,8 +75,12 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
 }  // namespace
 
 StudyCase read_study(const std::string& path, const std::vector<std::string>& settings) {
-  const auto source = std::make_shared<Source>(Source{{path, settings}, {}, {}, {}});
-  const TomlDocument& document = source->document;
+  return read_study(CaseFile(path, settings));
+}
+
+StudyCase read_study(const CaseFile& file) {
+  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}});
+  const TomlDocument& document = *file.document();
   const TomlSection root(document, "");
   root.allow_only(case_sections());
   const TomlSection section(document, "study");
@@ -91,6 +96,7 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
   study.options.stop_at = study.range.stop_at;
   study.sweep = section.boolean("sweep", true);
   if (scatters(document)) study.uncertain = read_uncertainty(document);
+  check_keys(document, nullptr);
   source->range = study.range;
   source->sectors = read_sectors(document);
   study.is_physical = has_geometry(document);

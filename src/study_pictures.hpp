@@ -10,8 +10,10 @@
 
 namespace arcslip {
 
-/// `input` is the section `case` of summary.json. Throws InputError where the folder does not hold what
-/// `arcslip study` writes, or nothing that can be drawn.
+constexpr std::size_t most_curves = 200;  ///< in one picture: more cannot be told apart
+
+/// None where nothing can be drawn. `input` is the section `case` of summary.json. Throws InputError where
+/// the folder does not hold what `arcslip study` writes.
 std::vector<Picture> study_pictures(const std::string& folder, const nlohmann::ordered_json& input);
 
 }  // namespace arcslip

@@ -8,7 +8,8 @@
 #include <memory>
 #include <span>
 
-#include "output.hpp"
+#include "atomic_file.hpp"
+#include "summary_file.hpp"
 
 namespace arcslip {
 namespace {
@@ -85,7 +86,14 @@ void write_results(const std::string& folder, const StudyCase& study, const Stud
   if (store.has_quantiles()) write("quantiles.csv", [&](const Sink& sink) { store.write_quantiles(sink); });
   if (store.has_robust()) write("robust.csv", [&](const Sink& sink) { store.write_robust(sink); });
   write("optimum.csv", [&](const Sink& sink) { store.write_optimum(sink); });
-  write("summary.json", [&](const Sink& sink) { sink(summarize(study, store, work).dump(2) + "\n"); });
+  write("summary.json", [&](const Sink& sink) {
+    ordered_json summary = summarize(study, store, work);
+    if (std::optional<ordered_json> of_run = run_summary(folder)) {
+      (*of_run)["study"] = std::move(summary);
+      summary = std::move(*of_run);
+    }
+    sink(summary.dump(2) + "\n");
+  });
   for (const auto& file : files) file->commit();
 }
 

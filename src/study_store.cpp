@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "output.hpp"
+#include "summary_file.hpp"
 
 namespace arcslip {
 namespace {
@@ -110,9 +111,14 @@ void remove(const std::string& path) {
   std::filesystem::remove(path, ignored);
 }
 
+bool is_there(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
 /// Brings what stands beside a database into it, and makes sure that nobody else uses it.
 void settle(const std::string& path) {
-  if (std::filesystem::exists(path)) Database(path).execute("PRAGMA journal_mode = DELETE");
+  if (is_there(path)) Database(path).execute("PRAGMA journal_mode = DELETE");
 }
 
 /// The key that differs between the input of a study before and now, or empty.
@@ -125,20 +131,6 @@ std::string difference(ordered_json before, const StudyCase& study) {
   std::string key = change.empty() ? "/study/for_each" : change[0]["path"].get<std::string>();
   std::replace(key.begin(), key.end(), '/', '.');
   return key.substr(1);
-}
-
-/// Temporary files of programs that were killed.
-void remove_leftovers(const std::string& folder) {
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    for (const char* start :
-         {"study.sqlite.", "optimum.csv.", "sweep.csv.", "robust.csv.", "quantiles.csv.", "summary.json."}) {
-      // A database leaves its journal beside it.
-      if (name.starts_with(start) && (name.ends_with(".tmp") || name.ends_with(".tmp-journal")))
-        remove(entry.path().string());
-    }
-  }
 }
 
 void bind(Statement& row, const ordered_json& value) {
@@ -214,7 +206,7 @@ StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool r
       count_(study.count),
       sweep_(study.sweep),
       extras_(study) {
-  if (resume && std::filesystem::exists(path_)) {
+  if (resume && is_there(path_)) {
     check_same(study);
   } else {
     begin(study);
@@ -246,7 +238,8 @@ void StudyStore::begin(const StudyCase& study) {
     throw OutputError(fmt::format("{}: cannot be written: {}", path_, error.message()));
   }
   // What the former study gave is no longer what the folder holds.
-  for (const char* name : {"optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv", "summary.json"})
+  forget_study(folder_);
+  for (const char* name : {"optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv"})
     remove(folder_ + "/" + name);
 }
 
@@ -276,7 +269,6 @@ void StudyStore::check_same(const StudyCase& study) const {
 }
 
 void StudyStore::open() {
-  remove_leftovers(folder_);
   database_.emplace(path_);
   database_->execute(
       "PRAGMA busy_timeout = 1000; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; INSERT INTO runs "

@@ -74,9 +74,7 @@ void read_damping(const TomlDocument& document, const TomlSection& section, bool
                     system.sectors ? "unknown key; expected base or damper"
                                    : "unknown key; expected base, damper or kind");
     const NumberRule rule = ratio_rule(base && !passive, base ? base_part : damper_part);
-    const double value = node.value<double>().value_or(0);
-    if (!node.is_number() || !rule.holds(value)) document.mismatch(node, name, "a finite number" + rule.text);
-    (base ? system.base_damping : system.damper_damping) = value;
+    (base ? system.base_damping : system.damper_damping) = document.number({&node, name}, rule);
   }
 }
 
@@ -89,20 +87,38 @@ void read_groups(const TomlSection& section, const SystemUse& use, SystemParamet
   if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
 }
 
+/// Refuses numbers so extreme that what follows from them is beyond what a double holds.
+void check_groups(const TomlDocument& document, const TomlSection& section, const SystemParameters& system) {
+  const double per_preload = system.stiffness_ratio() / system.interface_stiffness;
+  const std::pair<const char*, double> groups[] = {
+      {"K* = gamma^2 M*", system.stiffness_ratio()},
+      {"K_FD", system.interface_stiffness},
+      {"k = K_FD/N", system.interface_stiffness / static_cast<double>(system.elements)},
+      {"F K*", system.force * system.stiffness_ratio()},
+      {"S = P K*/K_FD", system.preload * per_preload}};
+  for (const auto& [name, value] : groups) {
+    if (std::isnormal(value)) continue;
+    document.fail(
+        section.table(), "system",
+        fmt::format("expected numbers that give a {} within the range of a double, got {:g}", name, value));
+  }
+}
+
 void read_rings(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
                 const SystemUse& use, ProblemRequest& problem) {
   SystemParameters& system = problem.system;
   system.model =
       section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
   constexpr Index most = 1'000'000'000;
-  system.wave_number = section.integer("wave_number", 1, most, "an integer >= 1");
-  system.elements =
-      section.integer("elements", 2 * system.wave_number + 1, most,
-                      fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number));
+  system.wave_number = section.integer("wave_number", 1, most, [] { return "an integer >= 1"; });
+  system.elements = section.integer("elements", 2 * system.wave_number + 1, most, [&] {
+    return fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number);
+  });
   if (has_geometry(document)) {
     read_geometry(document, replacements, section, use.parameter, problem);
   } else {
     read_groups(section, use, system);
+    check_groups(document, section, system);
   }
   const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
   system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
@@ -112,13 +128,15 @@ void read_rings(const TomlDocument& document, const Replacements& replacements, 
 /// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
 void read_harmonics(const TomlSection& section, const SystemUse& use, ProblemRequest& problem) {
   constexpr int highest = 2 * most_harmonics - 1;
-  const std::string odd = fmt::format("an odd integer from 1 to {}", highest);
-  const std::string expected = odd + R"(, a list of them that begins with 1, or "auto")";
+  const auto expected = [=] {
+    return fmt::format(R"(an odd integer from 1 to {}, a list of them that begins with 1, or "auto")",
+                       highest);
+  };
   const auto fits = [](double h) { return h >= 1 && h <= highest && std::fmod(h, 2) == 1; };
   std::vector<int>& orders = problem.system.harmonics;
   problem.harmonics_tolerance.reset();
   if (section.has("harmonics")) {
-    const toml::node& node = section.require("harmonics", expected);
+    const toml::node& node = section.require("harmonics", "");
     if (node.value<std::string>() == "auto") {
       const NumberRule rule{[](double x) { return x >= 1e-9 && x <= 0.1; }, " >= 1e-9 and <= 0.1"};
       problem.harmonics_tolerance = section.number("harmonics_tolerance", rule, default_harmonics_tolerance);
@@ -132,7 +150,7 @@ void read_harmonics(const TomlSection& section, const SystemUse& use, ProblemReq
         section.fail("harmonics", "expected a list that begins with 1 and ascends");
     } else {
       if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())))
-        section.mismatch("harmonics", expected);
+        section.mismatch("harmonics", expected());
       orders = odd_up_to(static_cast<int>(*node.value<Index>()));
     }
   }
@@ -167,10 +185,10 @@ void read_settings(const TomlSection& section, const SystemUse& use,
       section.fail(setting.name,
                    "the continuation parameter has its values from [branch]; leave it out here");
     if (setting.is_integer) {
-      settings.push_back(static_cast<double>(
-          section.integer(setting.name, static_cast<Index>(setting.low), static_cast<Index>(setting.high),
-                          fmt::format("an integer >= {:g} and <= {:g}", setting.low, setting.high),
-                          static_cast<Index>(setting.value))));
+      settings.push_back(static_cast<double>(section.integer(
+          setting.name, static_cast<Index>(setting.low), static_cast<Index>(setting.high),
+          [&] { return fmt::format("an integer >= {:g} and <= {:g}", setting.low, setting.high); },
+          static_cast<Index>(setting.value))));
     } else {
       settings.push_back(
           section.number(setting.name, parameter_rule(use.model, setting.name), setting.value));
@@ -220,8 +238,13 @@ std::vector<std::string> listed_keys(const TomlDocument& document, const problem
   return names;
 }
 
+void check_keys(const TomlDocument& document, const problems::LibraryModel* model) {
+  TomlSection(document, "system").allow_only(is_sector(document) ? sector_keys() : system_keys(model));
+  if (model == nullptr && !is_sector(document)) check_geometry_keys(document);
+}
+
 std::string path_of(const std::string& key) {
-  const std::vector<std::string> of_geometry = geometry_keys();
+  static const std::vector<std::string> of_geometry = geometry_keys();
   const bool is_physical = std::find(of_geometry.begin(), of_geometry.end(), key) != of_geometry.end();
   return (is_physical ? "geometry." : "system.") + key;
 }
@@ -246,7 +269,6 @@ NumberRule parameter_rule(const problems::LibraryModel* model, const std::string
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem) {
   const TomlSection section(document, "system", &replacements);
-  section.allow_only(use.sectors ? sector_keys() : system_keys(use.model));
   problem.model = use.model;
   if (use.model != nullptr) {
     if (has_geometry(document))
@@ -273,7 +295,10 @@ void resolve_system(const ProblemRequest& problem, ordered_json& section) {
     return;
   }
   const SystemParameters& system = problem.system;
-  ordered_json damping = section.value("damping", ordered_json::object());
+  // One that for_each replaces may be anything.
+  ordered_json damping = section.contains("damping") && section["damping"].is_object()
+                             ? section["damping"]
+                             : ordered_json::object();
   if (!damping.contains("base")) damping["base"] = system.base_damping;
   if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
   if (!system.sectors && !damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);

@@ -10,6 +10,9 @@ namespace arcslip {
 std::vector<std::string> system_keys(const problems::LibraryModel* model);
 std::vector<std::string> model_names();
 
+/// Refuses keys that [system] and, of rods and beams, [geometry] do not have.
+void check_keys(const TomlDocument& document, const problems::LibraryModel* model);
+
 /// Keys that for_each may list, those of [geometry] by dotted names, and the path of the value that a key
 /// stands for.
 std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);

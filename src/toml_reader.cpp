@@ -4,26 +4,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 #include <numeric>
 #include <sstream>
-#include <system_error>
+
+#include "input_file.hpp"
+#include "printable.hpp"
+#include "toml_depth.hpp"
 
 namespace arcslip {
 namespace {
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (const toml::array* array = node.as_array()) return array->empty() ? "an empty array" : "an array";
-  if (const auto* value = node.as_string()) return fmt::format("\"{}\"", one_line(value->get()));
+  if (const auto* value = node.as_string())
+    return fmt::format("\"{}\"", printable(value->get(), longest_text));
   if (const auto* value = node.as_floating_point()) return fmt::format("{}", value->get());
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
@@ -32,8 +29,11 @@ std::string shown(const toml::node& node) {
 
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts;
-  std::istringstream in(path);
-  for (std::string part; std::getline(in, part, '.');) parts.push_back(part);
+  for (std::size_t from = 0; from < path.size();) {
+    const std::size_t end = std::min(path.find('.', from), path.size());
+    parts.push_back(path.substr(from, end - from));
+    from = end + 1;
+  }
   return parts;
 }
 
@@ -43,38 +43,56 @@ bool is_bare_word(const std::string& text) {
   });
 }
 
+[[noreturn]] void refuse(const std::string& setting, const std::string& why) {
+  throw InputError(fmt::format("--set {}: {}", printable(setting, longest_name), why));
+}
+
 /// The value of a setting as TOML; a bare word may go without quotes.
 toml::table parse_value(const std::string& setting, const std::string& value) {
+  toml::table table;
   try {
-    return toml::parse("value = " + value);
+    if (line_nested_too_deep(value) == 0) table = toml::parse("value = " + value);
   } catch (const toml::parse_error&) {
     if (is_bare_word(value)) return toml::table{{"value", value}};
-    throw InputError(fmt::format("--set {}: '{}' is not a TOML value", setting, value));
   }
+  if (table.size() != 1)
+    refuse(setting, fmt::format("'{}' is not a TOML value", printable(value, longest_text)));
+  return table;
 }
 
 }  // namespace
 
-std::string read_text(const std::string& path) {
-  errno = std::filesystem::is_directory(path) ? EISDIR : 0;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (errno == 0 && in) text << in.rdbuf();
-  if (errno != 0 || !in || in.bad()) {
-    const int code = errno != 0 ? errno : EIO;
-    throw InputError(fmt::format("{}: cannot be read: {}", path, std::generic_category().message(code)));
-  }
-  return text.str();
+std::optional<double> exact_number(const toml::node& node) {
+  if (const auto* real = node.as_floating_point()) return real->get();
+  const auto* integer = node.as_integer();
+  if (integer == nullptr) return std::nullopt;
+  const auto number = static_cast<double>(integer->get());
+  const bool in_range = number < -static_cast<double>(std::numeric_limits<std::int64_t>::min());
+  if (!in_range || static_cast<std::int64_t>(number) != integer->get()) return std::nullopt;
+  return number;
 }
 
+namespace {
+
+/// A node's number, where it is one that a rule allows.
+std::optional<double> accepted(const toml::node& node, const NumberRule& rule) {
+  const std::optional<double> number = exact_number(node);
+  return number && std::isfinite(*number) && rule.holds(*number) ? number : std::nullopt;
+}
+
+}  // namespace
+
 TomlDocument::TomlDocument(const std::string& path, const std::vector<std::string>& settings) : path_(path) {
-  const std::string text = read_text(path);
+  const std::string text = read_text(path, largest_case_file);
+  if (const long line = line_nested_too_deep(text); line > 0)
+    throw InputError(
+        fmt::format("{}:{}:1: not valid: a key has more than {} parts", path, line, deepest_key));
   try {
     root_ = toml::parse(text);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}", path, at.line, at.column,
-                                 one_line(std::string(error.description()))));
+                                 printable(error.description(), longest_name)));
   }
   for (const std::string& setting : settings) apply(setting);
 }
@@ -82,14 +100,16 @@ TomlDocument::TomlDocument(const std::string& path, const std::vector<std::strin
 void TomlDocument::apply(const std::string& setting) {
   const std::size_t equals = setting.find('=');
   const std::vector<std::string> keys = split_path(setting.substr(0, equals));
-  if (equals == std::string::npos || keys.empty() || !std::all_of(keys.begin(), keys.end(), is_bare_word)) {
-    throw InputError(fmt::format("--set {}: expected section.key=value", setting));
+  if (equals == std::string::npos || keys.empty() || keys.size() > deepest_key ||
+      !std::all_of(keys.begin(), keys.end(), is_bare_word)) {
+    refuse(setting, "expected section.key=value");
   }
   toml::table* table = &root_;
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     table->insert(keys[i], toml::table{});  // unless it is there
     table = table->get_as<toml::table>(keys[i]);
-    if (table == nullptr) throw InputError(fmt::format("--set {}: '{}' is not a table", setting, keys[i]));
+    if (table == nullptr)
+      refuse(setting, fmt::format("'{}' is not a table", printable(keys[i], longest_name)));
   }
   const toml::table value = parse_value(setting, setting.substr(equals + 1));
   table->insert_or_assign(keys.back(), *value.get("value"));  // a copy, without a place in a file
@@ -97,13 +117,24 @@ void TomlDocument::apply(const std::string& setting) {
 
 void TomlDocument::fail(const toml::node* node, const std::string& name, const std::string& what) const {
   const toml::source_position at = node != nullptr ? node->source().begin : toml::source_position{1, 1};
-  if (!at) throw InputError(fmt::format("--set: {}: {}", name, what));
-  throw InputError(fmt::format("{}:{}:{}: {}: {}", path_, at.line, at.column, name, what));
+  const std::string key = printable(name, longest_name);
+  if (!at) throw InputError(fmt::format("--set: {}: {}", key, what));
+  throw InputError(fmt::format("{}:{}:{}: {}: {}", path_, at.line, at.column, key, what));
 }
 
 void TomlDocument::mismatch(const toml::node& node, const std::string& name, const std::string& expected,
                             const toml::node* place) const {
   fail(place != nullptr ? place : &node, name, fmt::format("expected {}, got {}", expected, shown(node)));
+}
+
+double TomlDocument::number(const Replacement& value, const NumberRule& rule) const {
+  if (const std::optional<double> number = accepted(*value.node, rule)) return *number;
+  const std::string expected = "a finite number" + rule.text;
+  if (exact_number(*value.node) || !value.node->is_integer())
+    mismatch(*value.node, value.name, expected, value.place);
+  fail(value.place != nullptr ? value.place : value.node, value.name,
+       fmt::format("expected {}, got {}, an integer that no double equals; {}.0 is rounded", expected,
+                   shown(*value.node), shown(*value.node)));
 }
 
 NumberRule any_number() {
@@ -139,18 +170,31 @@ std::string TomlSection::name(std::string_view key) const {
   return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
-Replacement TomlSection::find(std::string_view key) const {
-  if (replacements_ != nullptr) {
-    const auto found = replacements_->find(name(key));
-    if (found != replacements_->end()) return found->second;
+/// Few are replaced, and names are put together only where they are told.
+const Replacement* TomlSection::replaced(std::string_view key) const {
+  if (replacements_ == nullptr) return nullptr;
+  for (const auto& [name, replacement] : *replacements_) {
+    if (name.size() == path_.size() + 1 + key.size() && name.ends_with(key) && name.starts_with(path_) &&
+        name[path_.size()] == '.')
+      return &replacement;
   }
-  return {table_ != nullptr ? table_->get(key) : nullptr, name(key)};
+  return nullptr;
+}
+
+const toml::node* TomlSection::node(std::string_view key) const {
+  if (const Replacement* replacement = replaced(key)) return replacement->node;
+  return table_ != nullptr ? table_->get(key) : nullptr;
+}
+
+Replacement TomlSection::find(std::string_view key) const {
+  const Replacement* replacement = replaced(key);
+  return replacement != nullptr ? *replacement : Replacement{node(key), name(key)};
 }
 
 const toml::node& TomlSection::require(std::string_view key, const std::string& expected) const {
-  const Replacement value = find(key);
-  if (value.node == nullptr) fail(key, fmt::format("missing; expected {}", expected));
-  return *value.node;
+  const toml::node* value = node(key);
+  if (value == nullptr) fail(key, fmt::format("missing; expected {}", expected));
+  return *value;
 }
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
@@ -164,30 +208,26 @@ void TomlSection::mismatch(std::string_view key, const std::string& expected) co
   document_.mismatch(*value.node, value.name, expected, value.place);
 }
 
-double TomlSection::checked(const Replacement& value, const NumberRule& rule) const {
-  const double number = value.node->is_number() ? *value.node->value<double>() : std::nan("");
-  if (!std::isfinite(number) || !rule.holds(number))
-    document_.mismatch(*value.node, value.name, "a finite number" + rule.text, value.place);
-  return number;
-}
-
 double TomlSection::number(std::string_view key, const NumberRule& rule) const {
-  require(key, "a finite number" + rule.text);
-  return checked(find(key), rule);
+  const toml::node* value = node(key);
+  if (value == nullptr) fail(key, fmt::format("missing; expected a finite number{}", rule.text));
+  const std::optional<double> number = accepted(*value, rule);
+  return number ? *number : document_.number(find(key), rule);
 }
 
 double TomlSection::number(std::string_view key, const NumberRule& rule, double otherwise) const {
   return has(key) ? number(key, rule) : otherwise;
 }
 
-Index TomlSection::integer(std::string_view key, Index low, Index high, const std::string& expected) const {
-  const toml::node& node = require(key, expected);
-  const auto value = node.value_exact<std::int64_t>();
-  if (!value || *value < low || *value > high) mismatch(key, expected);
-  return *value;
+Index TomlSection::integer(std::string_view key, Index low, Index high, const Expected& expected) const {
+  const toml::node* given = node(key);
+  if (given == nullptr) require(key, expected());
+  const auto* value = given->as_integer();
+  if (value == nullptr || value->get() < low || value->get() > high) mismatch(key, expected());
+  return value->get();
 }
 
-Index TomlSection::integer(std::string_view key, Index low, Index high, const std::string& expected,
+Index TomlSection::integer(std::string_view key, Index low, Index high, const Expected& expected,
                            Index otherwise) const {
   return has(key) ? integer(key, low, high, expected) : otherwise;
 }
@@ -208,7 +248,7 @@ std::vector<double> TomlSection::numbers(std::string_view key, const NumberRule&
   const toml::array* array = require(key, "").as_array();
   if (array == nullptr) mismatch(key, "an array of numbers");
   for (std::size_t i = 0; i < array->size(); ++i) {
-    values.push_back(checked({array->get(i), fmt::format("{}[{}]", name(key), i)}, rule));
+    values.push_back(document_.number({array->get(i), fmt::format("{}[{}]", name(key), i)}, rule));
   }
   return values;
 }
@@ -283,6 +323,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     return row.back();
   };
   std::string best;
+  if (name.size() > longest_name) return best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : names) {
     if (const std::size_t d = distance(name, candidate); d < least) {

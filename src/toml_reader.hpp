@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,29 +16,12 @@
 
 namespace arcslip {
 
-/// What a file holds. Throws InputError.
-std::string read_text(const std::string& path);
+constexpr std::size_t longest_name = 120;  ///< as messages show it, of a key or a setting
+constexpr std::size_t longest_text = 60;
 
-/// A file's table and the settings on top of it.
-class TomlDocument {
- public:
-  TomlDocument(const std::string& path, const std::vector<std::string>& settings);
-
-  const toml::table& root() const { return root_; }
-  const std::string& path() const { return path_; }
-
-  /// Error at a node; `name` is the key as the user wrote it.
-  [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
-  /// "expected ..., got ...", at the node or at `place`.
-  [[noreturn]] void mismatch(const toml::node& node, const std::string& name, const std::string& expected,
-                             const toml::node* place = nullptr) const;
-
- private:
-  void apply(const std::string& setting);
-
-  std::string path_;
-  toml::table root_;
-};
+/// The number that a node holds, to the last digit; none where it holds no number, or an integer that no
+/// double equals.
+std::optional<double> exact_number(const toml::node& node);
 
 /// A value that takes the place of another, with the name it goes by in errors.
 struct Replacement {
@@ -59,6 +43,30 @@ NumberRule positive();
 NumberRule inside(double low, double high);  ///< between the two
 NumberRule within(double low, double high);  ///< between the two or equal to one
 
+/// A file's table and the settings on top of it.
+class TomlDocument {
+ public:
+  TomlDocument(const std::string& path, const std::vector<std::string>& settings);
+
+  const toml::table& root() const { return root_; }
+  const std::string& path() const { return path_; }
+
+  /// Error at a node; `name` is the key as the user wrote it.
+  [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
+  /// "expected ..., got ...", at the node or at `place`.
+  [[noreturn]] void mismatch(const toml::node& node, const std::string& name, const std::string& expected,
+                             const toml::node* place = nullptr) const;
+
+  /// A value that must be a finite number within a rule.
+  double number(const Replacement& value, const NumberRule& rule) const;
+
+ private:
+  void apply(const std::string& setting);
+
+  std::string path_;
+  toml::table root_;
+};
+
 /// One table of the document.
 class TomlSection {
  public:
@@ -67,12 +75,13 @@ class TomlSection {
   TomlSection(const TomlDocument& document, const toml::table& table, std::string path)
       : document_(document), path_(std::move(path)), replacements_(nullptr), table_(&table) {}
 
-  bool has(std::string_view key) const { return find(key).node != nullptr; }
+  bool has(std::string_view key) const { return node(key) != nullptr; }
   double number(std::string_view key, const NumberRule& rule) const;
   double number(std::string_view key, const NumberRule& rule, double otherwise) const;
-  Index integer(std::string_view key, Index low, Index high, const std::string& expected) const;
-  Index integer(std::string_view key, Index low, Index high, const std::string& expected,
-                Index otherwise) const;
+  /// `expected` is what a message says of the range.
+  using Expected = std::function<std::string()>;
+  Index integer(std::string_view key, Index low, Index high, const Expected& expected) const;
+  Index integer(std::string_view key, Index low, Index high, const Expected& expected, Index otherwise) const;
   std::string text(std::string_view key, const std::vector<std::string>& choices) const;
   bool boolean(std::string_view key, bool otherwise) const;
   std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
@@ -92,8 +101,9 @@ class TomlSection {
   std::string name_given(std::string_view key) const { return find(key).name; }
 
  private:
+  const Replacement* replaced(std::string_view key) const;
+  const toml::node* node(std::string_view key) const;
   Replacement find(std::string_view key) const;
-  double checked(const Replacement& value, const NumberRule& rule) const;
 
   const TomlDocument& document_;
   std::string path_;

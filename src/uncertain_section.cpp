@@ -51,11 +51,12 @@ problems::Uncertainty read_uncertainty(const TomlDocument& document) {
   uncertainty.force = read_scatter(document, section, "force");
   if (!section.has("mu") && !section.has("preload") && !section.has("force"))
     section.require("mu", "at least one of mu, preload and force");
-  uncertainty.samples = static_cast<std::size_t>(section.integer("samples", fewest_samples, most_samples,
-                                                                 "an integer >= 100 and <= 1e6",
-                                                                 static_cast<Index>(uncertainty.samples)));
+  uncertainty.samples = static_cast<std::size_t>(section.integer(
+      "samples", fewest_samples, most_samples, [] { return "an integer >= 100 and <= 1e6"; },
+      static_cast<Index>(uncertainty.samples)));
   uncertainty.seed = static_cast<std::uint64_t>(section.integer(
-      "seed", 0, std::numeric_limits<Index>::max(), "an integer >= 0", static_cast<Index>(uncertainty.seed)));
+      "seed", 0, std::numeric_limits<Index>::max(), [] { return "an integer >= 0"; },
+      static_cast<Index>(uncertainty.seed)));
   if (section.has("quantiles")) {
     const std::vector<double> quantiles = section.numbers("quantiles", inside(0, 1));
     if (quantiles.empty() ||

@@ -42,28 +42,34 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   return branch.curve ? "curves" : "";
 }
 
-VerifiedBranch verify(std::size_t number, const TracedBranch& traced,
-                      const std::function<bool(std::size_t, std::size_t)>& progress) {
-  if (traced.branch.points.empty()) return {number, &traced, {}};
-  return {number, &traced,
-          problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
-                           {.progress = progress})};
+VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options) {
+  VerifiedBranch verified{number, &traced, {}, 0};
+  if (traced.branch.points.empty()) return verified;
+  const auto progress = std::move(options.progress);
+  options.progress = [&](std::size_t point, std::size_t chosen) {
+    verified.chosen = chosen;
+    return progress(point, chosen);
+  };
+  verified.points =
+      problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch, options);
+  return verified;
 }
 
-void write_verification(const std::vector<VerifiedBranch>& branches, const Sink& sink) {
-  sink(
-      "branch,point,type,eta,P,Y,power_error,harmonics,Y_harmonics,difference_harmonics,Y_time,"
-      "difference_time,growth\n");
-  for (const VerifiedBranch& branch : branches) {
-    for (const Verification& point : branch.points) {
-      const continuation::BranchPoint& at = branch.traced->branch.points[point.point];
-      sink(fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g},{:.10g}\n",
-                       branch.number, point.point, to_string(at.type), at.parameters(0), at.parameters(1),
-                       point.Y, point.power_error, point.highest, point.Y_harmonics,
-                       point.Y_harmonics / point.Y - 1, point.Y_time, point.Y_time / point.Y - 1,
-                       point.growth));
-    }
-  }
+std::string verification_header() {
+  return "branch,point,type,eta,P,Y,power_error,harmonics,Y_harmonics,difference_harmonics,Y_time,"
+         "difference_time,growth\n";
+}
+
+std::string verification_row(std::size_t number, const TracedBranch& traced, const Verification& point) {
+  const continuation::BranchPoint& at = traced.branch.points[point.point];
+  return fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g},{:.10g}\n",
+                     number, point.point, to_string(at.type), at.parameters(0), at.parameters(1), point.Y,
+                     point.power_error, point.highest, point.Y_harmonics, point.Y_harmonics / point.Y - 1,
+                     point.Y_time, point.Y_time / point.Y - 1, point.growth);
+}
+
+std::string interrupted_verification_row(std::size_t number) {
+  return fmt::format("{},nan,interrupted,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan\n", number);
 }
 
 std::string describe_verification(const VerifiedBranch& branch) {

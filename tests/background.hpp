@@ -10,7 +10,9 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,8 +33,17 @@ class Background {
     for (std::string& word : arguments_) words.push_back(word.data());
     words.push_back(nullptr);
     const std::string out = folder_.write("out", ""), err = folder_.write("err", "");
+    int until_it_runs[2];
+    if (pipe2(until_it_runs, O_CLOEXEC) != 0) throw std::runtime_error("there is no pipe");
     id_ = fork();
-    if (id_ != 0) return;
+    if (id_ != 0) {
+      char none = 0;
+      close(until_it_runs[1]);
+      while (::read(until_it_runs[0], &none, 1) != 0) {
+      }
+      close(until_it_runs[0]);
+      return;
+    }
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int number : {SIGHUP, SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
     dup2(open(out.c_str(), O_WRONLY), STDOUT_FILENO);
@@ -49,6 +60,9 @@ class Background {
   Background& operator=(const Background&) = delete;
 
   pid_t id() const { return id_; }
+
+  /// What it has written on standard output so far.
+  std::string printed() const { return read(folder_.path("out")); }
 
   /// Waits until it happens or the program ends. Whether it happened.
   bool wait_until(const std::function<bool()>& happens) {
@@ -80,6 +94,37 @@ class Background {
   pid_t id_;
   bool ended_ = false;
   int code_ = 0;
+};
+
+/// A terminal, for a program to draw the line on that follows its work.
+class Terminal {
+ public:
+  Terminal() : side_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+    grantpt(side_);
+    unlockpt(side_);
+    other_side_ = ptsname(side_);
+  }
+  ~Terminal() { close(side_); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  /// In a process that is to have it as standard error.
+  void take() const { dup2(open(other_side_.c_str(), O_WRONLY | O_NOCTTY), STDERR_FILENO); }
+
+  /// How often the line was drawn that tells how many points there are.
+  int drawn() {
+    char piece[4096];
+    for (ssize_t count = 0; (count = ::read(side_, piece, sizeof piece)) > 0;)
+      shown_.append(piece, static_cast<std::size_t>(count));
+    int count = 0;
+    for (std::size_t at = 0; (at = shown_.find(" points", at)) != std::string::npos; ++at) ++count;
+    return count;
+  }
+
+ private:
+  int side_;
+  std::string other_side_;
+  std::string shown_;
 };
 
 /// Whether the process has a handler for the signal.

@@ -23,6 +23,14 @@ inline bool has_gnuplot() {
   return false;
 }
 
+/// What makes a script of this text, in the folder, stand for gnuplot.
+inline std::string path_with_gnuplot(const TemporaryFolder& folder, const std::string& script) {
+  fs::create_directories(folder.path("bin"));
+  const std::string file = folder.write("bin/gnuplot", "#!/bin/sh\n" + script);
+  fs::permissions(file, fs::perms::owner_all);
+  return "PATH='" + folder.path("bin") + "'";
+}
+
 /// Requires all pictures in the folder, from their first bytes to their last, and nothing besides the
 /// results.
 inline void require_pictures(const std::string& folder, std::size_t least_size,

@@ -128,6 +128,45 @@ TEST_CASE("Harmonics that cannot be taken are refused in one line", "[harmonics]
   check_message(error_of([&] { read_case(path); }), mistake);
 }
 
+TEST_CASE("max_seconds bounds the way to the first point, and an interrupt ends it", "[harmonics]") {
+  const TemporaryFolder folder;
+  const Case input = read_case(folder.write(
+      "case.toml", replaced(small_rods, "preload = 0.6", "preload = 0.01") + "harmonics = 127\n" +
+                       replaced(over_resonance, "1.4", "2.0") + "[continuation]\nmax_seconds = 1e-3\n"));
+  const TracedBranch late = trace(input.branches[0]).front();
+  CHECK(late.branch.stop == Stop::time_limit);
+  CHECK(late.branch.points.empty());
+  CHECK_THAT(late.branch.explanation, ContainsSubstring("on the way from a high preload") &&
+                                          ContainsSubstring("max_seconds have passed"));
+
+  CaseBranch request = input.branches[0];
+  request.options.max_seconds = 1e3;
+  long asked = 0;
+  request.options.go_on = [&] { return ++asked < 20; };
+  const TracedBranch ended = trace(request).front();
+  CHECK(ended.branch.stop == Stop::interrupted);
+  CHECK(ended.branch.points.empty());
+  CHECK(asked == 20);
+  CHECK_THAT(ended.branch.explanation, ContainsSubstring("on the way from a high preload"));
+}
+
+TEST_CASE("Harmonics that are found while tracing take no more time than there is", "[harmonics]") {
+  const TemporaryFolder folder;
+  const Case input =
+      read_case(folder.write("case.toml", small_rods + "harmonics = \"auto\"\n" + over_resonance));
+  CaseBranch request = input.branches[0];
+  long asked = 0;
+  request.options.go_on = [&] { return ++asked > 0; };
+  REQUIRE(trace(request).front().branch.complete());
+  const long needed = asked;
+  for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
+    asked = 0;
+    const auto allowed = static_cast<long>(part * static_cast<double>(needed));
+    request.options.go_on = [&] { return ++asked < allowed; };
+    CHECK(trace(request).front().branch.stop == Stop::interrupted);
+  }
+}
+
 TEST_CASE("The program writes what it verifies, and refuses what it cannot", "[harmonics]") {
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", small_rods + "harmonics = 3\n" + over_resonance);

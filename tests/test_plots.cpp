@@ -39,14 +39,6 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
   require_pictures(folder.path("r"), 8'000, drawn, results);
 }
 
-/// A folder with a stand-in for gnuplot: a shell script of this text.
-std::string path_with_gnuplot(const TemporaryFolder& folder, const std::string& script) {
-  fs::create_directories(folder.path("bin"));
-  const std::string file = folder.write("bin/gnuplot", "#!/bin/sh\n" + script);
-  fs::permissions(file, fs::perms::owner_all);
-  return "PATH='" + folder.path("bin") + "'";
-}
-
 }  // namespace
 
 TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[plots]") {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <thread>
 #include <vector>
 
 #include "background.hpp"
@@ -193,15 +192,15 @@ TEST_CASE("A branch that cannot be finished has status 3, its reason, and what w
 
 TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   const TemporaryFolder folder;
-  Background run({"run", figure_8, "--quiet", "-o", folder.path("r"), "--set", "continuation.max_step=1e-5",
-                  "--set", "continuation.max_points=100000000"});
-  REQUIRE(run.wait_until([&] { return handles(run.id(), SIGINT); }));
-  // The first point comes at once; millions follow.
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  Terminal terminal;
+  Background run({"run", figure_8, "-o", folder.path("r"), "--set", "continuation.max_step=1e-6", "--set",
+                  "continuation.max_points=1000000000"},
+                 [&] { terminal.take(); });
+  REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
   run.signal(SIGINT);
   const Outcome outcome = run.wait();
   CHECK(outcome.status == 3);
-  CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
+  CHECK_THAT(outcome.out, ContainsSubstring("interrupted"));
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
   const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
   CHECK(summary["branches"][0]["stop"] == "interrupted");

@@ -268,7 +268,8 @@ TEST_CASE("What is wrong with a sector's case is told in one line with its place
       {"contact = [1]", "contact = [1]\ndamping_kind = \"viscous\"", "", "reference_frequency", "", ""},
       {"\"base_load.txt\"", "{ dof = [2], value = [1.0, 2.0] }", ":15:", "value", "1 numbers", "2"},
       {"\"base_load.txt\"", "{ dof = [2], value = [0.0] }", ":15:8", "load", "not 0", ""},
-      {"\"base_load.txt\"", "\"case.toml\"", ":15:8", "load", "a dof from 1 to 4", "'[system]'"},
+      {"\"base_load.txt\"", "\"case.toml\"", ":15:8", "load", "a dof from 1 to 4",
+       "a word that is no number"},
       {"damping = {", "damping = { kind = \"modal\",", ":7:", "damping.kind", "base or damper", ""},
   }));
   const TemporaryFolder folder;

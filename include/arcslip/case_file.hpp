@@ -2,6 +2,8 @@
 
 // Case files: TOML 1.0, read and checked whole before anything runs.
 
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -64,13 +66,44 @@ struct CaseBranch {
   std::optional<CurveRequest> curve;
 };
 
+/// What a case file asks for, branch by branch.
+struct CasePlan {
+  std::string title;
+  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
+  std::size_t count = 0;            ///< of branches
+  std::function<CaseBranch(std::size_t)> branch;
+};
+
 struct Case {
   std::string title;
   nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
   std::vector<CaseBranch> branches;
 };
 
-/// Reads `path`, with `--set` arguments "section.key=value" applied on top. Throws InputError.
+class TomlDocument;
+
+/// A case file, read once, with `--set` arguments "section.key=value" applied on top.
+class CaseFile {
+ public:
+  /// Throws InputError.
+  explicit CaseFile(const std::string& path, const std::vector<std::string>& settings = {});
+
+  const std::string& path() const;
+  bool has(const std::string& section) const;
+
+  /// Does what a section asks for; what that throws becomes an InputError that names file and section.
+  void named(const std::string& section, const std::function<void()>& work) const;
+
+  const std::shared_ptr<const TomlDocument>& document() const { return document_; }
+
+ private:
+  std::shared_ptr<const TomlDocument> document_;
+};
+
+/// Checks the whole file. Throws InputError.
+CasePlan plan_case(const CaseFile& file);
+
+/// The same with all branches at hand.
 Case read_case(const std::string& path, const std::vector<std::string>& settings = {});
 
 /// What a case file may hold at its top, and whether one does. Throws InputError where it cannot be read.

@@ -20,7 +20,8 @@
 
 namespace arcslip {
 
-/// A text that is not in its format. what() is one line: file, line, what was expected and what was given.
+/// A text that is not in its format. what() is one line: file, line, what was expected and what was given, of
+/// which only numbers are quoted unless the text begins as those of matrices do.
 class MatrixTextError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -33,6 +34,10 @@ inline constexpr Index most_empty_rows = Index{1} << 19;
 /// or symmetric (the lower triangle given). Entries given more than once are summed. `file` is its name in
 /// errors. Throws MatrixTextError.
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file);
+
+/// Refuses a text that does not begin as those of matrices do. `beginning` holds its first line at least.
+/// Throws MatrixTextError.
+void check_banner(std::string_view beginning, const std::string& file);
 
 /// The dofs that `text` lists, separated by blanks or lines, numbered from 1 to `size` in the text and from 0
 /// in the result; what follows % or # on a line is a comment. Throws MatrixTextError.

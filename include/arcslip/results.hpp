@@ -19,7 +19,32 @@ using Sink = std::function<void(std::string_view)>;
 /// observables, where points tell their stability how many eigenvalues are unstable, arclength, iterations,
 /// residual; of a system given in SI units the same in these: frequency_Hz, preload_N_per_m, R_m, S_m, Y_m,
 /// U_m, dissipated_J.
+class BranchTable {
+ public:
+  /// The columns of a branch are added to those of the branches before it.
+  void widen(const TracedBranch& traced);
+
+  std::string header() const;
+
+  /// The rows of a branch whose columns are known, with nan in those that it does not have.
+  std::string rows(std::size_t number, const TracedBranch& traced) const;
+
+  /// A row that was made when `before` had fewer columns, with those that were added since.
+  std::string widened(std::string_view row, const BranchTable& before) const;
+
+  bool operator==(const BranchTable&) const = default;
+
+ private:
+  std::vector<std::string> names_;     ///< parameters and observables
+  bool stability_ = false;             ///< whether points tell it
+  std::vector<std::string> physical_;  ///< of a system given in SI units
+};
+
+/// The whole table.
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
+
+/// A branch as summary.json has it.
+nlohmann::ordered_json summarize(std::size_t number, const TracedBranch& traced);
 
 /// summary.json as described in the README.
 nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds);

@@ -18,7 +18,8 @@ namespace arcslip {
 struct Subject {
   std::shared_ptr<const continuation::Problem> problem;
   continuation::Guess guess;
-  std::string failure;  ///< why there is no guess, or empty
+  std::string failure;                                     ///< why there is no guess, or empty
+  continuation::Stop stop = continuation::Stop::no_start;  ///< what ended the search for it
 };
 
 /// The observables of which `extrema_of` may ask for the extrema.
@@ -30,12 +31,17 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter);
 /// The branch over a curve's first parameter on which its first points are looked for.
 CaseBranch seed_branch(const CaseBranch& request);
 
-/// Builds the problem, with a guess where `parameter` has this value and all else is as requested.
-Subject build(const ProblemRequest& request, const std::string& parameter, double value);
+/// Builds the problem and leaves it, for what that may throw: no system fits what was asked for.
+void try_to_build(const ProblemRequest& request);
+
+/// Builds the problem, with a guess where `parameter` has this value and all else is as requested;
+/// max_seconds and go_on of the limits may end the search for it.
+Subject build(const ProblemRequest& request, const std::string& parameter, double value,
+              const continuation::TraceOptions& limits = {});
 
 /// A branch, or a curve of special points, with the problem that it solves.
 struct TracedBranch {
-  const CaseBranch* request;
+  std::shared_ptr<const CaseBranch> request;
   std::shared_ptr<const continuation::Problem> base;
   std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
   continuation::Branch branch;
@@ -48,7 +54,7 @@ struct TracedBranch {
 };
 
 /// Traces what is asked for: one branch, or several where branches are switched or several curves are found.
-/// Never throws for a branch that fails: its `stop` tells. The request must outlive the result.
+/// Never throws for a branch that fails: its `stop` tells.
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer = {});
 
 /// Why no branch of this request can be certified, or empty.

@@ -33,7 +33,8 @@ struct StudyCase {
   std::function<StudyDesign(std::size_t)> design;
 };
 
-/// Reads `path` with `--set` arguments on top, and checks all of its designs. Throws InputError.
+/// Checks the whole file, with all of its designs. Throws InputError.
+StudyCase read_study(const CaseFile& file);
 StudyCase read_study(const std::string& path, const std::vector<std::string>& settings = {});
 
 }  // namespace arcslip

@@ -4,6 +4,7 @@
 // all its nodes in time, so that a branch says itself how far it can be trusted.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/branch.hpp"
@@ -19,9 +20,11 @@ struct BalanceErrors {
 };
 
 /// The largest at the points of a branch, which is one of HarmonicResponse, or of ForcedResponse, with the
-/// system of `parameters` in `orders`.
-BalanceErrors largest_errors(const SystemParameters& parameters, const std::vector<int>& orders,
-                             const continuation::Branch& branch);
+/// system of `parameters` in `orders`. None where `go_on`, asked before each point, says no.
+std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
+                                            const std::vector<int>& orders,
+                                            const continuation::Branch& branch,
+                                            const std::function<bool()>& go_on = {});
 
 /// NaN where a method has no result.
 struct Verification {
@@ -41,6 +44,7 @@ struct VerifyOptions {
 
   /// Called before each point with its number among those chosen and how many these are; false ends it.
   std::function<bool(std::size_t, std::size_t)> progress = {};
+  std::function<void(const Verification&)> found = {};  ///< called with each result as soon as it is there
 };
 
 /// Solves special points of such a branch, and some others, anew.

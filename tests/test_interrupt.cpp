@@ -1,0 +1,154 @@
+// What is left, and said, where the program is ended before its work is done.
+
+#include <nlohmann/json.hpp>
+
+#include "background.hpp"
+#include "catch.hpp"
+#include "plotting.hpp"
+#include "study_text.hpp"
+
+using namespace arcslip::testing;
+
+namespace {
+
+const std::string figure_8 = case_named("figure_8");
+const std::set<std::string> results = {"branches.csv", "summary.json"};
+
+std::vector<std::string> endless_run(const std::string& folder) {
+  return {"run",   figure_8,
+          "-o",    folder,
+          "--set", "system.harmonics=31",
+          "--set", "continuation.max_step=1e-6",
+          "--set", "continuation.max_points=1000000000"};
+}
+
+/// Whether the process is there, not only for somebody to take note of its end.
+bool lives(const std::string& id) {
+  const std::string status = read("/proc/" + id + "/status");
+  return !status.empty() && status.find("State:\tZ") == std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("A verification that is interrupted has status 3, and what is there of it is marked",
+          "[interrupt]") {
+  const TemporaryFolder folder;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string r = folder.path(std::to_string(signal));
+    Background run({"run", figure_8, "--verify", "-o", r, "--set", "branch.for_each.preload=[1.0]", "--set",
+                    "system.elements=500"});
+    // The table of a branch comes before its points are verified.
+    REQUIRE(run.wait_until([&] { return !run.printed().empty(); }));
+    run.signal(signal);
+    const Outcome outcome = run.wait();
+    CHECK(outcome.status == 3);
+    CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
+    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "summary.json", "verify.csv"});
+    const auto rows = read_csv(r + "/verify.csv");
+    CHECK(rows.back().at(2) == "interrupted");
+    CHECK(rows.back().size() == rows.front().size());
+    const auto summary = nlohmann::json::parse(read(r + "/summary.json"));
+    CHECK(summary["interrupted"] == true);
+    CHECK(summary["branches"][0]["stop"] == "reached_end");
+  }
+}
+
+TEST_CASE("A run without an interrupt says so", "[interrupt]") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  CHECK(nlohmann::json::parse(read(folder.path("r/summary.json")))["interrupted"] == false);
+}
+
+TEST_CASE("A terminal that is closed leaves what was traced, and no temporary file", "[interrupt]") {
+  const TemporaryFolder folder;
+  Terminal terminal;
+  Background run(endless_run(folder.path("r")), [&] { terminal.take(); });
+  REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
+  run.signal(SIGHUP);
+  CHECK(run.wait().status == 3);
+  CHECK(names_in(folder.path("r")) == results);
+  const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
+  CHECK(summary["interrupted"] == true);
+  CHECK(summary["branches"].size() == 1);
+  CHECK(read_csv(folder.path("r/branches.csv")).size() ==
+        summary["branches"][0]["points"].get<std::size_t>() + 1);
+}
+
+TEST_CASE("A program that is to outlive its terminal does", "[interrupt]") {
+  const TemporaryFolder folder;
+  Terminal terminal;
+  Background run(endless_run(folder.path("r")), [&] {
+    std::signal(SIGHUP, SIG_IGN);
+    terminal.take();
+  });
+  REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
+  run.signal(SIGHUP);
+  const int before = terminal.drawn();
+  CHECK(run.wait_until([&] { return terminal.drawn() > before + 3; }));
+}
+
+TEST_CASE("A program that is killed leaves nothing, or what the next one removes", "[interrupt]") {
+  const TemporaryFolder folder;
+  {
+    Terminal terminal;
+    Background run(endless_run(folder.path("r")), [&] { terminal.take(); });
+    REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
+    run.signal(SIGKILL);
+  }
+  folder.write("r/branches.csv.999999999.tmp", "half of it");
+  folder.write("r/study.sqlite.999999999.tmp-journal", "");
+  folder.write("r/notes.999999999.tmp", "not ours");
+  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  CHECK(names_in(folder.path("r")) ==
+        std::set<std::string>{"branches.csv", "notes.999999999.tmp", "summary.json"});
+}
+
+TEST_CASE("Work that does not ask ends within a second as well", "[interrupt]") {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe");
+  REQUIRE(shell("mkfifo " + pipe).status == 0);
+  for (const std::string command : {"run", "study", "check"}) {
+    Background reader({command, pipe});
+    REQUIRE(reader.wait_until([&] { return handles(reader.id(), SIGINT); }));
+    reader.signal(SIGINT);
+    const Outcome outcome = reader.wait();
+    CHECK(outcome.status == 3);
+    CHECK(outcome.err == "arcslip: interrupted\n");
+  }
+}
+
+TEST_CASE("A study is not held up by a design that takes long, and goes on later", "[interrupt]") {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("case.toml", study_text + "[continuation]\nmax_step = 1e-6\nmax_points = 1000000000\n");
+  Background study({"study", path, "--quiet", "-o", folder.path("r")});
+  REQUIRE(study.wait_until([&] { return std::filesystem::exists(folder.path("r/study.sqlite-wal")); }));
+  study.signal(SIGTERM);
+  const Outcome outcome = study.wait();
+  CHECK(outcome.status == 3);
+  CHECK(is_one_line(outcome.err));
+  CHECK_THAT(outcome.err, ContainsSubstring("interrupted: 0 of 1 designs are done; go on with --resume"));
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"study.sqlite"});
+}
+
+TEST_CASE("gnuplot ends with the program that wants its pictures, whatever ends that one", "[interrupt]") {
+  const TemporaryFolder folder;
+  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") + " --set branch.to=1.5")
+              .status == 0);
+  for (const int signal : {SIGINT, SIGHUP, SIGKILL}) {
+    CAPTURE(signal);
+    const std::string ids = folder.path(std::to_string(signal));
+    path_with_gnuplot(folder, "echo $$ >>'" + ids + "'; exec /bin/sleep 10000");
+    Background plot({"plot", folder.path("r")}, [&] { setenv("PATH", folder.path("bin").c_str(), 1); });
+    REQUIRE(plot.wait_until([&] { return !read(ids).empty(); }));
+    plot.signal(signal);
+    const Outcome outcome = plot.wait();
+    CHECK(outcome.status == (signal == SIGKILL ? -1 : 3));
+    CHECK(outcome.err == (signal == SIGKILL ? "" : "arcslip: interrupted\n"));
+    std::istringstream all(read(ids));
+    for (std::string id; all >> id;) {
+      while (lives(id)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    CHECK(names_in(folder.path("r")) == results);
+  }
+}
