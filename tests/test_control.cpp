@@ -131,10 +131,11 @@ TEST_CASE("A branch that is told to end does so before the next evaluation, wher
 
 TEST_CASE("Time is limited from the first evaluation on, for all parts of a branch together") {
   long evaluations = 0;
+  std::chrono::milliseconds pause(20);
   const ScalarProblem slow{{"p"},
                            [&](double x, const Vector& p) {
                              ++evaluations;
-                             std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                             std::this_thread::sleep_for(pause);
                              return std::sin(x) - p(0);
                            },
                            [](double x, const Vector&) { return std::cos(x); },
@@ -154,6 +155,15 @@ TEST_CASE("Time is limited from the first evaluation on, for all parts of a bran
   CHECK(both.stop == Stop::time_limit);
   CHECK(both.first_stop == Stop::time_limit);
   CHECK(evaluations <= 27);  // as many as half a second has room for, and one more in each part
+
+  // The part back, which had no time to begin, is not forgotten.
+  pause = {};
+  options.max_seconds = std::numeric_limits<double>::infinity();
+  REQUIRE(both.checkpoint);
+  const Branch rest = resume(slow, *both.checkpoint, options);
+  CHECK(rest.complete());
+  CHECK(rest.points.front().parameters(0) == -0.9);
+  CHECK(rest.points.back().parameters(0) == 0.9);
 }
 
 TEST_CASE("A limit of time ends a branch that would go on") {
