@@ -95,7 +95,8 @@ void check_groups(const TomlDocument& document, const TomlSection& section, cons
       {"K_FD", system.interface_stiffness},
       {"k = K_FD/N", system.interface_stiffness / static_cast<double>(system.elements)},
       {"F K*", system.force * system.stiffness_ratio()},
-      {"S = P K*/K_FD", system.preload * per_preload}};
+      {"S = P K*/K_FD", system.preload * per_preload},
+      {"S^2, to which energies are related,", std::pow(system.preload * per_preload, 2)}};
   for (const auto& [name, value] : groups) {
     if (std::isnormal(value)) continue;
     document.fail(

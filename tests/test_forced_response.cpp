@@ -269,6 +269,8 @@ TEST_CASE("Parameters that are not positive cannot be evaluated") {
   Vector p(2);
   p << -1, 1;
   CHECK_FALSE(problem.evaluate(Vector::Zero(1), p, ForcedResponse::slip, {&residual}));
-  p << 1, 0;
-  CHECK_FALSE(problem.evaluate(Vector::Zero(1), p, ForcedResponse::slip, {&residual}));
+  for (const double preload : {0.0, 1e-305}) {  // of the last a double does not hold S^2
+    p << 1, preload;
+    CHECK_FALSE(problem.evaluate(Vector::Zero(1), p, ForcedResponse::slip, {&residual}));
+  }
 }

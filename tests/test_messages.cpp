@@ -167,6 +167,9 @@ TEST_CASE("What fails where a problem is built names the file and what asked for
       ContainsSubstring("case.toml:1:1: system: expected numbers") && ContainsSubstring("K* = gamma^2 M*"));
   CHECK_THAT(answers(with("interface_stiffness", "1e-307")), ContainsSubstring("k = K_FD/N"));
   CHECK_THAT(answers(with("preload", "1e-308")), ContainsSubstring("S = P K*/K_FD"));
+  for (const char* preload : {"1e-305", "1e-160", "1e160"})
+    CHECK_THAT(answers(with("preload", preload)),
+               ContainsSubstring("give a S^2, to which energies are related,"));
   CHECK_THAT(answers(with("force", "1e307")), ContainsSubstring("F K*"));
   CHECK_THAT(answers(with("preload", "1e-308") + "[system.damping]\nbase = 1e-3\n"),
              ContainsSubstring("system: "));

@@ -84,9 +84,11 @@ struct FrictionSystem {
   Loss base_loss_fixed = {};     ///< the rest of the base's loss
   std::vector<ContactOutput> outputs = {};
 
-  /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0.
+  /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0, by so much that a double holds S^2, of which
+  /// energies are multiples.
   bool is_loaded(double eta, double preload) const {
-    return preload > 0 && preload + preload_growth * eta * eta > 0;
+    constexpr double smallest = 1.5e-154;
+    return preload > 0 && slip_threshold(eta, preload) >= smallest;
   }
 
   /// S = (P + P_2 eta^2) K*/K_FD.
