@@ -1,14 +1,16 @@
 #include "arcslip/problems/limit_cycle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 #include "arcslip/contact.hpp"
 #include "arcslip/problems/contact_problem.hpp"
-#include "arcslip/zero_between.hpp"
+#include "arcslip/problems/limit_cycle_search.hpp"
 
 namespace arcslip::problems {
 
@@ -103,68 +105,26 @@ double LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Ind
   return value;
 }
 
-/// Newton's method for eta and zeta at a given R/S, on k phi + 1/c = 0: of one mode, linear in eta^2 and
-/// zeta.
-bool LimitCycle::solve(Cycle& cycle) const {
-  const Complex force = system_.contact_stiffness * slip_coefficient(cycle.log_ratio).phi;
-  for (int iteration = 0; iteration < 50; ++iteration) {
-    const DampedCompliance base =
-        system_.base.compliance(cycle.eta, cycle.zeta, system_.base_loss_per_zeta, system_.base_loss_fixed);
-    const ContactResponse damper = system_.damper.at(cycle.eta);
-    const Complex c = base.value + damper.compliance;
-    const Complex value = force + 1.0 / c;
-    const Complex by_eta = -(base.by_eta + damper.compliance_eta) / (c * c);
-    const Complex by_zeta = -base.by_zeta / (c * c);
-    const double determinant = std::imag(std::conj(by_eta) * by_zeta);
-    const double eta_step = -std::imag(std::conj(value) * by_zeta) / determinant;
-    const double zeta_step = -std::imag(std::conj(by_eta) * value) / determinant;
-    cycle.eta += eta_step;
-    cycle.zeta += zeta_step;
-    if (!(cycle.eta > 0) || !std::isfinite(cycle.zeta)) return false;
-    if (std::abs(eta_step) <= 1e-13 * cycle.eta &&
-        std::abs(zeta_step) <= 1e-13 * (std::abs(cycle.zeta) + 1e-3 * zeta_scale_))
-      return true;
-  }
-  return false;
-}
-
-/// Along the cycle that begins at a resonance of the stuck structures.
-bool LimitCycle::find(double resonance, double zeta_value, Size size, Cycle& found) const {
-  constexpr double step = 0.02;
-  const double sign =
-      size == Size::small ? 1 : -1;  // zeta falls along small cycles and rises along large ones
-  Cycle before{0, resonance, 0};
-  if (!solve(before)) return false;
-  while (before.log_ratio < std::log(1e12)) {
-    Cycle after = before;
-    after.log_ratio += step;
-    if (!solve(after)) return false;
-    if (sign * (before.zeta - zeta_value) >= 0 && sign * (after.zeta - zeta_value) < 0) {
-      found = before;
-      const auto difference = [&](double log_ratio) {
-        found.log_ratio = log_ratio;
-        return solve(found) ? found.zeta - zeta_value : std::numeric_limits<double>::quiet_NaN();
-      };
-      found.log_ratio = zero_between(difference, before.log_ratio, after.log_ratio, before.zeta - zeta_value,
-                                     after.zeta - zeta_value, 48);
-      return solve(found);
-    }
-    before = after;
-  }
-  return false;
-}
-
 continuation::Guess LimitCycle::guess(double zeta_value, double preload_value, Size size) const {
-  const double k = system_.contact_stiffness;
-  for (const double resonance : joined_frequencies({&system_.base, &system_.damper}, k)) {
-    Cycle cycle{};
-    if (!find(resonance, zeta_value, size, cycle) || !system_.is_loaded(cycle.eta, preload_value)) continue;
-    continuation::Guess guess{Vector(2), Vector(2), 0};
-    guess.unknowns << cycle.eta, cycle.log_ratio + system_.log_threshold(cycle.eta, preload_value).value;
-    guess.parameters << zeta_value, preload_value;
-    return guess;
+  std::vector<CycleAtZeta> cycles = cycles_at(system_, zeta_value);
+  std::erase_if(cycles, [&](const CycleAtZeta& cycle) {
+    return (size != Size::any && cycle.is_small != (size == Size::small)) ||
+           !system_.is_loaded(cycle.eta, preload_value);
+  });
+  if (cycles.empty()) {
+    const char* kind = size == Size::any ? "" : size == Size::small ? "small " : "large ";
+    throw std::invalid_argument(
+        fmt::format("LimitCycle: no {}limit cycle was found at zeta_B = {:g}, P = {:g}", kind, zeta_value,
+                    preload_value));
   }
-  throw std::invalid_argument("LimitCycle: there is no cycle of this size at this zeta_B");
+  const CycleAtZeta& first =
+      *std::min_element(cycles.begin(), cycles.end(), [](const CycleAtZeta& a, const CycleAtZeta& b) {
+        return std::tuple(!a.is_small, a.eta, a.log_ratio) < std::tuple(!b.is_small, b.eta, b.log_ratio);
+      });
+  continuation::Guess guess{Vector(2), Vector(2), 0};
+  guess.unknowns << first.eta, first.log_ratio + system_.log_threshold(first.eta, preload_value).value;
+  guess.parameters << zeta_value, preload_value;
+  return guess;
 }
 
 }  // namespace arcslip::problems

@@ -2,11 +2,15 @@
 
 #include "arcslip/problems/limit_cycle.hpp"
 
+#include <Eigen/LU>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <numbers>
+#include <optional>
 
+#include "arcslip/contact.hpp"
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/dynamic_stiffness.hpp"
+#include "arcslip/problems/limit_cycle_search.hpp"
 #include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
@@ -203,6 +207,93 @@ TEST_CASE("The guess gives the small and the large cycle, and none below the fol
   }
   CHECK_THROWS_AS(problem.guess(1.01 * fold, 1), std::invalid_argument);
   CHECK_THROWS_AS(problem.guess(0.01, 1), std::invalid_argument);
+}
+
+namespace {
+
+struct KnownCycle {
+  double eta;
+  double zeta = 0;
+};
+
+/// The cycle with this R/S, by Newton's method for eta and zeta_B on k phi + 1/c = 0 from a resonance.
+std::optional<KnownCycle> cycle_with(const FrictionSystem& system, double log_ratio, double resonance) {
+  KnownCycle at{resonance, -1e-6};  // c is infinite on a resonance without damping
+  const Complex force = system.contact_stiffness * slip_coefficient(log_ratio).phi;
+  for (int i = 0; i < 50; ++i) {
+    const DampedCompliance base =
+        system.base.compliance(at.eta, at.zeta, system.base_loss_per_zeta, system.base_loss_fixed);
+    const ContactResponse damper = system.damper.at(at.eta);
+    const Complex c = base.value + damper.compliance;
+    const Complex value = force + 1.0 / c;
+    Eigen::Matrix2d slopes;
+    const Complex by_eta = -(base.by_eta + damper.compliance_eta) / (c * c);
+    const Complex by_zeta = -base.by_zeta / (c * c);
+    slopes << by_eta.real(), by_zeta.real(), by_eta.imag(), by_zeta.imag();
+    const Eigen::Vector2d step = slopes.partialPivLu().solve(Eigen::Vector2d(value.real(), value.imag()));
+    at.eta -= step(0);
+    at.zeta -= step(1);
+    if (!(at.eta > 0) || !step.allFinite()) return std::nullopt;
+    if (std::abs(step(0)) < 1e-13 * at.eta && std::abs(step(1)) < 1e-10 * std::abs(at.zeta)) return at;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("All cycles are found at their zeta_B, however large they are and light the damping is") {
+  RandomSystems draw(17);
+  int known = 0;
+  for (int i = 0; i < 120; ++i) {
+    SystemParameters s;
+    s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
+    s.wave_number = draw.integer(1, 3);
+    s.elements = draw.integer(2 * s.wave_number + 1, 100);
+    s.mass_ratio = draw.log_uniform(0.3, 60);
+    s.frequency_ratio = draw.log_uniform(0.5, 6);
+    s.interface_stiffness = draw.log_uniform(1, 1e5);
+    s.damper_damping = draw.log_uniform(1e-6, 0.3);
+    s.fixed_damper = draw.integer(0, 2) == 0;
+    s.base_damping_kind = draw.integer(0, 1) == 0 ? DampingKind::viscous : DampingKind::structural;
+    const LimitCycle problem(build_system(s));
+    const FrictionSystem& system = problem.system();
+    const double log_ratio = draw.uniform(0.01, 18);  // R/S up to 7e7
+    const double resonance =
+        log_ratio < 1 ? joined_frequencies({&system.base, &system.damper}, system.contact_stiffness)[0]
+                      : system.base.modes().front().frequency;
+    const auto cycle = cycle_with(system, log_ratio, resonance);
+    if (!cycle || !(cycle->zeta < 0)) continue;
+    ++known;
+    CAPTURE(i, log_ratio, cycle->eta, cycle->zeta);
+    const auto found = problems::cycles_at(system, cycle->zeta);
+    CHECK(std::any_of(found.begin(), found.end(), [&](const problems::CycleAtZeta& at) {
+      return std::abs(at.eta / cycle->eta - 1) < 1e-9 && std::abs(at.log_ratio - log_ratio) < 1e-4;
+    }));
+    CHECK_NOTHROW(problem.guess(cycle->zeta, 1));
+  }
+  CHECK(known > 60);
+}
+
+TEST_CASE("Where there is no small cycle the large one is the start of a branch") {
+  SystemParameters s;
+  s.model = StructureModel::rods;
+  s.wave_number = 1;
+  s.elements = 115;
+  s.mass_ratio = 26.6681;
+  s.frequency_ratio = 2.03272;
+  s.interface_stiffness = 1038.09;
+  s.damper_damping = 0.00785035;
+  const LimitCycle problem(build_system(s));
+  const double preload = 1.39744;
+  CHECK_THROWS_WITH(problem.guess(-1e-5, preload, LimitCycle::Size::small),
+                    "LimitCycle: no small limit cycle was found at zeta_B = -1e-05, P = 1.39744");
+  continuation::TraceOptions options = amplitude_over("zeta_B", -1e-5, -2e-5);
+  options.stop_at = {-1.523e-5};
+  const Branch branch = continuation::trace(problem, problem.guess(-1e-5, preload), options);
+  REQUIRE(branch.complete());
+  const auto at = of_type(branch, PointType::user);
+  REQUIRE(at.size() == 1);
+  CHECK_THAT(values_at(problem, at[0])(LimitCycle::R_over_S), WithinRel(9974, 5e-4));
 }
 
 TEST_CASE("The limit cycle has exact derivatives in eta, R, zeta_B and P") {

@@ -33,7 +33,7 @@ class LimitCycle : public continuation::Problem {
   enum Parameter : Index { zeta, preload };
   /// Observables in this order, `dissipated` over k S^2 as in ForcedResponse. The phase is arbitrary.
   enum Quantity : Index { frequency, R, S, R_over_S, Y, U, dissipated };
-  enum class Size { small, large };
+  enum class Size { any, small, large };
 
   /// The base's damping in `system` is replaced by the parameter zeta_B; its kind is kept.
   explicit LimitCycle(FrictionSystem system);
@@ -56,24 +56,14 @@ class LimitCycle : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
-  /// A cycle at (zeta_B, P): of those that begin at a resonance of the stuck structures, lowest resonance
-  /// first, the smallest one along which -zeta_B rises with R (small) or falls (large), up to R/S = 1e12.
-  /// Throws std::invalid_argument if there is none; one so close to a fold that both sizes lie within 2 % of
-  /// each other in R may not be seen.
-  continuation::Guess guess(double zeta_value, double preload_value, Size size = Size::small) const;
+  /// A cycle at (zeta_B, P): one along which -zeta_B rises with R (small), else one along which it falls
+  /// (large), or of the size that is wanted; the lowest eta first. Throws std::invalid_argument if none is
+  /// found, which may be next to a fold, where two are about to meet.
+  continuation::Guess guess(double zeta_value, double preload_value, Size size = Size::any) const;
 
   const FrictionSystem& system() const { return system_; }
 
  private:
-  struct Cycle {
-    double log_ratio;
-    double eta;
-    double zeta;
-  };
-
-  bool solve(Cycle& cycle) const;
-  bool find(double resonance, double zeta_value, Size size, Cycle& found) const;
-
   FrictionSystem system_;
   double zeta_scale_ = 0;
 };
