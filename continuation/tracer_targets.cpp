@@ -60,10 +60,12 @@ bool Tracer::only_approaches(const Target& target) const {
 /// approaches it never will.
 void Tracer::rest_before(const Target& target) {
   if (std::abs(target.value - value()) <= rounding * parameter_scale()) return take_target(target);
-  if (only_approaches(target))
-    stop(Stop::asymptotic, fmt::format("the branch comes ever nearer to {} = {:.10g} without a point on it; "
-                                       "it stands at {}",
-                                       options_.parameter, target.value, place()));
+  if (!only_approaches(target)) return;
+  // A branch may climb beside a landmark as if it never reached it, and needs no point on it.
+  if (target.kind == Target::Kind::landmark) return targets_.take(target);
+  stop(Stop::asymptotic, fmt::format("the branch comes ever nearer to {} = {:.10g} without a point on it; "
+                                     "it stands at {}",
+                                     options_.parameter, target.value, place()));
 }
 
 /// Whether a target lies between here and a point of the step, further than `tolerance` from this. Then the

@@ -6,6 +6,7 @@
 #include "arcslip/reduced_pair.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
+#include "random_systems.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -272,5 +273,29 @@ TEST_CASE("Parameters that are not positive cannot be evaluated") {
   for (const double preload : {0.0, 1e-305}) {  // of the last a double does not hold S^2
     p << 1, preload;
     CHECK_FALSE(problem.evaluate(Vector::Zero(1), p, ForcedResponse::slip, {&residual}));
+  }
+}
+
+TEST_CASE("Resonances of a width of 1e-9 and less are passed, beside their landmarks too") {
+  RandomSystems draw(23);
+  for (int i = 0; i < 200; ++i) {
+    SystemParameters s;
+    s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
+    s.wave_number = draw.integer(1, 3);
+    s.elements = draw.integer(2 * s.wave_number + 1, 60);
+    s.mass_ratio = draw.log_uniform(1e-3, 1e3);
+    s.frequency_ratio = draw.log_uniform(0.01, 100);
+    s.interface_stiffness = draw.log_uniform(1e-3, 1e8);
+    s.base_damping = draw.log_uniform(2e-10, 1e-7);
+    s.damper_damping = draw.log_uniform(2e-10, 1e-7);
+    const double preload = draw.log_uniform(1e-6, 1e6);
+    const ForcedResponse problem(build_system(s));
+    const FrictionSystem& system = problem.system();
+    const std::vector<double> resonances =
+        joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
+    const continuation::TraceOptions options = over("eta", 0.3 * resonances[0], 1.3 * resonances[1]);
+    const continuation::Branch branch = trace(problem, problem.guess(options.from, preload), options);
+    CAPTURE(i, branch.explanation);
+    CHECK(branch.complete());
   }
 }
