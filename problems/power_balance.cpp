@@ -13,6 +13,7 @@ constexpr double pi = std::numbers::pi;
 struct Work {
   double load = 0;
   double damping = 0;
+  double magnitude = 0;
 };
 
 Work work(const ContactModes& structure, int order, double eta, const ContactVector& forces) {
@@ -22,28 +23,31 @@ Work work(const ContactModes& structure, int order, double eta, const ContactVec
     const Complex motion = (mode.load + mode.shape.dot(forces)) / d;
     sum.load += pi * order * std::imag(mode.load * std::conj(motion));
     sum.damping += pi * order * std::norm(motion) * d.imag();
+    sum.magnitude += pi * order * (std::abs(mode.load) + std::abs(mode.shape.dot(forces))) * std::abs(motion);
   }
   return sum;
 }
 
 }  // namespace
 
-double PowerBalance::error() const {
-  const double largest = std::max({std::abs(input), std::abs(base), std::abs(damper), std::abs(friction)});
-  return std::abs(input - base - damper - friction) / largest;
+double PowerBalance::error() const { return std::abs(input - base - damper - friction) / magnitude; }
+
+double PowerBalance::cancellation() const {
+  return magnitude / std::max({std::abs(input), std::abs(base), std::abs(damper), std::abs(friction)});
 }
 
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
   const HarmonicSystem& system = problem.system();
   const double eta = p(HarmonicResponse::eta);
   const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
-  PowerBalance balance{0, 0, 0, friction.energy};
+  PowerBalance balance{0, 0, 0, friction.energy, std::abs(friction.energy)};
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const Work base = work(system.base[a], system.orders[a], eta, friction.forces[a]);
     const Work damper = work(system.damper[a], system.orders[a], eta, -friction.forces[a]);
     balance.input += base.load;
     balance.base += base.damping;
     balance.damper += damper.damping;
+    balance.magnitude += base.magnitude + damper.magnitude;
   }
   return balance;
 }

@@ -65,8 +65,8 @@ class BalancedPoints {
   std::optional<ForcedResponse> scalar_;
 };
 
-double power_error(const HarmonicResponse& problem, const Guess& at) {
-  return power_balance(problem, at.unknowns, at.parameters, at.regime).error();
+PowerBalance power(const HarmonicResponse& problem, const Guess& at) {
+  return power_balance(problem, at.unknowns, at.parameters, at.regime);
 }
 
 double first_harmonic(const HarmonicResponse& problem, const Guess& at) {
@@ -135,7 +135,9 @@ std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
   for (const BranchPoint& point : branch.points) {
     if (go_on && !go_on()) return std::nullopt;
     const Guess at = known.at(point);
-    largest.power = std::max(largest.power, power_error(known.problem(), at));
+    const PowerBalance balance = power(known.problem(), at);
+    largest.power = std::max(largest.power, balance.error());
+    largest.cancellation = std::max(largest.cancellation, balance.cancellation());
     largest.motion =
         std::max(largest.motion, motion_error(known.problem(), at.unknowns, at.parameters, at.regime));
   }
@@ -155,7 +157,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     if (options.progress && !options.progress(all.size(), points.size())) break;
     const BranchPoint& point = branch.points[i];
     const Guess at = known.at(point);
-    Verification one{i, first_harmonic(problem, at), power_error(problem, at), highest, none, none, none};
+    Verification one{i, first_harmonic(problem, at), power(problem, at).error(), highest, none, none, none};
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {

@@ -92,6 +92,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
         problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
                                  traced.request->options.go_on);
     summary["power_error"] = errors ? ordered_json(errors->power) : ordered_json(nullptr);
+    summary["power_cancellation"] = errors ? ordered_json(errors->cancellation) : ordered_json(nullptr);
     summary["motion_error"] = errors ? ordered_json(errors->motion) : ordered_json(nullptr);
   }
   summary["special"] = special;

@@ -17,8 +17,13 @@ struct PowerBalance {
   double damper;    ///< lost in the damper's
   double friction;  ///< lost in all contacts
 
-  /// |input - losses| over the largest of them.
+  double magnitude;  ///< of all forces times the motions they act on, whatever their phase
+
+  /// |input - losses| over `magnitude`: how far phases are from those of the solution, in radians.
   double error() const;
+  /// `magnitude` over the largest of input and losses: by so much rounding and the tolerance grow in these,
+  /// which are small against forces times motions where damping is light.
+  double cancellation() const;
 };
 
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);

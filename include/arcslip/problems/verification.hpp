@@ -15,8 +15,9 @@ namespace arcslip::problems {
 
 /// Invariants of a response that its equations do not hold by themselves, but where they are solved.
 struct BalanceErrors {
-  double power = 0;   ///< of PowerBalance
-  double motion = 0;  ///< motion_error
+  double power = 0;         ///< of PowerBalance
+  double cancellation = 0;  ///< of PowerBalance
+  double motion = 0;        ///< motion_error
 };
 
 /// The largest at the points of a branch, which is one of HarmonicResponse, or of ForcedResponse, with the
