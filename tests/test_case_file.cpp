@@ -231,10 +231,10 @@ TEST_CASE("A real number beyond the range of a double is refused, a range that s
     CHECK_THAT(error, ContainsSubstring("case.toml:9:"));
     CHECK_THAT(error_of(good, {"system.force=" + beyond}), ContainsSubstring("--set"));
   }
-  const Case wide = read_text(
-      good + "for_each = { preload = { from = 1e-250, to = 1e250, count = 3, scale = \"log\" } }\n");
+  const Case wide =
+      read_text(good + "for_each = { force = { from = 1e-250, to = 1e250, count = 3, scale = \"log\" } }\n");
   REQUIRE(wide.branches.size() == 3);
-  CHECK_THAT(wide.branches[1].problem.system.preload, WithinRel(1, 1e-12));
+  CHECK_THAT(wide.branches[1].problem.system.force, WithinRel(1, 1e-12));
 }
 
 TEST_CASE("Wrong input for what goes beyond a forced response is refused as well") {
