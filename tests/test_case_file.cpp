@@ -173,6 +173,8 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"[branch]", "[brunch]", "", "brunch", "did you mean 'branch'?", ""},
       {"title = \"A case\"", "title = 3", ":1:9", "title", "a string", "got 3"},
       {"title = \"A case\"", "title = ", ":1:", "not valid TOML", "", ""},
+      {"title = \"A case\"", "title = }", ":1:", "not valid TOML", "", ""},
+      {"title = \"A case\"", "[[[title", ":1:", "not valid TOML", "", ""},
   };
   for (const Mistake& mistake : mistakes) check_refused(good, mistake);
 }

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 namespace arcslip::fuzz {
@@ -46,6 +47,7 @@ Outcome run(const std::vector<std::string>& words, const std::string& folder, co
   pointers.push_back(nullptr);
   const Clock::time_point begun = Clock::now();
   const pid_t process = fork();
+  if (process < 0) throw std::runtime_error("no process can be started");
   if (process == 0) become(pointers.data(), folder.c_str());
   Outcome outcome;
   bool asked = false;
