@@ -101,12 +101,7 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
   constexpr double settled = 1e-9;
   const double eta = at.parameters(HarmonicResponse::eta);
   RingMotion motion(ring, eta, at.parameters(HarmonicResponse::preload));
-  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
-  const HarmonicVector r = problem.motion(at.unknowns, 0);
-  std::vector<ContactHarmonic> harmonics;
-  for (std::size_t a = 0; a < problem.system().orders.size(); ++a)
-    harmonics.push_back({problem.system().orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
-  const SettledMotion found = shoot(motion, motion.travelling(harmonics));
+  const SettledMotion found = shoot(motion, motion.travelling(contact_harmonics(problem, at)));
   if (!(found.error < settled)) return {};
   const double growth = floquet_stability(motion, found.state).growth();
   RingState state = found.state;
@@ -125,6 +120,16 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 }
 
 }  // namespace
+
+std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem, const Guess& at) {
+  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
+  const HarmonicVector r = problem.motion(at.unknowns, 0);
+  const std::vector<int>& orders = problem.system().orders;
+  std::vector<ContactHarmonic> harmonics;
+  for (std::size_t a = 0; a < orders.size(); ++a)
+    harmonics.push_back({orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
+  return harmonics;
+}
 
 std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
                                             const std::vector<int>& orders,

@@ -6,6 +6,7 @@
 #include "arcslip/continuation/derivative_check.hpp"
 #include "arcslip/problems/harmonic_response.hpp"
 #include "arcslip/problems/power_balance.hpp"
+#include "arcslip/problems/verification.hpp"
 #include "arcslip/ring_record.hpp"
 #include "arcslip/ring_response.hpp"
 #include "catch.hpp"
@@ -123,15 +124,9 @@ TEST_CASE("The ring of figure 8 in time has the amplitude of many harmonics at t
           "[harmonics]") {
   const HarmonicResponse problem = balanced(figure_8(1), 63);
   const Guess at = problem.guess(3.841, 1);
-  const HarmonicVector r = problem.motion(at.unknowns, 0);
-  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
-  std::vector<ContactHarmonic> harmonics;
-  for (Index a = 0; a < problem.harmonics(); ++a) {
-    const auto place = static_cast<std::size_t>(a);
-    harmonics.push_back({problem.system().orders[place], r(a), friction.forces[place](0)});
-  }
   RingMotion motion(build_ring(figure_8(1)), 3.841, 1);
-  const SettledMotion settled = shoot(motion, motion.travelling(harmonics), 1e-9);
+  const SettledMotion settled =
+      shoot(motion, motion.travelling(problems::contact_harmonics(problem, at)), 1e-9);
   REQUIRE(settled.settled);
   RingState state = settled.state;
   HarmonicRecord record(motion, {1, 3});

@@ -114,19 +114,15 @@ Growth growth_of(const RandomRing& ring, int highest, bool in_time) {
   found.harmonics = values(values.size() - 4);
   found.error = values(values.size() - 3);
   if (!in_time) return found;
-  const problems::HarmonicResponse::Friction friction =
-      problem->friction(at.unknowns, at.parameters, at.regime);
-  const HarmonicVector r = problem->motion(at.unknowns, 0);
-  std::vector<ContactHarmonic> harmonics;
-  for (std::size_t a = 0; a < s.harmonics.size(); ++a)
-    harmonics.push_back({s.harmonics[a], r(static_cast<Index>(a)), friction.forces[a](0)});
+  const std::vector<ContactHarmonic> harmonics = problems::contact_harmonics(*problem, at);
   RingMotion motion(build_ring(s), ring.eta, s.preload);
   const SettledMotion settled = shoot(motion, motion.travelling(harmonics));
   if (!settled.settled) return found;
   RingState state = settled.state;
   HarmonicRecord record(motion, {1});
   motion.advance(state, motion.period(), &record);
-  if (std::abs(record.relative()(0) - r(0)) > 1e-3 * std::abs(r(0))) return found;  // another response
+  const Complex r = harmonics.front().relative;
+  if (std::abs(record.relative()(0) - r) > 1e-3 * std::abs(r)) return found;  // another response
   const RingStability stability = floquet_stability(motion, settled.state);
   found.time = stability.growth();
   const auto all = problem->disturbances(at.unknowns, at.parameters, at.regime);
@@ -170,12 +166,8 @@ std::string driven_case(Index wave_number, Index elements, int highest, const st
 /// The multipliers of all nodes at a point.
 RingStability in_time(const TracedBranch& traced, const BranchPoint& point) {
   const auto& problem = dynamic_cast<const FloquetResponse&>(*traced.base);
-  const auto friction = problem.friction(point.unknowns, point.parameters, point.regime);
-  const HarmonicVector r = problem.motion(point.unknowns, 0);
-  const std::vector<int>& orders = problem.system().orders;
-  std::vector<ContactHarmonic> harmonics;
-  for (std::size_t a = 0; a < orders.size(); ++a)
-    harmonics.push_back({orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
+  const auto harmonics =
+      problems::contact_harmonics(problem, {point.unknowns, point.parameters, point.regime, {}});
   RingMotion motion(build_ring(traced.request->problem.system), point.parameters(0), point.parameters(1));
   const SettledMotion settled = shoot(motion, motion.travelling(harmonics));
   REQUIRE(settled.settled);

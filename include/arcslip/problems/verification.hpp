@@ -9,6 +9,7 @@
 
 #include "arcslip/continuation/branch.hpp"
 #include "arcslip/problems/harmonic_response.hpp"
+#include "arcslip/ring_motion.hpp"
 #include "arcslip/system.hpp"
 
 namespace arcslip::problems {
@@ -26,6 +27,10 @@ std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
                                             const std::vector<int>& orders,
                                             const continuation::Branch& branch,
                                             const std::function<bool()>& go_on = {});
+
+/// What the first contact does in a response, harmonic by harmonic: what the ring in time is begun with.
+std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem,
+                                               const continuation::Guess& at);
 
 /// NaN where a method has no result.
 struct Verification {
