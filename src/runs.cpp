@@ -107,13 +107,12 @@ TracedBranch unstarted(const Request& request, const Subject& subject, const std
 }
 
 /// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
-std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time,
-                                                  const std::function<bool()>& go_on) {
+std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time) {
   constexpr Index small = 50;
   constexpr double wide = 10;  // of the problem's scale
   const continuation::Guess& guess = subject.guess;
   continuation::SolveAllOptions options;
-  options.go_on = [&] { return !time.is_spent() && (!go_on || go_on()); };
+  options.go_on = [&] { return time.goes_on(); };
   if (guess.unknowns.size() <= small) {
     Vector scale(guess.unknowns.size());
     Vector parameter_scale(guess.parameters.size());
@@ -131,8 +130,7 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   if (request->switching) {
     branches = continuation::trace_connected(problem, subject.guess, time.rest(), {}, observer);
   } else if (request->all_solutions) {
-    const auto solutions = solutions_around(subject, time, request->options.go_on);
-    branches = continuation::trace_through(problem, solutions, time.rest(), observer);
+    branches = continuation::trace_through(problem, solutions_around(subject, time), time.rest(), observer);
   } else if (request->start) {
     branches.push_back(continuation::trace_both(problem, subject.guess, time.rest(), observer));
   } else {
@@ -209,10 +207,6 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
                                 seeds.complete() ? "" : ": " + seeds.explanation))};
 }
 
-}  // namespace
-
-namespace {
-
 std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& request) {
   if (request.model != nullptr) return request.model->build(request.settings);
   return with_type(request, [&]<class Type>(std::type_identity<Type>) {
@@ -286,7 +280,7 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
 /// The harmonics that `problem` leaves out although their force would move a contact by more than `tolerance`
 /// times R at some point of the branch. Looked for up to about twice its highest one.
 std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance,
-                                const std::function<bool()>& go_on) {
+                                const TimeBudget& time) {
   const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
   SystemParameters wide = system;
   wide.harmonics = odd_up_to(highest);
@@ -297,7 +291,7 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
   Vector residual(problem.size());
   Vector largest = Vector::Zero(problem.harmonics());
   for (const BranchPoint& point : branch.points) {
-    if (!go_on()) return {};
+    if (!time.goes_on()) return {};
     padded.setZero();
     for (Index i = 0; i < contacts; ++i) {
       for (Index a = 0; a < known; ++a) {
@@ -326,8 +320,6 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
                                          const continuation::Observer& observer) {
   const auto widened = std::make_shared<CaseBranch>(*request);
   std::vector<int>& orders = widened->problem.system.harmonics;
-  const std::function<bool()>& asked = request->options.go_on;
-  const auto go_on = [&] { return !time.is_spent() && (!asked || asked()); };
   while (true) {
     std::vector<TracedBranch> traced = trace_given(widened, time, observer);
     std::vector<int> missing;
@@ -335,14 +327,13 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
       one.request = request;
       if (!one.branch.complete() || one.curve) continue;
       const std::vector<int> more =
-          missing_orders(widened->problem.system, one.branch, *request->problem.harmonics_tolerance, go_on);
+          missing_orders(widened->problem.system, one.branch, *request->problem.harmonics_tolerance, time);
       missing.insert(missing.end(), more.begin(), more.end());
-      if (go_on()) continue;
+      if (time.goes_on()) continue;
       one.branch.stop = time.is_spent() ? continuation::Stop::time_limit : continuation::Stop::interrupted;
       one.branch.explanation = "ended before it was known whether its harmonics suffice";
     }
-    if (!go_on()) return traced;
-    if (missing.empty()) return traced;
+    if (!time.goes_on() || missing.empty()) return traced;
     orders.insert(orders.end(), missing.begin(), missing.end());
     std::sort(orders.begin(), orders.end());
     orders.erase(std::unique(orders.begin(), orders.end()), orders.end());

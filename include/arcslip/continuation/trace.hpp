@@ -67,6 +67,8 @@ class TimeBudget {
   /// The options with the time that is left.
   TraceOptions rest() const;
   bool is_spent() const { return !(seconds_left() > 0); }
+  /// Whether there is time left and go_on of the options, if there is one, says so.
+  bool goes_on() const { return !is_spent() && (!options_.go_on || options_.go_on()); }
 
  private:
   double seconds_left() const;
