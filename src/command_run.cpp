@@ -74,6 +74,7 @@ class Run {
  private:
   void trace_request(std::size_t i, RunFiles& files);
   void report(const TracedBranch& traced, std::size_t number);
+  std::string described(const TracedBranch& traced, std::size_t number);
   void certify_branch(TracedBranch& traced, RunFiles& files);
   void verify_branch(const TracedBranch& traced, RunFiles& files);
   void show(const std::string& text);
@@ -156,6 +157,15 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
 }
 
 void Run::report(const TracedBranch& traced, std::size_t number) {
+  points_ += traced.branch.points.size();
+  if (!options_.quiet) show(described(traced, number));
+  const std::string why = complaint(traced.branch);
+  if (why.empty()) return;
+  complete_ = false;
+  complain(fmt::format("arcslip: branch {}: {}", number, why));
+}
+
+std::string Run::described(const TracedBranch& traced, std::size_t number) {
   std::string text = std::exchange(title_, "");
   const std::string values = describe(traced.request->values);
   if (!values.empty()) text += fmt::format("{}{}\n", number == 0 ? "" : "\n", values);
@@ -165,12 +175,7 @@ void Run::report(const TracedBranch& traced, std::size_t number) {
           describe_stability(traced);
   if (traced.branch.stop != continuation::Stop::reached_end)
     text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);
-  points_ += traced.branch.points.size();
-  show(text);
-  const std::string why = complaint(traced.branch);
-  if (why.empty()) return;
-  complete_ = false;
-  complain(fmt::format("arcslip: branch {}: {}", number, why));
+  return text;
 }
 
 /// Prints what is proven, on stderr what is not.
