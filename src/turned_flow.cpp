@@ -248,13 +248,21 @@ std::array<Complex, 2> TurnedFlow::free_exponents(const Coordinate& coordinate, 
   return all;
 }
 
+/// Of real motions the flow is real.
+template <class Use>
+auto TurnedFlow::with_flow(const std::vector<Coordinate>& held, double eta,
+                           std::span<const StickPattern> contacts, const Use& use) const {
+  return kind_ == Kind::general ? use(Flow<Complex>(held, nodes_, springs_, eta, contacts))
+                                : use(Flow<double>(held, nodes_, springs_, eta, contacts));
+}
+
 std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPattern> contacts) const {
   const Parts apart = parts(eta);
   std::vector<Complex> all;
   for (const Coordinate& one : apart.free) {
     for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
   }
-  const auto add = [&]<class Scalar>(Flow<Scalar> flow) {
+  const auto add = [&](auto flow) {
     for (const Complex& nu : spectrum(deflated(flow.turned_map(), flow.drifts()))) {
       if (std::abs(nu) < forgotten) continue;
       const double size = std::log(std::abs(nu));
@@ -263,12 +271,7 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
                        angle * static_cast<double>(nodes_) * eta);
     }
   };
-  if (apart.held.empty()) {
-  } else if (kind_ == Kind::general) {
-    add(Flow<Complex>(apart.held, nodes_, springs_, eta, contacts));
-  } else {
-    add(Flow<double>(apart.held, nodes_, springs_, eta, contacts));
-  }
+  if (!apart.held.empty()) with_flow(apart.held, eta, contacts, add);
   std::stable_sort(all.begin(), all.end(),
                    [](const Complex& a, const Complex& b) { return a.real() > b.real(); });
   return all;
@@ -282,13 +285,11 @@ Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const S
       if (sigma == exponent) return std::min(one.wave, ring - one.wave);
     }
   }
-  const auto of = [&]<class Scalar>(Flow<Scalar> flow) {
+  return with_flow(apart.held, eta, contacts, [&](auto flow) {
     const ComplexVector vector =
         eigenvector(flow.turned_map().template cast<Complex>(), std::exp(exponent * step(eta)));
     return disturbed_wave(places(apart.held, eta), vector, ring);
-  };
-  return kind_ == Kind::general ? of(Flow<Complex>(apart.held, nodes_, springs_, eta, contacts))
-                                : of(Flow<double>(apart.held, nodes_, springs_, eta, contacts));
+  });
 }
 
 }  // namespace arcslip

@@ -83,6 +83,9 @@ class TurnedFlow {
   };
   Parts parts(double eta) const;
   double step(double eta) const;  ///< time in which theta grows by pi/M
+  template <class Use>
+  auto with_flow(const std::vector<Coordinate>& held, double eta, std::span<const StickPattern> contacts,
+                 const Use& use) const;
   std::array<Complex, 2> free_exponents(const Coordinate& coordinate, double eta) const;
 
   Kind kind_;

@@ -23,8 +23,9 @@ class FloquetResponse : public HarmonicResponse {
  public:
   /// Observables beside those of HarmonicResponse, at their end: `growth`, the largest |mu| of a period;
   /// `growth_error`, how far it is, by the response in the harmonics of `finer`, from what all harmonics
-  /// give, NaN without it and where there is no such response; `worst_wave`, of Worst. Throws
-  /// std::invalid_argument as HarmonicResponse and RingDisturbances do.
+  /// give, NaN without it and where there is no such response; `worst_wave`, of Worst;
+  /// `stable`, 1 or 0 where the error leaves no doubt, else NaN. Throws std::invalid_argument as
+  /// HarmonicResponse and RingDisturbances do.
   FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
                   std::shared_ptr<const FloquetResponse> finer = nullptr);
 
@@ -63,7 +64,6 @@ class FloquetResponse : public HarmonicResponse {
                                        std::span<const StickPattern> contacts, bool active) const;
   struct Last;
   const Last& last(const Vector& u, const Vector& p, int regime) const;
-  Complex turned(const RingDisturbances::Disturbance& one, double eta_value) const;
   double growth_error(const Vector& u, const Vector& p, int regime, double growth) const;
 
   RingDisturbances disturbances_;
