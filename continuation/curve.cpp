@@ -44,6 +44,11 @@ double kappa_of(const ComplexVector& eigenvalues) {
   return kappa;
 }
 
+/// Hopf curves end where their pair of eigenvalues meets at 0.
+bool ends_at_bogdanov_takens(const ExtendedProblem& problem) {
+  return dynamic_cast<const HopfProblem*>(&problem) != nullptr;
+}
+
 /// With the events that end a curve.
 TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
   TraceOptions all = options;
@@ -55,8 +60,7 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
   }
   if (all.events.size() > options.events.size())
     all.stop_after.push_back({PointType::event, 1, end_of_window});
-  if (dynamic_cast<const HopfProblem*>(&problem) != nullptr)
-    all.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
+  if (ends_at_bogdanov_takens(problem)) all.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
   return all;
 }
 
@@ -72,7 +76,7 @@ Branch follow_half(ExtendedProblem& problem, const Observer& observer,
   BranchPoint& last = half.points.back();
   const bool is_over = last.label == end_of_window ||
                        (half.stop == Stop::requested && last.type == PointType::bogdanov_takens &&
-                        dynamic_cast<HopfProblem*>(&problem) != nullptr);
+                        ends_at_bogdanov_takens(problem));
   if (is_over) half.checkpoint.reset();
   if (half.checkpoint) half.checkpoint->ahead->borders = problem.borders();
   if (last.label != end_of_window) return half;
