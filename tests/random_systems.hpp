@@ -36,11 +36,17 @@ class RandomSystems {
     return low + static_cast<Index>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
 
-  SystemParameters system() {
+  /// Rods or beams with enough elements for their wave; all else is left.
+  SystemParameters ring(Index most_waves, Index most_elements) {
     SystemParameters s;
     s.model = integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-    s.wave_number = integer(1, 5);
-    s.elements = integer(2 * s.wave_number + 1, 200);
+    s.wave_number = integer(1, most_waves);
+    s.elements = integer(2 * s.wave_number + 1, most_elements);
+    return s;
+  }
+
+  SystemParameters system() {
+    SystemParameters s = ring(5, 200);
     s.mass_ratio = log_uniform(0.2, 200);
     s.frequency_ratio = log_uniform(0.3, 8);
     s.interface_stiffness = log_uniform(1e-2, 1e7);

@@ -216,17 +216,26 @@ TEST_CASE("Duffing's response is unstable from fold to fold, where a real expone
   CHECK(folds == 2);
 }
 
+namespace {
+
+double displacement(const BranchPoint& point, double t) {
+  double q = 0;
+  for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
+    const double turn = static_cast<double>(2 * k + 1) * point.parameters(0) * t;
+    q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
+  }
+  return q;
+}
+
+}  // namespace
+
 TEST_CASE("Duffing's exponents are those of the monodromy matrix", "[hill]") {
   const double force = GENERATE(0.18, 0.5);
   const Instance duffing("duffing", {{"harmonics", 15}, {"force", force}});
   for (const BranchPoint& point : response(duffing).points) {
     const double W = point.parameters(0);
     const auto variation = [&](double t) {
-      double q = 0;
-      for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
-        const double turn = static_cast<double>(2 * k + 1) * W * t;
-        q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
-      }
+      const double q = displacement(point, t);
       return Eigen::Matrix2d{{0, 1}, {-1 - 3 * cubic * q * q, -damping}};
     };
     const double period = 2 * M_PI / W;
@@ -246,11 +255,7 @@ TEST_CASE("Where Duffing's motion loses its symmetry a multiplier of half a peri
   for (const BranchPoint& point : broken) {
     const double W = point.parameters(0);
     const auto variation = [&](double t) {
-      double q = 0;
-      for (Index k = 0; k < point.unknowns.size() / 2; ++k) {
-        const double turn = static_cast<double>(2 * k + 1) * W * t;
-        q += point.unknowns(2 * k) * std::cos(turn) + point.unknowns(2 * k + 1) * std::sin(turn);
-      }
+      const double q = displacement(point, t);
       return Eigen::Matrix2d{{0, 1}, {-1 - 3 * q * q, -0.2}};
     };
     const Matrix half = monodromy(variation, M_PI / W, 2000);

@@ -245,10 +245,7 @@ TEST_CASE("All cycles are found at their zeta_B, however large they are and ligh
   RandomSystems draw(17);
   int known = 0;
   for (int i = 0; i < 120; ++i) {
-    SystemParameters s;
-    s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-    s.wave_number = draw.integer(1, 3);
-    s.elements = draw.integer(2 * s.wave_number + 1, 100);
+    SystemParameters s = draw.ring(3, 100);
     s.mass_ratio = draw.log_uniform(0.3, 60);
     s.frequency_ratio = draw.log_uniform(0.5, 6);
     s.interface_stiffness = draw.log_uniform(1, 1e5);

@@ -19,9 +19,7 @@ const std::vector<std::string> none;
 StudyRun draw_run(RandomSystems& draw, double& resonance, double& border) {
   StudyRun run;
   SystemParameters& s = run.system;
-  s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-  s.wave_number = draw.integer(1, 3);
-  s.elements = draw.integer(2 * s.wave_number + 1, 60);
+  s = draw.ring(3, 60);
   s.mass_ratio = draw.log_uniform(0.5, 50);
   s.frequency_ratio = draw.log_uniform(0.7, 6);
   s.interface_stiffness = draw.log_uniform(10, 1e5);
@@ -122,9 +120,7 @@ TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the mid
   for (int i = 0; i < 60; ++i) {
     StudyRun run;
     SystemParameters& s = run.system;
-    s.model = draw.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-    s.wave_number = draw.integer(1, 3);
-    s.elements = draw.integer(2 * s.wave_number + 1, 60);
+    s = draw.ring(3, 60);
     s.mass_ratio = draw.log_uniform(0.5, 50);
     s.frequency_ratio = 1;
     s.interface_stiffness = draw.log_uniform(10, 1e5);

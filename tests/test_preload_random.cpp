@@ -25,9 +25,7 @@ class RandomStudies {
   StudyRun run() {
     StudyRun run;
     SystemParameters& s = run.system;
-    s.model = draw_.integer(0, 1) == 0 ? StructureModel::rods : StructureModel::beams;
-    s.wave_number = draw_.integer(1, 6);
-    s.elements = draw_.integer(2 * s.wave_number + 1, 200);
+    s = draw_.ring(6, 200);
     s.mass_ratio = draw_.log_uniform(0.2, 200);
     s.frequency_ratio = draw_.log_uniform(0.5, 8);
     s.interface_stiffness = draw_.log_uniform(1e2, 1e8);
