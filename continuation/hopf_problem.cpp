@@ -96,9 +96,10 @@ std::vector<Observable> HopfProblem::observables() const {
 }
 
 void HopfProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  ExtendedProblem::observe(u, p, regime, values);
-  values.conservativeResize(values.size() + 1);
-  values(values.size() - 1) = std::sqrt(std::max(0.0, u(u.size() - 1)));
+  Vector of_base;
+  ExtendedProblem::observe(u, p, regime, of_base);
+  values.resize(of_base.size() + 1);
+  values << of_base, std::sqrt(std::max(0.0, u(u.size() - 1)));
 }
 
 bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {

@@ -6,6 +6,10 @@
 #include <Eigen/SparseCore>
 #include <complex>
 
+// Other settings would overrun or free wrongly what the library has allocated.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 0,
+              "compile with the definitions that the CMake target arcslip::arcslip brings");
+
 namespace arcslip {
 
 using Index = Eigen::Index;

@@ -13,15 +13,20 @@ if(NOT IS_DIRECTORY ${prefix}/share/arcslip/plots)
   message(FATAL_ERROR "share/arcslip/plots was not installed")
 endif()
 
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${work}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
-    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-    -DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${work}/bin)
-run(${CMAKE_COMMAND} --build ${work}/build --config ${CONFIG})
-run(${work}/bin/friction)
-run(${work}/bin/further)
+function(build name)
+  run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${work}/${name} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+      -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+      -DCMAKE_RUNTIME_OUTPUT_DIRECTORY=${work}/${name}/bin ${ARGN})
+  run(${CMAKE_COMMAND} --build ${work}/${name} --config ${CONFIG})
+endfunction()
+
+build(plain)
+set(plain ${work}/plain/bin)
+run(${plain}/friction)
+run(${plain}/further)
 
 # At k = 1/5 the arch snaps at u = 1 -+ sqrt(1/5), d = 1 +- sqrt(1/5).
-execute_process(COMMAND ${work}/bin/own_problem OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${plain}/own_problem OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
 message(STATUS "${output}")
 foreach(expected IN ITEMS "fold: d = 1.44721, u = 0.552786\n" "fold: d = 0.552786, u = 1.44721\n")
   string(FIND "${output}" "${expected}" at)
@@ -40,3 +45,30 @@ string(FIND "${readme}" "\n\n${shown}\n" at)
 if(at EQUAL -1)
   message(FATAL_ERROR "the README does not show:\n${shown}")
 endif()
+
+# Matrices pass between the library and users that are built for other instructions, or with the address sanitizer.
+set(flags -fsanitize=address)
+execute_process(COMMAND ${CXX_COMPILER} -march=native -E -x c++ /dev/null RESULT_VARIABLE refused OUTPUT_QUIET ERROR_QUIET)
+if(refused EQUAL 0)
+  set(flags "${flags} -march=native")
+endif()
+build(other "-DCMAKE_CXX_FLAGS=${flags}")
+run(${work}/other/bin/own_problem)
+run(${work}/other/bin/further)
+
+# Components are the layers, and no others.
+file(WRITE ${work}/components/CMakeLists.txt [[
+cmake_minimum_required(VERSION 3.25)
+project(components LANGUAGES CXX)
+find_package(arcslip QUIET COMPONENTS continuation nonsense)
+if(arcslip_FOUND OR NOT arcslip_continuation_FOUND)
+  message(FATAL_ERROR "a component that is not there was found")
+endif()
+find_package(arcslip QUIET OPTIONAL_COMPONENTS nonsense)
+if(NOT arcslip_FOUND OR arcslip_nonsense_FOUND)
+  message(FATAL_ERROR "an optional component that is not there was found")
+endif()
+find_package(arcslip REQUIRED COMPONENTS continuation mechanics problems files)
+]])
+run(${CMAKE_COMMAND} -S ${work}/components -B ${work}/components/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER})

@@ -29,7 +29,7 @@ inline void remove_nearest(ComplexVector& values, Complex away) {
   Index nearest = 0;
   (values.array() - away).abs().minCoeff(&nearest);
   std::swap(values(nearest), values(values.size() - 1));
-  values.conservativeResize(values.size() - 1);
+  values = ComplexVector(values.head(values.size() - 1));
 }
 
 }  // namespace arcslip::continuation
