@@ -2,33 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::problems {
-namespace {
-
-constexpr double pi = std::numbers::pi;
-
-/// Work done on the modes of a structure by its load, and what its damping takes.
-struct Work {
-  double load = 0;
-  double damping = 0;
-  double magnitude = 0;
-};
-
-Work work(const ContactModes& structure, int order, double eta, const ContactVector& forces) {
-  Work sum;
-  for (const ContactMode& mode : structure.modes()) {
-    const Complex d = ModalDenominator(order * eta, mode.frequency, structure.loss()).value;
-    const Complex motion = (mode.load + mode.shape.dot(forces)) / d;
-    sum.load += pi * order * std::imag(mode.load * std::conj(motion));
-    sum.damping += pi * order * std::norm(motion) * d.imag();
-    sum.magnitude += pi * order * (std::abs(mode.load) + std::abs(mode.shape.dot(forces))) * std::abs(motion);
-  }
-  return sum;
-}
-
-}  // namespace
 
 double PowerBalance::error() const { return std::abs(input - base - damper - friction) / magnitude; }
 
@@ -42,12 +17,13 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
   const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
   PowerBalance balance{0, 0, 0, friction.energy, std::abs(friction.energy)};
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
-    const Work base = work(system.base[a], system.orders[a], eta, friction.forces[a]);
-    const Work damper = work(system.damper[a], system.orders[a], eta, -friction.forces[a]);
-    balance.input += base.load;
-    balance.base += base.damping;
-    balance.damper += damper.damping;
-    balance.magnitude += base.magnitude + damper.magnitude;
+    const int cycles = system.orders[a];
+    const CycleWork base = system.base[a].work(cycles * eta, friction.forces[a]);
+    const CycleWork damper = system.damper[a].work(cycles * eta, -friction.forces[a]);
+    balance.input += cycles * base.load;
+    balance.base += cycles * base.damping;
+    balance.damper += cycles * damper.damping;
+    balance.magnitude += cycles * (base.magnitude + damper.magnitude);
   }
   return balance;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace arcslip {
@@ -21,9 +22,10 @@ ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const
   }
 }
 
-ContactModes ContactModes::solved_by(Receptance receptance) const {
+ContactModes ContactModes::solved_by(Receptance receptance, ReceptanceWork work) const {
   ContactModes solved = *this;
   solved.receptance_ = std::move(receptance);
+  solved.receptance_work_ = std::move(work);
   return solved;
 }
 
@@ -88,6 +90,21 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
     sum.free += (mode.load * inverse) * mode.shape;
     sum.free_eta += (mode.load * slope) * mode.shape;
   }
+}
+
+CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
+  if (receptance_) return receptance_work_(eta, forces);
+  constexpr double pi = std::numbers::pi;
+  CycleWork sum;
+  for (const ContactMode& mode : modes_) {
+    const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;
+    const Complex by_contacts = mode.shape.dot(forces);
+    const Complex motion = (mode.load + by_contacts) / d;
+    sum.load += pi * std::imag(mode.load * std::conj(motion));
+    sum.damping += pi * std::norm(motion) * d.imag();
+    sum.magnitude += pi * (std::abs(mode.load) + std::abs(by_contacts)) * std::abs(motion);
+  }
+  return sum;
 }
 
 DampedReceptance ContactModes::damped(double eta, double mass) const {

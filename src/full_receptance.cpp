@@ -1,6 +1,7 @@
 #include "full_receptance.hpp"
 
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace arcslip {
@@ -14,7 +15,9 @@ SectorResponse not_finite(Index contacts, Index outputs) {
           ComplexVector::Constant(contacts, unknown),
           ComplexVector::Constant(contacts, unknown),
           ComplexMatrix::Constant(outputs, contacts, unknown),
-          ComplexVector::Constant(outputs, unknown)};
+          ComplexVector::Constant(outputs, unknown),
+          ComplexMatrix::Constant(contacts + 1, contacts + 1, unknown),
+          ComplexVector::Constant(contacts + 1, unknown)};
 }
 
 }  // namespace
@@ -47,6 +50,17 @@ ContactReceptance FullReceptance::with_output(Index output, double eta, double f
   receptance.compliance.row(m).head(m) = found.output_compliance.row(output);
   receptance.free << force * found.free, force * found.output_free(output);
   return receptance;
+}
+
+CycleWork FullReceptance::work(double eta, double force, const ContactVector& forces) const {
+  constexpr double pi = std::numbers::pi;
+  const SectorResponse found = response(eta);
+  ComplexVector all(forces.size() + 1);
+  all << forces, force;
+  const Complex load_motion = (found.load_motion.transpose() * all).value();
+  const ComplexVector motion = found.compliance * forces + force * found.free;
+  return {-pi * force * load_motion.imag(), pi * all.dot(found.damping * all).real(),
+          pi * (force * std::abs(load_motion) + forces.cwiseAbs().dot(motion.cwiseAbs()))};
 }
 
 int FullReceptance::factorisations() const {

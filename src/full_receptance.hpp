@@ -26,6 +26,9 @@ class FullReceptance {
   /// does nor any derivative: these are nan.
   ContactReceptance with_output(Index output, double eta, double force) const;
 
+  /// Of that response under `forces` on the contacts as well.
+  CycleWork work(double eta, double force, const ContactVector& forces) const;
+
   int factorisations() const;  ///< since the start
   Index size() const { return solver_.reduction().size(); }
 

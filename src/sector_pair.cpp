@@ -141,9 +141,15 @@ struct Part {
     }
     const ContactModes modal(count + (output ? 1 : 0), std::move(list), loss);
     if (solves == nullptr) return modal;
-    return modal.solved_by([solves = solves, output, force = force](double eta) {
-      return output ? solves->with_output(*output, eta, force) : solves->at(eta, force);
-    });
+    if (output) {
+      return modal.solved_by([solves = solves, output = *output, force = force](double eta) {
+        return solves->with_output(output, eta, force);
+      });
+    }
+    return modal.solved_by([solves = solves, force = force](double eta) { return solves->at(eta, force); },
+                           [solves = solves, force = force](double eta, const ContactVector& forces) {
+                             return solves->work(eta, force, forces);
+                           });
   }
 
   void add_outputs(std::vector<ContactOutput>& outputs) const {

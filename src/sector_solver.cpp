@@ -21,8 +21,14 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
   right_.resize(reduction_.size(), m + 1);
   product_.resize(reduction_.size(), m + 1);
   left_.resize(reduction_.size(), m);
-  response_ = {ComplexMatrix(m, m), ComplexMatrix(m, m), ComplexVector(m),
-               ComplexVector(m),    ComplexMatrix(p, m), ComplexVector(p)};
+  response_ = {ComplexMatrix(m, m),
+               ComplexMatrix(m, m),
+               ComplexVector(m),
+               ComplexVector(m),
+               ComplexMatrix(p, m),
+               ComplexVector(p),
+               ComplexMatrix(m + 1, m + 1),
+               ComplexVector(m + 1)};
   factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
 }
 
@@ -76,6 +82,18 @@ void SectorSolver::collect() {
   response_.free_eta.noalias() = -left_.transpose() * product_.col(m);
 }
 
+/// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian.
+void SectorSolver::collect_works(double eta) {
+  const auto [k, m] = MatrixFactors<double>(eta, loss_);
+  product_.setZero();
+  if (k.imag() != 0) product_.noalias() += reduction_.stiffness() * (k.imag() * right_);
+  if (m.imag() != 0) product_.noalias() += reduction_.mass() * (m.imag() * right_);
+  if (reduction_.damping().size() != 0)
+    product_.noalias() += reduction_.damping() * (2 * std::numbers::pi * eta * right_);
+  response_.damping.noalias() = right_.adjoint() * product_;
+  response_.load_motion.noalias() = right_.transpose() * reduction_.load().conjugate();
+}
+
 const SectorResponse& SectorSolver::at(double eta) {
   assemble(eta);
   if (!factors_->factor(dynamic_stiffness_)) {
@@ -86,6 +104,7 @@ const SectorResponse& SectorSolver::at(double eta) {
   factors_->solve_transposed(left_);
   factors_->release();
   collect();
+  collect_works(eta);
   return response_;
 }
 

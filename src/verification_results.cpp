@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "arcslip/sector_pair.hpp"
-
 namespace arcslip {
 namespace {
 
@@ -38,7 +36,6 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   if (problem.is_mode()) return "nonlinear modes";
   if (problem.response == Response::one_way) return "one-way responses";
   if (problem.system.cubic_stiffness != 0) return "cubic springs";
-  if (problem.system.sectors && problem.system.sectors->path() == SectorPath::full) return "the full path";
   return branch.curve ? "curves" : "";
 }
 

@@ -4,6 +4,9 @@
 #include <numbers>
 #include <thread>
 
+#include "arcslip/harmonic_system.hpp"
+#include "arcslip/problems/power_balance.hpp"
+#include "arcslip/problems/verification.hpp"
 #include "arcslip/study_case.hpp"
 #include "catch.hpp"
 #include "full_receptance.hpp"
@@ -232,6 +235,75 @@ TEST_CASE("Contacts to ground rub on a damper that is held, by modes and by spar
       }
     }
   }
+}
+
+TEST_CASE("Power and motion are balanced by sparse solves as by modes") {
+  const std::string contacts = GENERATE("contact = [1]", "contact = [1, 4, 6]");
+  const TemporaryFolder folder;
+  const std::string text = all_replaced(paper_system(folder, false, 10), "contact = [1]", contacts) +
+                           "[branch]\nparameter = \"eta\"\nfrom = 2.5\nto = 6.0\n";
+  const Case in_modes = read_case(folder.write("modes.toml", text));
+  const Case full = read_case(folder.write("full.toml", in_full(text)));
+  const auto traced = trace(full.branches.front());
+  for (const auto& branch :
+       {summarize(0, trace(in_modes.branches.front()).front()), summarize(0, traced.front())}) {
+    // the residual 1e-10 over the damping ratio 1e-4
+    CHECK(branch["power_error"].get<double>() < 1e-6);
+    CHECK(branch["motion_error"].get<double>() < 1e-6);
+    CHECK(branch["power_cancellation"].get<double>() > 1);
+  }
+  const problems::HarmonicResponse by_modes(build_harmonic_system(in_modes.branches.front().problem.system));
+  const problems::HarmonicResponse by_solves(build_harmonic_system(full.branches.front().problem.system));
+  for (const BranchPoint& point : points(traced.front(), PointType::peak)) {
+    const auto found = power_balance(by_solves, point.unknowns, point.parameters, point.regime);
+    const auto expected = power_balance(by_modes, point.unknowns, point.parameters, point.regime);
+    CAPTURE(contacts, point.parameters(0));
+    // 1e-10 of the modes over the damping
+    CHECK_THAT(found.input, WithinRel(expected.input, 1e-6));
+    CHECK_THAT(found.base, WithinRel(expected.base, 1e-6));
+    CHECK_THAT(found.damper, WithinRel(expected.damper, 1e-6));
+    CHECK_THAT(found.friction, WithinRel(expected.friction, 1e-14));
+    CHECK_THAT(found.magnitude, WithinRel(expected.magnitude, 0.5));  // one of modes, the other of places
+  }
+}
+
+TEST_CASE("Dashpots at single dofs take the power that the load and the contacts do not") {
+  const std::size_t m = GENERATE(1U, 2U);
+  const TemporaryFolder folder;
+  const std::string text =
+      in_full(DashpotPair().system(folder, m)) + "[branch]\nparameter = \"eta\"\nfrom = 150\nto = 230\n";
+  const Case input =
+      read_case(folder.write("case.toml", replaced(text, "preload", "harmonics = 5\npreload")));
+  const auto traced = trace(input.branches.front());
+  const problems::HarmonicResponse problem(build_harmonic_system(input.branches.front().problem.system));
+  double least = 1;
+  for (const BranchPoint& point : traced.front().branch.points) {
+    const auto works = power_balance(problem, point.unknowns, point.parameters, point.regime);
+    CAPTURE(m, point.parameters(0), works.input, works.base, works.damper, works.friction);
+    CHECK(works.error() < 1e-8);  // the residual 1e-10 over the damping, about 1e-2
+    CHECK(works.error() * works.cancellation() < 1e-8);
+    least = std::min(least, (works.base + works.damper) / works.input);
+    CHECK(motion_error(problem, point.unknowns, point.parameters, point.regime) < 1e-8);
+  }
+  CHECK(least > 1e-3);  // dashpots count everywhere
+}
+
+TEST_CASE("Points of the full path are verified with more harmonics") {
+  const TemporaryFolder folder;
+  const std::string text =
+      in_full(DashpotPair().system(folder, 1)) + "[branch]\nparameter = \"eta\"\nfrom = 180\nto = 200\n";
+  const std::string path = folder.write("case.toml", replaced(text, "preload", "harmonics = 3\npreload"));
+  const Outcome run = arcslip_program("run '" + path + "' --verify -o '" + folder.path("out") + "'");
+  CAPTURE(run.err);
+  CHECK(run.status == 0);
+  const Rows rows = read_csv(folder.path("out/verify.csv"));
+  REQUIRE(rows.size() > 5);
+  double largest = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    CHECK(std::stod(rows[i][6]) < 1e-8);  // power_error: the residual 1e-10 over the damping, about 1e-2
+    largest = std::max(largest, std::abs(std::stod(rows[i][9])));  // of Y with 19 harmonics from that with 2
+  }
+  CHECK((largest > 1e-6 && largest < 1e-2));  // what friction's higher harmonics can do
 }
 
 TEST_CASE("Each eta costs one factorisation, from whatever side and thread it is asked for") {

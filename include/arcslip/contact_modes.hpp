@@ -40,8 +40,18 @@ struct DampedReceptance {
   ContactMatrix compliance_mass;  ///< dC/dmu
 };
 
-/// A structure's response at eta, found in whatever way; may be called from several threads.
+/// Work of a cycle at eta: of the load, what the damping takes, and that of load and contact forces whatever
+/// the phase between them and the motions they act on.
+struct CycleWork {
+  double load = 0;
+  double damping = 0;  ///< negative where it feeds energy in
+  double magnitude = 0;
+};
+
+/// A structure's response at eta, and its work under given forces on its contacts, found in whatever way; may
+/// be called from several threads.
 using Receptance = std::function<ContactReceptance(double eta)>;
+using ReceptanceWork = std::function<CycleWork(double eta, const ContactVector& forces)>;
 
 struct ContactMode {
   double frequency;     ///< eta_k
@@ -57,13 +67,18 @@ class ContactModes {
 
   /// The same structure with its response by `receptance`, whatever its damping: the modes, undamped, serve
   /// for its resonances alone.
-  ContactModes solved_by(Receptance receptance) const;
+  /// Without `work` of its own, none may be asked for.
+  ContactModes solved_by(Receptance receptance, ReceptanceWork work = {}) const;
 
   /// O(m^2) operations for each mode, or what `receptance` costs.
   ContactReceptance at(double eta) const;
 
   /// Adds what `at` gives to `sum`, of this size.
   void add(double eta, ContactReceptance& sum) const;
+
+  /// pi Im(F^H d)* and pi d^H Im Z d of the motion d under load and forces; the magnitude is the sum of those
+  /// of all modes, or where it is solved otherwise of load and contacts, |F^H d| and |f_i y_i|.
+  CycleWork work(double eta, const ContactVector& forces) const;
 
   /// The compliance where mu of the loss is larger by `mass`.
   DampedReceptance damped(double eta, double mass) const;
@@ -80,6 +95,7 @@ class ContactModes {
   std::vector<ContactMode> modes_;
   Loss loss_;
   Receptance receptance_;  // in place of the sum, if there is one
+  ReceptanceWork receptance_work_;
 };
 
 /// One contact dof of each sector.

@@ -26,6 +26,8 @@ struct SectorResponse {
   ComplexVector free_eta;           ///< dy_0/deta
   ComplexMatrix output_compliance;  ///< p x m: motion of the outputs per force on a contact
   ComplexVector output_free;        ///< p: motion of the outputs without contact
+  ComplexMatrix damping;  ///< X^H Im Z X, m+1 x m+1, X = [X_r, Z^{-1} F]: by pi what damping takes a cycle
+  ComplexVector load_motion;  ///< m+1: X^T F*, the motion F^H d that the load does work on
 };
 
 class SectorSolver {
@@ -51,6 +53,7 @@ class SectorSolver {
   void assemble(double eta);
   void set_right_hand_sides();
   void collect();
+  void collect_works(double eta);
 
   SectorReduction reduction_;
   Loss loss_;
@@ -60,7 +63,7 @@ class SectorSolver {
   ComplexSparseMatrix slope_;              // dZ/deta
   ComplexMatrix right_;                    // X_r and Z^{-1} F
   ComplexMatrix left_;                     // X_l
-  ComplexMatrix product_;                  // Z' times `right_`
+  ComplexMatrix product_;                  // Z' or Im Z times `right_`
   SectorResponse response_;
   std::unique_ptr<ComplexFactors> factors_;
 };

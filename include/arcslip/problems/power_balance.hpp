@@ -4,8 +4,9 @@
 //
 //   pi Im(F^H d_1)* = sum_h pi h d_h^H Im Z_h d_h  over base and damper  +  friction
 //
-// in modal coordinates. The left side needs the motion of the load alone, friction the arcs of slip in time,
-// so that their agreement proves a solution by other means than it was found.
+// in modal coordinates, or with all dofs of a sector that is solved for. The left side needs the motion of
+// the load alone, friction the arcs of slip in time, so that their agreement proves a solution by other means
+// than it was found.
 
 #include "arcslip/problems/harmonic_response.hpp"
 
