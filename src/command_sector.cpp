@@ -81,7 +81,7 @@ CLI::App* add_paper(CLI::App* sector, SectorOptions& options, const char* name, 
 }
 
 /// The options of a ring whose names begin with `prefix`.
-void add_ring(CLI::App* app, Ring& ring, const std::string& prefix, const std::string& whose) {
+void add_ring(CLI::App* app, SolidRing& ring, const std::string& prefix, const std::string& whose) {
   positive(app, prefix + "radius", ring.radius, "Of the centre line of " + whose + ", m");
   positive(app, prefix + "width", ring.width, "Of the section, along the axis, m");
   positive(app, prefix + "height", ring.height, "Of the section, along the radius, m");
@@ -191,7 +191,7 @@ SectorCase make(const SectorOptions& given) {
     }
     return paper_case(options.pair, system, options.per_sector);
   }
-  Ring& damper = options.solid.damper;
+  SolidRing& damper = options.solid.damper;
   const bool plate = options.plates->parsed();
   damper.sectors = plate ? options.plate.sectors : options.ring.sectors;
   damper.contact = plate ? RingDirection::axial : options.ring.contact;

@@ -16,7 +16,7 @@ struct SectorOptions {
   double poisson_ratio = 0.3;  ///< of the paper's damper
   Index per_sector = 1;
   AnnularPlate plate;
-  Ring ring;
+  SolidRing ring;
   SolidOptions solid;
   std::string folder;
   CLI::App* rods = nullptr;

@@ -39,14 +39,14 @@ struct Section {
   double second_mass;
 };
 
-Section section(const Ring& ring) {
+Section section(const SolidRing& ring) {
   const double area = ring.width * ring.height;
   const double about_axis = ring.width * std::pow(ring.height, 3) / 12;
   const double about_radius = ring.height * std::pow(ring.width, 3) / 12;
   const double e = ring.youngs_modulus;
   const double g = e / (2 * (1 + ring.poisson_ratio));
   const double mass = ring.density * area;
-  if (ring.motion() == RingMotion::in_plane) return {e * area, e * about_axis, mass, mass};
+  if (ring.motion() == SolidRingMotion::in_plane) return {e * area, e * about_axis, mass, mass};
   return {e * about_radius, g * torsion_constant(ring.width, ring.height), mass,
           ring.density * (about_axis + about_radius)};
 }
@@ -56,9 +56,9 @@ struct Strains {
   Shapes second;
 };
 
-Strains strains(const Ring& ring, const Hermite& cubics, const Quartic& quartics) {
+Strains strains(const SolidRing& ring, const Hermite& cubics, const Quartic& quartics) {
   const double r = ring.radius;
-  if (ring.motion() == RingMotion::in_plane) {
+  if (ring.motion() == SolidRingMotion::in_plane) {
     return {(cubic(cubics.value) + quartic(quartics.first)) / r,
             (quartic(quartics.first) - cubic(cubics.second)) / (r * r)};
   }
@@ -66,7 +66,7 @@ Strains strains(const Ring& ring, const Hermite& cubics, const Quartic& quartics
           quartic(quartics.first) / r + cubic(cubics.first) / (r * r)};
 }
 
-void check(const Ring& ring) {
+void check(const SolidRing& ring) {
   const bool shape = ring.radius > 0 && ring.width > 0 && ring.height > 0 && ring.height < 2 * ring.radius;
   const bool material =
       ring.youngs_modulus > 0 && ring.density > 0 && ring.poisson_ratio > -1 && ring.poisson_ratio < 0.5;
@@ -87,7 +87,7 @@ double torsion_constant(double width, double height) {
   return a * a * a * b * (1 - 192 / std::pow(pi, 5) * a / b * sum) / 3;
 }
 
-FiniteSector ring_sector(const Ring& ring) {
+FiniteSector ring_sector(const SolidRing& ring) {
   check(ring);
   const double angle = 2 * std::numbers::pi / static_cast<double>(ring.sectors * ring.elements);
   const Section weights = section(ring);

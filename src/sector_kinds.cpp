@@ -79,14 +79,14 @@ void load_outputs(SectorCase& result) {
   }
 }
 
-std::string describe(const Ring& ring) {
+std::string describe(const SolidRing& ring) {
   return fmt::format("a ring of radius {}, width {} and height {} m", ring.radius, ring.width, ring.height);
 }
 
 /// The base is there; adds its load, the damper and the rest.
 SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, const std::string& base,
                        SectorCase result) {
-  const Ring& ring = solid.damper;
+  const SolidRing& ring = solid.damper;
   load_outputs(result);
   thin_out(result.base.contacts, solid.contacts, "elements of the base's contact line");
   result.damper = ring_sector(ring);
@@ -154,7 +154,7 @@ SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, con
   return with_damper(options, solid, base, std::move(result));
 }
 
-SectorCase ring_case(const PairOptions& options, const Ring& base, const SolidOptions& solid) {
+SectorCase ring_case(const PairOptions& options, const SolidRing& base, const SolidOptions& solid) {
   SectorCase result = shared(options, base.sectors);
   result.base = ring_sector(base);
   result.title = "Ring with a ring damper";

@@ -35,12 +35,12 @@ SectorCase paper_case(const PairOptions& options, const SystemParameters& system
 /// Elastic structures in SI units, structural damping, with a ring of as many sectors as the damper and
 /// `contacts` equally spaced contacts in a sector.
 struct SolidOptions {
-  Ring damper;
+  SolidRing damper;
   Index contacts = 1;
   std::optional<double> contact_stiffness;  ///< by default of the inner half of the damper in shear
 };
 
 SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, const SolidOptions& solid);
-SectorCase ring_case(const PairOptions& options, const Ring& base, const SolidOptions& solid);
+SectorCase ring_case(const PairOptions& options, const SolidRing& base, const SolidOptions& solid);
 
 }  // namespace arcslip

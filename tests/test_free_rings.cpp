@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 constexpr Loss light{.structural = 2e-4};
 
 /// The ring of a brake rotor.
-Ring ring(RingDirection contact, Index elements) {
+SolidRing ring(RingDirection contact, Index elements) {
   return {.radius = 0.14,
           .width = 0.03,
           .height = 0.02,
@@ -89,7 +89,7 @@ TEST_CASE("A free ring moves as a whole with the mass of its sectors", "[free]")
   const auto direction = GENERATE(RingDirection::tangential, RingDirection::axial);
   const Index elements = GENERATE(3, 40);  // all modes, and Lanczos'
   const SectorModes found = modes_of(pressed(direction, elements), 0);
-  const Ring shape = ring(direction, elements);
+  const SolidRing shape = ring(direction, elements);
   const double mass = shape.density * shape.width * shape.height * 2 * pi * shape.radius / 24;
   REQUIRE(found.free_squares.size() == 1);
   CHECK(found.frequencies[0] == 0);
@@ -97,7 +97,7 @@ TEST_CASE("A free ring moves as a whole with the mass of its sectors", "[free]")
 }
 
 TEST_CASE("A window from near zero on costs a free ring no digits", "[free]") {
-  Ring shape = ring(RingDirection::radial, 24);
+  SolidRing shape = ring(RingDirection::radial, 24);
   shape.sectors = 2;
   FiniteSector sector = ring_sector(shape);
   sector.contacts = {sector.contacts.front()};

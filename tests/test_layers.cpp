@@ -117,6 +117,28 @@ std::vector<std::string> lines_where(const Condition& condition) {
   return found;
 }
 
+/// "namespace::Name" of each type that has several definitions, in headers or outside unnamed namespaces.
+std::vector<std::string> types_defined_twice(const std::vector<Line>& lines) {
+  static const std::regex begins(R"(^namespace (\S*) ?\{$)");
+  static const std::regex defines(R"(^(?:struct|class|enum class) (\w+)(?: final)?(?: ?: .*)? \{.*$)");
+  std::string place;
+  bool unnamed = false;
+  std::set<std::string> seen;
+  std::set<std::string> twice;
+  for (const Line& line : lines) {
+    std::smatch match;
+    if (std::regex_match(line.text, match, begins)) {
+      unnamed = match[1].length() == 0;
+      if (!unnamed) place = match[1].str() + "::";
+    } else if (line.text == "}  // namespace") {
+      unnamed = false;
+    } else if (!unnamed && std::regex_match(line.text, match, defines)) {
+      if (!seen.insert(place + match[1].str()).second) twice.insert(place + match[1].str());
+    }
+  }
+  return {twice.begin(), twice.end()};
+}
+
 bool contains_any(std::string_view text, const std::vector<std::string_view>& words) {
   return std::any_of(words.begin(), words.end(), [&](auto word) { return text.find(word) != text.npos; });
 }
@@ -153,6 +175,22 @@ TEST_CASE("The continuation engine knows no word of physics", "[layers]") {
   CHECK(lines_where([](const Line& line) {
           return layer_of(line.file) == Layer::continuation && names_physics(line.text);
         }) == std::vector<std::string>{});
+}
+
+TEST_CASE("No type has two definitions", "[layers]") {
+  CHECK(types_defined_twice(source_lines()) == std::vector<std::string>{});
+  const auto of = [](const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<Line> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back({"", 0, line});
+    return types_defined_twice(lines);
+  };
+  const std::string twice = "namespace a {\nstruct Ring {\n}  // namespace a\n";
+  CHECK(of(twice + "namespace a {\nclass Ring : public Shape {\n") == std::vector<std::string>{"a::Ring"});
+  CHECK(of(twice + "enum class Ring { one, two };\n") == std::vector<std::string>{"a::Ring"});
+  CHECK(of(twice + "namespace a::b {\nstruct Ring {\n").empty());
+  CHECK(of(twice + "namespace a {\nnamespace {\nstruct Ring {\n").empty());
+  CHECK(of(twice + "namespace a {\nstruct Ring;\nstruct Ring::Part {\n").empty());
 }
 
 TEST_CASE("Includes against the layers are recognised", "[layers]") {

@@ -33,7 +33,7 @@ AnnularPlate plate() {
           .angular_elements = 2};
 }
 
-Ring ring() {
+SolidRing ring() {
   return {.radius = 0.14,
           .width = 0.004,
           .height = 0.006,

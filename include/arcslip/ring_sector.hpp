@@ -17,11 +17,11 @@
 
 namespace arcslip {
 
-enum class RingMotion { in_plane, out_of_plane };
+enum class SolidRingMotion { in_plane, out_of_plane };
 enum class RingDirection { radial, tangential, axial };
 
 /// In any consistent units.
-struct Ring {
+struct SolidRing {
   double radius = 0;  ///< of the centre line
   double width = 0;   ///< of the section, along the axis
   double height = 0;  ///< of the section, along the radius
@@ -33,8 +33,8 @@ struct Ring {
   Index elements = 1;  ///< of one sector
 
   /// What the contact moves; the other motion is not coupled with it.
-  RingMotion motion() const {
-    return contact == RingDirection::axial ? RingMotion::out_of_plane : RingMotion::in_plane;
+  SolidRingMotion motion() const {
+    return contact == RingDirection::axial ? SolidRingMotion::out_of_plane : SolidRingMotion::in_plane;
   }
 };
 
@@ -46,6 +46,6 @@ double torsion_constant(double width, double height);
 /// with the sector. Contacts and outputs are those in the direction of the contact of each node but the last.
 /// Throws std::invalid_argument unless the quantities are positive, height < 2 radius, -1 < poisson_ratio <
 /// 1/2 and the counts at least 1.
-FiniteSector ring_sector(const Ring& ring);
+FiniteSector ring_sector(const SolidRing& ring);
 
 }  // namespace arcslip
