@@ -250,6 +250,7 @@ class BranchSource {
 
   std::size_t count() const { return for_each_->count(); }
   CaseBranch branch(std::size_t index) const;
+  void check_replaced() const;
 
   /// The first branch, after a look at all of them. Each key's rule is an interval, so that of very many
   /// branches some tell; what another one may still be ends the run when it is met.
@@ -300,10 +301,20 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   return branch;
 }
 
+/// Refuses values that `for_each` takes the place of as it would without it.
+void BranchSource::check_replaced() const {
+  if (for_each_->keys().empty()) return;
+  const ForEachSet lacking = for_each_->lacking();
+  ProblemRequest problem = common_.problem;
+  read_system(*document_, lacking.replacements, use_, problem);
+  if (section_.has("eta")) section_.number("eta", positive());
+}
+
 CaseBranch BranchSource::checked() const {
   for (const std::size_t index : for_each_->samples()) branch(index);
   CaseBranch first = branch(0);
   check_extrema(section_, first);
+  check_replaced();
   return first;
 }
 

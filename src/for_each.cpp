@@ -237,6 +237,14 @@ std::vector<std::size_t> ForEach::samples() const {
   return indices;
 }
 
+ForEachSet ForEach::lacking() const {
+  ForEachSet first = at(0);
+  std::erase_if(first.replacements, [&](const auto& replacement) {
+    return static_cast<bool>(document_->root().at_path(replacement.first));
+  });
+  return first;
+}
+
 ordered_json ForEach::to_json() const {
   ordered_json written = tables_ ? ordered_json::array() : ordered_json::object();
   if (tables_) {

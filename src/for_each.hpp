@@ -36,6 +36,9 @@ class ForEach {
   /// lists are long, not as their product. Of ranges the first two values and the last one do.
   std::vector<std::size_t> samples() const;
 
+  /// The first set without what the file has values of its own for, which no set shows.
+  ForEachSet lacking() const;
+
   /// As it was written, keys in the order of the file.
   nlohmann::ordered_json to_json() const;
 

@@ -23,12 +23,16 @@ struct Source {
   std::shared_ptr<const SectorPair> sectors;
   problems::PreloadRange range;
 
+  ProblemRequest problem(const Replacements& replacements) const {
+    ProblemRequest problem;
+    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high}, problem);
+    return problem;
+  }
+
   StudyDesign design(std::size_t index) const {
     const TomlDocument& document = *file;
     auto [values, replacements, made] = for_each->at(index);
-    ProblemRequest problem;
-    read_system(document, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high},
-                problem);
+    const ProblemRequest problem = this->problem(replacements);
     if (problem.system.preload_growth != 0 && scatters(document))
       TomlSection(document, "system", &replacements)
           .fail("preload_growth",
@@ -112,6 +116,7 @@ StudyCase read_study(const CaseFile& file) {
   // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
   // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
+  source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
   study.resolved = resolve(*source, study);
   return study;
 }

@@ -145,6 +145,34 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
   for (const Mistake& mistake : mistakes) check_refused(good, mistake);
 }
 
+TEST_CASE("Values that for_each takes the place of are checked as well") {
+  const std::string over_preload = replaced(good, "\"eta\"\nfrom", "\"P\"\neta = 3.8\nfrom");
+  const std::pair<std::string, Mistake> cases[] = {
+      {good + "for_each = { preload = [0.1, 1] }\n",
+       {"preload = 1.0", "preload = -1", ":10:11", "system.preload", "> 0", "got -1"}},
+      {good + "for_each = [{ preload = 1, force = 2 }]\n",
+       {"force = 1.0", "force = \"1\"", ":9:9", "system.force", "> 0", "got \"1\""}},
+      {good + "for_each = { wave_number = [3, 4] }\n",
+       {"wave_number = 2", "wave_number = 0.5", ":4:15", "system.wave_number", "an integer >= 1", "got 0.5"}},
+      {good + "for_each = { damping = [{ base = 0.1 }] }\n",
+       {"force = 1.0", "force = 1.0\ndamping = { damper = -0.1 }", ":10:22", "system.damping.damper",
+        "> 0 and < 1", "-0.1"}},
+      {good + "for_each = { wave_number = [20], elements = [50] }\n",
+       {"elements = 30", "elements = 3", ":5:12", "system.elements", "> 2 wave_number = 4", "got 3"}},
+      {over_preload + "for_each = { eta = [3.5, 4.0] }\n",
+       {"eta = 3.8", "eta = -3.8", ":", "branch.eta", "> 0", "got -3.8"}},
+  };
+  for (const auto& [text, mistake] : cases) {
+    CAPTURE(mistake.to);
+    read_text(text);
+    check_refused(text, mistake);
+  }
+  // What the file lacks is the first set's.
+  const Case input = read_text(replaced(good, "wave_number = 2\n", "") +
+                               "for_each = { wave_number = [14, 20], elements = [40, 50] }\n");
+  CHECK(input.branches[1].problem.system.elements == 50);
+}
+
 TEST_CASE("Wrong input for what goes beyond a forced response is refused as well") {
   const Mistake mistakes[] = {
       {"parameter = \"eta\"", "curve = \"fold\"\nparameters = [\"eta\", \"P\"]", ":12:", "branch.window",

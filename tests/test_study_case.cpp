@@ -221,6 +221,17 @@ TEST_CASE("What for_each may not hold is refused before anything runs", "[study]
     testing::check_message(error_of(replaced(good, mistake.from, mistake.to)), mistake);
 }
 
+TEST_CASE("Values that for_each of a study takes the place of are checked as well", "[study]") {
+  const std::string listed = good + "for_each = { mass_ratio = [1, 2], force = [1, 2] }\n";
+  read_text(listed);
+  const Mistake mistakes[] = {
+      {"mass_ratio = 5.0", "mass_ratio = -5.0", ":6:14", "system.mass_ratio", "> 0", "got -5"},
+      {"force = 1.0", "force = nan", ":9:9", "system.force", "a finite number", "got nan"},
+  };
+  for (const Mistake& mistake : mistakes)
+    testing::check_message(error_of(replaced(listed, mistake.from, mistake.to)), mistake);
+}
+
 TEST_CASE("A million designs are read at once, and made when they are asked for, by any thread", "[study]") {
   const auto start = std::chrono::steady_clock::now();
   const StudyCase study = read_text(
