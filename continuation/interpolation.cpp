@@ -10,6 +10,87 @@
 
 namespace arcslip::continuation {
 
+/// On [0, 1], by its values z_0, z_1 and its slopes there, d_0 = a_0 t_0 and d_1 = a_1 t_1.
+struct InterpolatedBranch::Cubic {
+  Vector z_0, z_1, d_0, d_1;
+
+  Vector at(double x) const {
+    const double y = 1 - x;
+    return y * y * (1 + 2 * x) * z_0 + x * x * (1 + 2 * y) * z_1 + x * y * (y * d_0 - x * d_1);
+  }
+  Vector slope(double x) const {
+    const double y = 1 - x;
+    return 6 * x * y * (z_1 - z_0) + y * (y - 2 * x) * d_0 + x * (x - 2 * y) * d_1;
+  }
+  Vector third_derivative() const { return 12 * (z_0 - z_1) + 6 * (d_0 + d_1); }
+  double last_at(double x) const {
+    const double y = 1 - x;
+    const Index n = z_0.size() - 1;
+    return y * y * (1 + 2 * x) * z_0(n) + x * x * (1 + 2 * y) * z_1(n) + x * y * (y * d_0(n) - x * d_1(n));
+  }
+
+  /// How far it goes, by entries, of which those that hardly change are rounding.
+  Vector sizes() const {
+    constexpr double hardly = 1e-6;
+    Vector all = (z_1 - z_0).cwiseAbs().cwiseMax(d_0.cwiseAbs()).cwiseMax(d_1.cwiseAbs());
+    auto unknowns = all.head(all.size() - 1);
+    unknowns = unknowns.cwiseMax(hardly * unknowns.maxCoeff());
+    all(all.size() - 1) = std::max(all(all.size() - 1), rounding());
+    return all;
+  }
+  double rounding() const { return 1e-12 * std::abs(z_0(z_0.size() - 1)); }  // of the parameter
+  void fit();
+  void keep_way();
+};
+
+namespace {
+
+/// 1/size^2, such that the parameter counts as much as all unknowns.
+Vector weights(const Vector& sizes) {
+  const Index n = sizes.size() - 1;
+  Vector all = (sizes.array() > 0).select(sizes.array().square().inverse(), 0.0);
+  all.head(n) /= static_cast<double>(std::max<Index>(1, n));
+  return all;
+}
+
+}  // namespace
+
+/// Scales the slopes such that the third derivative is least.
+void InterpolatedBranch::Cubic::fit() {
+  // Where the ends turn by less than about 0.03 any lengths will do, and rounding would decide.
+  constexpr double straight = 1e-3;
+  const Vector weight = weights(sizes());
+  const auto product = [&](const Vector& a, const Vector& b) {
+    return (weight.array() * a.array() * b.array()).sum();
+  };
+  const Vector twice = 2 * (z_1 - z_0);
+  const double a = straight + product(d_0, d_0);
+  const double b = product(d_0, d_1);
+  const double c = straight + product(d_1, d_1);
+  const double d = straight + product(d_0, twice);
+  const double e = straight + product(d_1, twice);
+  double first = (d * c - e * b) / (a * c - b * b);
+  double second = (a * e - b * d) / (a * c - b * b);
+  if (first < 0) {
+    first = 0;
+    second = e / c;
+  } else if (second < 0) {
+    second = 0;
+    first = d / a;
+  }
+  d_0 *= std::max(first, 0.0);
+  d_1 *= std::max(second, 0.0);
+}
+
+/// Folds are points of the branch: between neighbours the parameter does not turn, nor does that of a cubic
+/// with slopes of at most three times its change [Fritsch and Carlson 1980].
+void InterpolatedBranch::Cubic::keep_way() {
+  const Index n = z_0.size() - 1;
+  const double most = 3 * std::max(std::abs(z_1(n) - z_0(n)), rounding());
+  for (Vector* slope : {&d_0, &d_1})
+    if (std::abs((*slope)(n)) > most) *slope *= most / std::abs((*slope)(n));
+}
+
 InterpolatedBranch::InterpolatedBranch(const Branch& branch, Index parameter)
     : branch_(branch), parameter_(parameter) {
   if (branch.points.size() < 2)
@@ -33,48 +114,86 @@ const Vector& InterpolatedBranch::arriving(std::size_t piece) const {
   return point.arrival.size() > 0 ? point.arrival : point.tangent;
 }
 
-double InterpolatedBranch::length(std::size_t piece) const {
-  return branch_.points[piece + 1].arclength - branch_.points[piece].arclength;
+double InterpolatedBranch::distance(std::size_t from, std::size_t to) const {
+  return branch_.points[to].arclength - branch_.points[from].arclength;
 }
 
-Vector InterpolatedBranch::third_derivative(std::size_t piece) const {
-  const double h = length(piece);
-  return (12 / (h * h * h)) * (position(piece) - position(piece + 1)) +
-         (6 / (h * h)) * (leaving(piece) + arriving(piece));
+/// From one point to a later one.
+InterpolatedBranch::Cubic InterpolatedBranch::cubic(std::size_t from, std::size_t to) const {
+  const double h = distance(from, to);
+  Cubic cubic{position(from), position(to), h * leaving(from), h * arriving(to - 1)};
+  const bool neighbours = to == from + 1;
+  if (neighbours) cubic.keep_way();
+  cubic.fit();
+  if (neighbours) cubic.keep_way();
+  return cubic;
 }
 
-/// Whether the curve goes on smoothly from a piece to the next one.
-bool InterpolatedBranch::smooth_between(std::size_t piece) const {
-  const BranchPoint& between = branch_.points[piece + 1];
-  return between.arrival.size() == 0 && length(piece) > 0 && length(piece + 1) > 0;
+bool InterpolatedBranch::is_corner(std::size_t point) const {
+  return branch_.points[point].arrival.size() > 0;
 }
 
-/// The larger of its estimates from both neighbours, by entries; where there is none, what makes the error as
-/// large as the cubic's own last term.
-Vector InterpolatedBranch::fourth_derivative(std::size_t piece) const {
-  const Vector third = third_derivative(piece);
-  Vector fourth = Vector::Zero(third.size());
-  bool known = false;
-  const auto compare = [&](std::size_t other) {
-    const double apart = 0.5 * (length(piece) + length(other));
-    fourth = fourth.cwiseMax((third_derivative(other) - third).cwiseAbs() / apart);
-    known = true;
-  };
-  if (piece > 0 && smooth_between(piece - 1)) compare(piece - 1);
-  if (piece + 2 < branch_.points.size() && smooth_between(piece)) compare(piece + 1);
-  return known ? fourth : Vector(third.cwiseAbs() / length(piece));
+/// The nearest point before (`way` -1) or behind a piece (1) that is not so near to it that differences to it
+/// would be lost in rounding; none beyond a corner or an end of the branch.
+std::optional<std::size_t> InterpolatedBranch::neighbour(std::size_t piece, int way) const {
+  constexpr double far_enough = 0.2;  // of the piece's length
+  const std::size_t edge = way > 0 ? piece + 1 : piece;
+  const std::size_t last = way > 0 ? branch_.points.size() - 1 : 0;
+  for (std::size_t point = edge; point != last && !is_corner(point);) {
+    point = way > 0 ? point + 1 : point - 1;
+    if (std::abs(distance(edge, point)) >= far_enough * distance(piece, piece + 1)) return point;
+  }
+  return std::nullopt;
 }
 
-Sample InterpolatedBranch::sample(std::size_t piece, double x) const {
+/// By how much the cubic from one point to another misses a point in between, across itself; over (x y)^2 at
+/// that point, with which the error goes.
+Vector InterpolatedBranch::missed(std::size_t from, std::size_t point, std::size_t to) const {
+  const Cubic whole = cubic(from, to);
+  const Vector weight = weights(whole.sizes());
+  const double place = distance(from, point) / distance(from, to);
+  double x = place;
+  double shift = 0;
+  Vector away, slope;
+  for (int i = 0; i < 3; ++i) {
+    x = std::clamp(x + shift, 0.0, 1.0);
+    away = position(point) - whole.at(x);
+    slope = whole.slope(x);
+    shift = weight.cwiseProduct(away).dot(slope) / weight.cwiseProduct(slope).dot(slope);
+  }
+  const double bulge = place * (1 - place);
+  return (away - shift * slope).cwiseAbs() / (bulge * bulge);
+}
+
+/// The error of a piece over (x y)^2: half as much again as the larger of what the cubics over the piece and
+/// a neighbour miss of the point between, over the fourth power of their lengths, or as twice the cubic's own
+/// last term, since both sides may miss what lies in between.
+Vector InterpolatedBranch::error(std::size_t piece, const Cubic& cubic) const {
+  Vector most = cubic.third_derivative().cwiseAbs() / 12;
+  for (const int way : {-1, 1}) {
+    const auto other = neighbour(piece, way);
+    if (!other) continue;
+    const std::size_t from = way > 0 ? piece : *other;
+    const std::size_t to = way > 0 ? *other : piece + 1;
+    const double shorter = distance(piece, piece + 1) / distance(from, to);
+    const Vector estimate = std::pow(shorter, 4) * missed(from, way > 0 ? piece + 1 : piece, to);
+    if (estimate.allFinite()) most = most.cwiseMax(estimate);
+  }
+  return 1.5 * most;
+}
+
+Sample InterpolatedBranch::between(std::size_t piece, double x) const {
   const BranchPoint& from = branch_.points[piece];
-  const double h = length(piece);
-  const double y = 1 - x;
-  const Vector z = position(piece) * (y * y * (1 + 2 * x)) + position(piece + 1) * (x * x * (1 + 2 * y)) +
-                   h * (x * y * y * leaving(piece) - x * x * y * arriving(piece));
+  const double h = distance(piece, piece + 1);
+  const Cubic cubic = this->cubic(piece, piece + 1);
+  const Vector z = cubic.at(x);
   Sample result{z.head(from.unknowns.size()), from.parameters, from.arclength + x * h, from.regime, {}};
   result.parameters(parameter_) = z(z.size() - 1);
   result.error = Vector::Zero(z.size());
-  if (h > 0) result.error = fourth_derivative(piece) * (x * x * y * y * h * h * h * h / 24);
+  if (!(h > 0)) return result;
+  const double bulge = x * (1 - x);
+  const Vector most = h * leaving(piece).cwiseAbs().cwiseMax(arriving(piece).cwiseAbs());
+  result.error = (bulge * bulge * error(piece, cubic)).cwiseMin(most);
   return result;
 }
 
@@ -87,30 +206,22 @@ Sample InterpolatedBranch::at(double arclength) const {
       std::upper_bound(branch_.points.begin() + 1, branch_.points.end() - 1, arclength,
                        [](double s, const BranchPoint& point) { return s < point.arclength; });
   const auto piece = static_cast<std::size_t>(beyond - branch_.points.begin()) - 1;
-  const double h = length(piece);
-  return sample(piece, h > 0 ? (arclength - branch_.points[piece].arclength) / h : 0);
+  const double h = distance(piece, piece + 1);
+  return between(piece, h > 0 ? (arclength - branch_.points[piece].arclength) / h : 0);
 }
 
 std::vector<Sample> InterpolatedBranch::where(double value) const {
   std::vector<Sample> found;
   for (std::size_t piece = 0; piece + 1 < branch_.points.size(); ++piece) {
-    if (!(length(piece) > 0)) continue;
-    const Index last_entry = leaving(piece).size() - 1;
-    const double from = branch_.points[piece].parameters(parameter_);
-    const double to = branch_.points[piece + 1].parameters(parameter_);
-    const double rate_from = length(piece) * leaving(piece)(last_entry);
-    const double rate_to = length(piece) * arriving(piece)(last_entry);
-    const auto away = [&](double x) {
-      const double y = 1 - x;
-      return (from - value) * y * y * (1 + 2 * x) + (to - value) * x * x * (1 + 2 * y) +
-             x * y * (y * rate_from - x * rate_to);
-    };
-    const double first = from - value;
-    const double last = to - value;
-    if (first == 0) found.push_back(sample(piece, 0));
-    if (last == 0 && piece + 2 == branch_.points.size()) found.push_back(sample(piece, 1));
-    if (!(first * last < 0)) continue;  // folds are points of the branch: within a piece it does not turn
-    found.push_back(sample(piece, zero_between(away, 0, 1, first, last)));
+    if (!(distance(piece, piece + 1) > 0)) continue;
+    const double first = branch_.points[piece].parameters(parameter_) - value;
+    const double last = branch_.points[piece + 1].parameters(parameter_) - value;
+    if (first == 0) found.push_back(between(piece, 0));
+    if (last == 0 && piece + 2 == branch_.points.size()) found.push_back(between(piece, 1));
+    if (!(first * last < 0)) continue;  // within a piece it does not turn
+    const Cubic curve = cubic(piece, piece + 1);
+    const auto away = [&](double x) { return curve.last_at(x) - value; };
+    found.push_back(between(piece, zero_between(away, 0, 1, first, last)));
     found.back().parameters(parameter_) = value;
   }
   return found;

@@ -62,6 +62,30 @@ TEST_CASE("The estimated error of a sample is that of the curve, within a small 
   CHECK(estimated < 30 * found);
 }
 
+TEST_CASE("Parabolas are met between two points, folds as well as peaks, be these needle-sharp") {
+  const double width = GENERATE(1.0, 1e-3, 1e-9);  // u = (p/width)^2, or p and u exchanged
+  const bool folds = width == 1 && GENERATE(false, true);
+  const double from = folds ? 0 : GENERATE(-1.0, 0.0);  // folds are points of a branch
+  const auto exchanged = [&](double p, double u) { return folds ? std::pair(u, p) : std::pair(p, u); };
+  Branch branch;
+  for (const double x : {from, from + 1.5}) {
+    BranchPoint& point = branch.points.emplace_back();
+    const auto [p, u] = exchanged(x * width, x * x);
+    const auto [p_rate, u_rate] = exchanged(width, 2 * x);
+    point.unknowns = vector_of({u});
+    point.parameters = vector_of({p});
+    point.tangent = vector_of({u_rate, p_rate}).normalized();
+  }
+  const Vector chord = vector_of({branch.points[1].unknowns(0) - branch.points[0].unknowns(0),
+                                  branch.points[1].parameters(0) - branch.points[0].parameters(0)});
+  branch.points[1].arclength = chord.norm();
+  const InterpolatedBranch curve(branch, 0);
+  for (const Sample& sample : curve.resample(100)) {
+    const auto [p, u] = exchanged(sample.parameters(0), sample.unknowns(0));
+    CHECK_THAT(u, WithinAbs(p / width * (p / width), 2e-3));
+  }
+}
+
 TEST_CASE("At its points the interpolated branch has their values, and in between all crossings of a value") {
   const Branch branch = cusp_branch(0.1);
   const InterpolatedBranch curve(branch, 0);

@@ -1,12 +1,15 @@
 #pragma once
 
-// A branch as a continuous curve: between two neighbouring points the cubic with their values and tangents,
-// in the arclength s [Hermite],
+// A branch as a continuous curve: between two neighbouring points a cubic with their values and the
+// directions of their tangents [Hermite],
 //
-//   z(x) = z_0 y^2 (1 + 2x) + z_1 x^2 (1 + 2y) + h (t_0 x y^2 - t_1 x^2 y),   x = (s - s_0)/h,  y = 1 - x,
+//   z(x) = z_0 y^2 (1 + 2x) + z_1 x^2 (1 + 2y) + a_0 t_0 x y^2 - a_1 t_1 x^2 y,   0 <= x <= 1,  y = 1 - x,
 //
-// whose error is z''''/384 h^4 at most.
+// whose error is of fourth order. The lengths a_0, a_1 are those that make its third derivative least, each
+// entry of z in its own size, so that parabolas are met, as folds and as peaks however needle-sharp, and such
+// that the parameter does not turn.
 
+#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/branch.hpp"
@@ -19,7 +22,7 @@ struct Sample {
   Vector parameters;     ///< all
   double arclength = 0;  ///< as in the branch
   int regime = 0;
-  Vector error;  ///< n + 1: estimated absolute error of (u, p_a), from the change of z''' between neighbours
+  Vector error;  ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece
 };
 
 /// Keeps a reference to the branch, which must have two points at least.
@@ -34,6 +37,9 @@ class InterpolatedBranch {
   /// At an arclength between begin() and end(); throws std::out_of_range elsewhere.
   Sample at(double arclength) const;
 
+  /// A part `x` of the way, from 0 to 1, between the points `piece` and `piece` + 1.
+  Sample between(std::size_t piece, double x) const;
+
   /// Wherever the continuation parameter has this value, in the order of the branch.
   std::vector<Sample> where(double value) const;
 
@@ -44,11 +50,13 @@ class InterpolatedBranch {
   Vector position(std::size_t point) const;
   const Vector& leaving(std::size_t piece) const;
   const Vector& arriving(std::size_t piece) const;
-  double length(std::size_t piece) const;
-  Vector third_derivative(std::size_t piece) const;
-  bool smooth_between(std::size_t piece) const;
-  Vector fourth_derivative(std::size_t piece) const;
-  Sample sample(std::size_t piece, double x) const;
+  struct Cubic;
+  double distance(std::size_t from, std::size_t to) const;
+  Cubic cubic(std::size_t from, std::size_t to) const;
+  bool is_corner(std::size_t point) const;
+  std::optional<std::size_t> neighbour(std::size_t piece, int way) const;
+  Vector missed(std::size_t from, std::size_t point, std::size_t to) const;
+  Vector error(std::size_t piece, const Cubic& cubic) const;
 
   const Branch& branch_;
   Index parameter_;
