@@ -1,7 +1,6 @@
 # What there is to draw. Every row is read once to see how much there is, and once for each quantity, by read.gp, into
 # arrays from which the panels are drawn: the time grows with the rows, not with the rows times the branches.
 
-refine = 1  # pieces of a curve from one row to the next
 set datafile separator comma
 set datafile columnheaders
 
@@ -43,7 +42,6 @@ array xs[rows]
 array ys[rows]
 array slip_ys[rows]  # undefined where there is no slip
 shown_y(i) = lines eq "envelope" ? slip_ys[i] : ys[i]
-array lengths[rows]  # along the branch
 array counts[rows]   # of unstable eigenvalues, of the stretch that begins here
 specials = int(sum [k = 1:kinds] found[k])
 array special_points[specials + 1]  # one more, of no kind, since an array may not be empty

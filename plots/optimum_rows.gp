@@ -7,4 +7,3 @@ is_end(row) = 1
 slips(row) = 0
 ends_slip(row) = 0
 array regimes[2] = ["", ""]
-has_lengths = 0

@@ -6,7 +6,6 @@ panels = ARG9
 load style."/style.gp"
 wide = rows_of eq "branch" ? 20 : wide
 load style."/data.gp"
-refine = has_lengths && rows <= 3000 ? 8 : 1
 number = words(panels) / 2
 panel_column(n) = word(panels, 2 * n - 1)
 panel_title(n) = word(panels, 2 * n)

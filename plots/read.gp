@@ -5,7 +5,7 @@ set xrange [*:*]  # since stats keeps to the ranges that are set
 set yrange [*:*]
 unset logscale
 note_point(i, y) = (xs[i] = column(parameter), ys[i] = y, slip_ys[i] = slips(0) || ends_slip(0) ? y : NaN, \
-                    lengths[i] = refine > 1 ? length_of(0) : i, counts[i] = unstable(0))
+                    counts[i] = unstable(0))
 
 # Of a point at which the stability changes, the count may be either: that of the next one counts.
 is_between(type) = type eq "start" || type eq "fold" || type eq "corner_fold" || type eq "hopf" || type eq "branch_point" \

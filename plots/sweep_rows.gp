@@ -21,6 +21,4 @@ kind(row) = kind_of(strcol("type"))
 is_end(row) = strcol("type") eq "start" || strcol("type") eq "end"
 slips(row) = column("is_global") == 1 || strcol("type") eq "exchange"  # there both peaks are as high
 ends_slip(row) = 0
-length_of(row) = log(column("P"))
 array regimes[2] = ["other peaks", "highest peak"]
-has_lengths = 1

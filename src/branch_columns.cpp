@@ -1,10 +1,14 @@
 #include "branch_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace arcslip {
 
-Columns::Columns(const TracedBranch& traced) : problem_(traced.problem()), request_(*traced.request) {
+Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
+    : problem_(traced.problem()), request_(*traced.request) {
+  if (detail == BranchTable::Detail::drawn)
+    without_verdict_ = dynamic_cast<const problems::FloquetResponse*>(&problem_);
   names_ = problem_.parameter_names();
   parameters_ = static_cast<Index>(names_.size());
   if (traced.curve) moved_ = traced.curve->active();
@@ -14,8 +18,17 @@ Columns::Columns(const TracedBranch& traced) : problem_(traced.problem()), reque
   }
 }
 
+void Columns::observe(const continuation::BranchPoint& point) {
+  if (without_verdict_ == nullptr)
+    return problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
+  without_verdict_->HarmonicResponse::observe(point.unknowns, point.parameters, point.regime, observed_);
+  const Index known = observed_.size();
+  observed_.conservativeResize(static_cast<Index>(names_.size()) - parameters_);
+  observed_.tail(observed_.size() - known).setConstant(std::nan(""));
+}
+
 const std::vector<double>& Columns::values(const continuation::BranchPoint& point) {
-  problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
+  observe(point);
   values_.assign(point.parameters.begin(), point.parameters.end());
   if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));
   values_.insert(values_.end(), observed_.begin() + (moved_ >= 0 ? 1 : 0), observed_.end());

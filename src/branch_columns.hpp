@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/problems/floquet_response.hpp"
+#include "arcslip/results.hpp"
 #include "arcslip/runs.hpp"
 
 namespace arcslip {
@@ -14,7 +16,7 @@ namespace arcslip {
 /// stands among the parameters, in the base's order. What was traced must outlive it.
 class Columns {
  public:
-  explicit Columns(const TracedBranch& traced);
+  explicit Columns(const TracedBranch& traced, BranchTable::Detail detail = BranchTable::Detail::full);
 
   const std::vector<std::string>& names() const { return names_; }
 
@@ -28,9 +30,11 @@ class Columns {
   std::vector<Index> shown() const;
 
  private:
+  void observe(const continuation::BranchPoint& point);
   bool is_constant(const std::string& name) const;
 
   const continuation::Problem& problem_;
+  const problems::FloquetResponse* without_verdict_ = nullptr;
   const CaseBranch& request_;
   std::vector<std::string> names_;
   Index parameters_ = 0;

@@ -41,10 +41,12 @@ std::string BranchTable::header() const {
   return text + "\n";
 }
 
-std::string BranchTable::rows(std::size_t number, const TracedBranch& traced) const {
+std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, Detail detail) const {
+  const int digits = detail == Detail::full ? 17 : 10;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  Columns columns(traced);
+  const auto number_to = [&](double value) { fmt::format_to(out, ",{:.{}g}", value, digits); };
+  Columns columns(traced, detail);
   const PhysicalColumns physical(traced);
   std::vector<Index> places;
   for (const std::string& name : names_) places.push_back(columns.find(name));
@@ -55,10 +57,12 @@ std::string BranchTable::rows(std::size_t number, const TracedBranch& traced) co
                    regimes[static_cast<std::size_t>(point.regime)]);
     const std::vector<double>& values = columns.values(point);
     for (const Index place : places)
-      fmt::format_to(out, ",{:.17g}", place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
+      number_to(place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
     if (stability_) fmt::format_to(out, ",{}", point.unstable);
-    fmt::format_to(out, ",{:.17g},{},{:.17g}", point.arclength, point.iterations, point.residual);
-    for (const double value : physical.values(values)) fmt::format_to(out, ",{:.17g}", value);
+    number_to(point.arclength);
+    fmt::format_to(out, ",{}", point.iterations);
+    number_to(point.residual);
+    for (const double value : physical.values(values)) number_to(value);
     fmt::format_to(out, "\n");
   }
   return fmt::to_string(text);

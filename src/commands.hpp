@@ -25,7 +25,7 @@ struct RunOptions {
   bool certify = false;  ///< prove each branch by interval arithmetic
 };
 
-/// Traces the branches, writes branches.csv and summary.json, prints the special points.
+/// Traces the branches, writes branches.csv, curves.csv and summary.json, prints the special points.
 int run_command(const RunOptions& options);
 
 struct StudyOptions {

@@ -33,8 +33,8 @@ Exit status
   or an interrupt; 4 a file or standard output could not be written)";
 
 constexpr const char* run_notes = R"(
-Writes DIR/branches.csv (one row for each point), DIR/summary.json (special points, why each branch ended) and prints
-the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
+Writes DIR/branches.csv (one row for each point), DIR/curves.csv (more rows in between, for pictures), DIR/summary.json
+(special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
 as interrupted.
 
 A case file; what follows "optional" need not be given:

@@ -52,11 +52,31 @@ Colours colours_of(const ordered_json& branches, bool is_friction) {
   return {quote_all(labels), fmt::format("{}", fmt::join(groups, " "))};
 }
 
+/// The table that pictures of a run are drawn from: that of its curves, unless the branches have been changed
+/// since, or it is not there.
+std::string drawn_table(const std::string& folder) {
+  const auto path = [&](const char* name) { return fs::path(folder) / name; };
+  const auto header = [&](const char* name) {
+    std::ifstream file(path(name));
+    std::string line;
+    std::getline(file, line);
+    return line;
+  };
+  std::error_code none;
+  const bool newer =
+      fs::last_write_time(path("branches.csv"), none) > fs::last_write_time(path("curves.csv"), none);
+  return !newer && header("curves.csv") == header("branches.csv") ? "curves.csv" : "branches.csv";
+}
+
 /// Decides what is drawn of a run.
 class Decision {
  public:
-  Decision(const ResultTable& table, const ordered_json& summary)
-      : table_(table), system_(summary.at("case").at("system")), branch_(summary.at("case").at("branch")) {
+  /// `drawn` is the table that pictures are drawn from.
+  Decision(const ResultTable& table, const ordered_json& summary, std::string drawn)
+      : table_(table),
+        drawn_(std::move(drawn)),
+        system_(summary.at("case").at("system")),
+        branch_(summary.at("case").at("branch")) {
     const std::string model = system_.at("model").get<std::string>();
     is_sector_ = model == "sector";
     is_friction_ = model == "rods" || model == "beams" || is_sector_;
@@ -80,7 +100,7 @@ class Decision {
     for (const char* name : {"amplitude", "relative", "phases", "phase_difference", "dissipated"})
       all.push_back({name, name,
                      settings(parameter, table_.has("unstable") ? "stability" : "regimes", quote("")),
-                     "branches.csv"});
+                     drawn_});
     return all;
   }
 
@@ -150,10 +170,11 @@ class Decision {
     }
     Names all = settings(parameter, style, names);
     all.push_back(quote_all(words));
-    return {name, "panels", all, "branches.csv"};
+    return {name, "panels", all, drawn_};
   }
 
   const ResultTable& table_;
+  std::string drawn_;
   const ordered_json& system_;
   const ordered_json& branch_;
   bool is_friction_ = false;
@@ -179,7 +200,7 @@ std::vector<Picture> pictures_of(const std::string& folder) {
     if (has_run) {
       const ResultTable table(fs::path(folder) / "branches.csv", {"branch", "point", "type", "regime"},
                               "points");
-      all = Decision(table, summary).pictures();
+      all = Decision(table, summary, drawn_table(folder)).pictures();
     }
     if (!has_run || summary.contains("study")) {
       const ordered_json& study = has_run ? summary.at("study") : summary;

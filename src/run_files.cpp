@@ -1,9 +1,10 @@
 #include "run_files.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
+#include "arcslip/continuation/polyline.hpp"
+#include "branch_columns.hpp"
 #include "certificate_results.hpp"
 
 namespace arcslip {
@@ -15,11 +16,27 @@ ordered_json beginning(const CasePlan& plan) {
   return {{"arcslip", ARCSLIP_VERSION}, {"title", plan.title}, {"case", plan.resolved}};
 }
 
+constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
+
+/// The branch as a polyline that looks like the curve.
+TracedBranch as_drawn(const TracedBranch& traced) {
+  TracedBranch drawn = traced;
+  Columns columns(traced, BranchTable::Detail::drawn);
+  drawn.branch.points = continuation::polyline(
+      traced.branch,
+      continuation::index_of(traced.problem().parameter_names(), traced.request->options.parameter),
+      [&](const continuation::BranchPoint& point) -> const std::vector<double>& {
+        return columns.values(point);
+      });
+  return drawn;
+}
+
 }  // namespace
 
 RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verified)
     : folder_(folder),
-      branches_(std::make_unique<AtomicFile>(folder + "/branches.csv")),
+      branches_(folder + "/branches.csv", BranchTable::Detail::full),
+      curves_(folder + "/curves.csv", BranchTable::Detail::drawn),
       summary_(folder, beginning(plan)) {
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
@@ -27,20 +44,17 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
 }
 
 void RunFiles::add(const TracedBranch& traced) {
-  const std::size_t number = count_;
-  BranchTable table = table_;
-  table.widen(traced);
-  const std::string rows = table.rows(number, traced);
-  ordered_json summary = summarize(number, traced);
+  BranchFile::Rows rows = branches_.rows(count_, traced);
+  const bool many = curve_rows_ + traced.branch.points.size() > most_curve_rows;
+  BranchFile::Rows curve = curves_.rows(count_, many ? traced : as_drawn(traced));
+  ordered_json summary = summarize(count_, traced);
 
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
   write_summary();
-  if (widths_.empty()) branches_->write(table.header());
-  if (widths_.empty() || table != table_) widths_.emplace_back(rows_, table);
-  branches_->write(rows);
-  rows_ += traced.branch.points.size();
-  table_ = std::move(table);
+  curve_rows_ += curve.count;
+  branches_.add(std::move(rows));
+  curves_.add(std::move(curve));
   last_ = std::move(summary);
   ++count_;
 }
@@ -49,8 +63,6 @@ void RunFiles::add_failed(const CaseBranch& request, const std::string& why) {
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
   write_summary();
-  if (widths_.empty()) branches_->write(table_.header());
-  if (widths_.empty()) widths_.emplace_back(0, table_);
   last_ = {{"branch", count_},   {"values", request.values},
            {"points", 0},        {"stop", to_string(continuation::Stop::no_start)},
            {"explanation", why}, {"special", ordered_json::array()},
@@ -85,39 +97,22 @@ void RunFiles::write_summary() {
   last_ = nullptr;
 }
 
-/// Branches with more harmonics have more columns: the rows before them get these as well.
-void RunFiles::widen_rows() {
-  if (widths_.size() < 2) return;
-  auto wide = std::make_unique<AtomicFile>(branches_->path());
-  wide->write(table_.header());
-  std::size_t row = 0;
-  bool is_header = true;
-  auto width = widths_.begin();
-  branches_->for_each_line([&](std::string_view line) {
-    if (std::exchange(is_header, false)) return;
-    while (std::next(width) != widths_.end() && std::next(width)->first <= row) ++width;
-    wide->write(table_.widened(line, width->second) + "\n");
-    ++row;
-  });
-  branches_ = std::move(wide);
-}
-
 void RunFiles::finish(double seconds, bool interrupted) {
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
   finished_ = true;
-  if (widths_.empty()) branches_->write(table_.header());
   write_summary();
-  widen_rows();
   summary_.finish({{"seconds", seconds}, {"interrupted", interrupted}});
   if (verifying_) verification_->write(interrupted_verification_row(count_ - 1));
-  branches_->sync();
+  branches_.finish();
+  curves_.finish();  // the later one: pictures are drawn from it
   summary_.file().sync();
   if (verification_) verification_->sync();
   std::error_code ignored;
   // It belongs to other branches.
   if (!verification_) std::filesystem::remove(folder_ + "/verify.csv", ignored);
-  branches_->commit();
+  branches_.commit();
+  curves_.commit();
   summary_.file().commit();
   if (verification_) verification_->commit();
 }

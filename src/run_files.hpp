@@ -1,13 +1,13 @@
 #pragma once
 
-// What `arcslip run` writes: branches.csv, summary.json and, where it is asked for, verify.csv. Branches go
-// to the disk as they come; the files appear together at the end.
+// What `arcslip run` writes: branches.csv, the same as it is drawn in curves.csv, summary.json and, where it
+// is asked for, verify.csv. Branches go to the disk as they come; the files appear together at the end.
 
 #include <mutex>
 #include <optional>
 
 #include "arcslip/results.hpp"
-#include "atomic_file.hpp"
+#include "branch_file.hpp"
 #include "summary_file.hpp"
 #include "verification_results.hpp"
 
@@ -39,16 +39,14 @@ class RunFiles {
 
  private:
   void write_summary();
-  void widen_rows();
 
   std::string folder_;
   std::mutex mutex_;
   bool finished_ = false;
   std::size_t count_ = 0;
-  BranchTable table_;
-  std::vector<std::pair<std::size_t, BranchTable>> widths_;  ///< from which row on rows have which columns
-  std::size_t rows_ = 0;
-  std::unique_ptr<AtomicFile> branches_;
+  BranchFile branches_;
+  BranchFile curves_;
+  std::size_t curve_rows_ = 0;
   SummaryFile summary_;
   std::unique_ptr<AtomicFile> verification_;
   nlohmann::ordered_json last_;  ///< the last branch's summary

@@ -47,9 +47,10 @@ TEST_CASE("The summaries of a run and of a study stand beside each other, whiche
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 2'000,
-                   {"amplitude", "relative", "phases", "phase_difference", "dissipated", "ratio", "peaks"},
-                   {"branches.csv", "summary.json", "optimum.csv", "sweep.csv", "study.sqlite"});
+  require_pictures(
+      folder.path("r"), 2'000,
+      {"amplitude", "relative", "phases", "phase_difference", "dissipated", "ratio", "peaks"},
+      {"branches.csv", "curves.csv", "summary.json", "optimum.csv", "sweep.csv", "study.sqlite"});
 }
 
 TEST_CASE("A study that is begun anew forgets the former one, and leaves a run's summary", "[folders]") {
@@ -72,7 +73,7 @@ TEST_CASE("A verification of other branches does not stay beside those of a run"
   CHECK(shell("ulimit -f 100; '" + program + "' " + words).status == 4);
   CHECK(names_in(folder.path("r")).contains("verify.csv"));
   REQUIRE(arcslip_program(words).status == 0);
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 }
 
 TEST_CASE("A folder's name is no more than a name", "[folders]") {
@@ -152,5 +153,5 @@ TEST_CASE("Of a run and a study what can be drawn is drawn", "[folders]") {
   CHECK(outcome.status == 0);
   require_pictures(folder.path("r"), 2'000,
                    {"amplitude", "relative", "phases", "phase_difference", "dissipated"},
-                   {"branches.csv", "summary.json", "optimum.csv", "study.sqlite"});
+                   {"branches.csv", "curves.csv", "summary.json", "optimum.csv", "study.sqlite"});
 }

@@ -12,7 +12,7 @@ using namespace arcslip::testing;
 namespace {
 
 const std::string figure_8 = case_named("figure_8");
-const std::set<std::string> results = {"branches.csv", "summary.json"};
+const std::set<std::string> results = {"branches.csv", "curves.csv", "summary.json"};
 
 std::vector<std::string> endless_run(const std::string& folder) {
   return {"run",   figure_8,
@@ -43,7 +43,7 @@ TEST_CASE("A verification that is interrupted has status 3, and what is there of
     const Outcome outcome = run.wait();
     CHECK(outcome.status == 3);
     CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
-    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "summary.json", "verify.csv"});
+    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json", "verify.csv"});
     const auto rows = read_csv(r + "/verify.csv");
     CHECK(rows.back().at(2) == "interrupted");
     CHECK(rows.back().size() == rows.front().size());
@@ -100,7 +100,7 @@ TEST_CASE("A program that is killed leaves nothing, or what the next one removes
   folder.write("r/notes.999999999.tmp", "not ours");
   REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
   CHECK(names_in(folder.path("r")) ==
-        std::set<std::string>{"branches.csv", "notes.999999999.tmp", "summary.json"});
+        std::set<std::string>{"branches.csv", "curves.csv", "notes.999999999.tmp", "summary.json"});
 }
 
 TEST_CASE("Work that does not ask ends within a second as well", "[interrupt]") {

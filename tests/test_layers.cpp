@@ -41,7 +41,7 @@ physical_scale precise reduced_pair refined_solve ring ring_disturbances ring_mo
 ring_stability ring_waves ritz_space sector sector_modes sector_pair sector_reduction sector_solver
 shape_functions spectrum stick_pattern stick_schedule system turned_flow)");
 const std::set<std::string, std::less<>> files = words(R"(
-atomic_file branch_columns branch_table case_file certificate_results continuation_section database for_each
+atomic_file branch_columns branch_file branch_table case_file certificate_results continuation_section database for_each
 geometry_section input_file output output_folder printable results run_files runs sector_files sector_section
 stability_results study_case study_checksum study_extras study_results study_run study_store summary_file
 system_section toml_depth toml_reader uncertain_section verification_results)");

@@ -76,7 +76,7 @@ TEST_CASE("What cannot be printed has status 4 wherever it is printed, and resul
       CHECK_THAT(outcome.err, ContainsSubstring("standard output: cannot be written"));
     }
   }
-  CHECK(names_in(folder.path("a")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("a")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
   CHECK(read(folder.path("a/branches.csv")).starts_with("branch,point,"));
   CHECK(names_in(folder.path("c")) ==
         std::set<std::string>{"optimum.csv", "study.sqlite", "summary.json", "sweep.csv"});

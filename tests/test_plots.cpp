@@ -10,7 +10,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::set<std::string> results = {"branches.csv", "summary.json"};
+const std::set<std::string> results = {"branches.csv", "curves.csv", "summary.json"};
 const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "phase_difference",
                                            "dissipated"};
 

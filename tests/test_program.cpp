@@ -44,7 +44,7 @@ TEST_CASE("run writes both files whole, prints the special points and nothing on
   CHECK(outcome.status == 0);
   CHECK(outcome.err.empty());
   CHECK_THAT(outcome.out, ContainsSubstring("preload = 0.1") && ContainsSubstring("3.841129"));
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 
   const auto rows = read_csv(folder.path("r/branches.csv"));
   const std::vector<std::string> header = {
@@ -166,18 +166,18 @@ TEST_CASE("A disk that fills up has status 4 and leaves no partial file, nor har
   CHECK(outcome.status == 4);
   CHECK(is_one_line(outcome.err));
   CHECK_THAT(outcome.err, ContainsSubstring("branches.csv: cannot be written"));
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
   CHECK(read(folder.path("r/branches.csv")) == before);
   const Outcome full = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("s") + " >/dev/full");
   CHECK(full.status == 4);
-  CHECK(names_in(folder.path("s")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("s")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 }
 
 TEST_CASE("A reader that has seen enough of the table is no error") {
   const TemporaryFolder folder;
   const Outcome outcome = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("r") + " | true");
   CHECK(outcome.err.empty());
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 }
 
 TEST_CASE("A branch that cannot be finished has status 3, its reason, and what was traced") {
@@ -201,7 +201,7 @@ TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   const Outcome outcome = run.wait();
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.out, ContainsSubstring("interrupted"));
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
   const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
   CHECK(summary["branches"][0]["stop"] == "interrupted");
   CHECK(summary["branches"][0]["points"].get<std::size_t>() + 1 ==

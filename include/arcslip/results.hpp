@@ -21,13 +21,17 @@ using Sink = std::function<void(std::string_view)>;
 /// U_m, dissipated_J.
 class BranchTable {
  public:
+  /// What pictures need has ten digits, and nan for what a smooth response with stability says of its
+  /// verdict, which takes much longer than all else.
+  enum class Detail { full, drawn };
+
   /// The columns of a branch are added to those of the branches before it.
   void widen(const TracedBranch& traced);
 
   std::string header() const;
 
   /// The rows of a branch whose columns are known, with nan in those that it does not have.
-  std::string rows(std::size_t number, const TracedBranch& traced) const;
+  std::string rows(std::size_t number, const TracedBranch& traced, Detail detail = Detail::full) const;
 
   /// A row that was made when `before` had fewer columns, with those that were added since.
   std::string widened(std::string_view row, const BranchTable& before) const;
