@@ -23,6 +23,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       unknown_scale_(size_),
       magnitudes_(size_),
       parameter_scale_(linearization_.parameter_jacobian().cols()),
+      before_(size_),
       parameter_normal_(Vector::Unit(size_ + 1, size_)) {}
 
 CurvePoint Corrector::make_point() const {
@@ -154,6 +155,39 @@ Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const
     last_residual = point.residual;
     apply(point, origin);
   }
+}
+
+/// Makes the correction the one that keeps the parameter, which differs by a multiple of the direction, and
+/// returns its length.
+double Corrector::turn_to_parameter() {
+  if (direction_(size_) == 0) return std::numeric_limits<double>::infinity();
+  correction_ -= correction_(size_) / direction_(size_) * direction_;
+  correction_(size_) = 0;
+  return correction_.norm();
+}
+
+void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector& normal) {
+  constexpr int most = 5;          // corrections, of which each is to be much shorter than the last
+  constexpr double shrinks = 0.2;  // beside a fold they halve at best
+  constexpr double near = 0.01;    // of the problem's scale
+  const auto solve = [&] {
+    const bool solved = evaluate(point) && factor(origin.scale, normal) && solve_direction() &&
+                        std::isfinite(solve_correction(0));
+    return solved ? turn_to_parameter() : std::numeric_limits<double>::infinity();
+  };
+  const double first = turn_to_parameter();
+  if (!(first > options_.tolerance && first < near)) return;
+  before_ = point.unknowns;
+  double length = first;
+  for (int i = 0; i < most && length > options_.tolerance; ++i) {
+    const double last = length;
+    apply(point, origin);
+    length = solve();
+    if (!(length < shrinks * last)) break;
+  }
+  if (length <= shrinks * first) return;
+  point.unknowns = before_;
+  solve();
 }
 
 Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal,

@@ -236,6 +236,11 @@ bool Stepper::finish(bool lands, double value) {
   const bool corner = signals_.turn > limits_.turn_limit && is_tiny(distance_);
   if (corner) signals_.turn = 0;
   if (!acceptable(signals_, limits_, max_step_)) return false;
+  if (!lands) {
+    corrector_.close(there_, here_, normal_);
+    slope_to_ = corrector_.direction();
+    corrector_.difference(there_, here_, step_);
+  }
 
   next_bend_ = (slope_to_ - slope_from_) / distance_;
   const bool straight = (slope_to_ - slope_from_).norm() < 1e-6 * slope_to_.norm();

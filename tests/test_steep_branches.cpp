@@ -116,3 +116,19 @@ TEST_CASE("Beside a landmark the curve does not leave its segment") {
   }
   CHECK(worst < 1e-9);
 }
+
+TEST_CASE("Points of steep responses solve at the parameter that they tell, but for rounding") {
+  RandomSystems random(11);
+  double worst = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto [problem, branch] = response(random.system());
+    Linearization at(problem);
+    for (const BranchPoint& point : branch.points) {
+      REQUIRE(at.evaluate(point.unknowns, point.parameters, point.regime));
+      const double rounding = 3e-14 / std::abs(at.jacobian()(0, 0));  // F has terms of up to a hundred
+      const double correction = std::abs(at.residual()(0) / at.jacobian()(0, 0));
+      worst = std::max(worst, correction / std::max(1e-10, rounding));
+    }
+  }
+  CHECK(worst < 1);
+}

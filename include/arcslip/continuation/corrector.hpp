@@ -84,6 +84,12 @@ class Corrector {
   /// `change`.
   Correction correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double change);
 
+  /// Right after `correct` with the same arguments: corrects the unknowns at the parameter as it is. Where
+  /// the branch is steep what is left after `correct`, below the tolerance along the branch, is much longer
+  /// so, and to solve at the parameter that is told is what a point is for. Nothing is changed where the
+  /// branch is vertical, or what is left does not shrink.
+  void close(CurvePoint& point, const CurvePoint& origin, const Vector& normal);
+
   /// Contraction rate of the last corrections, |dz_2|/|dz_1|; 0 where fewer than two were needed.
   double contraction() const { return contraction_; }
 
@@ -111,6 +117,7 @@ class Corrector {
   bool solve_direction();
   double solve_correction(double change);
   void apply(CurvePoint& point, const CurvePoint& origin);
+  double turn_to_parameter();
   double rounding_level(const CurvePoint& point);  // also sets parameter_rounds_
 
   const Problem& problem_;
@@ -130,6 +137,7 @@ class Corrector {
   Vector unknown_scale_;
   Vector magnitudes_;  // of the terms of F
   Vector parameter_scale_;
+  Vector before_;            // the unknowns before the last correction of `close`
   Vector parameter_normal_;  // the condition that keeps the parameter
 };
 
