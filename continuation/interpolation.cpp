@@ -182,14 +182,24 @@ Vector InterpolatedBranch::error(std::size_t piece, const Cubic& cubic) const {
   return 1.5 * most;
 }
 
-Sample InterpolatedBranch::between(std::size_t piece, double x) const {
+Sample InterpolatedBranch::place(const Cubic& cubic, std::size_t piece, double x) const {
   const BranchPoint& from = branch_.points[piece];
-  const double h = distance(piece, piece + 1);
-  const Cubic cubic = this->cubic(piece, piece + 1);
   const Vector z = cubic.at(x);
-  Sample result{z.head(from.unknowns.size()), from.parameters, from.arclength + x * h, from.regime, {}};
+  const double s = from.arclength + x * distance(piece, piece + 1);
+  Sample result{z.head(from.unknowns.size()), from.parameters, s, from.regime, {}};
   result.parameters(parameter_) = z(z.size() - 1);
-  result.error = Vector::Zero(z.size());
+  return result;
+}
+
+Sample InterpolatedBranch::place(std::size_t piece, double x) const {
+  return place(cubic(piece, piece + 1), piece, x);
+}
+
+Sample InterpolatedBranch::between(std::size_t piece, double x) const {
+  const Cubic cubic = this->cubic(piece, piece + 1);
+  Sample result = place(cubic, piece, x);
+  result.error = Vector::Zero(cubic.z_0.size());
+  const double h = distance(piece, piece + 1);
   if (!(h > 0)) return result;
   const double bulge = x * (1 - x);
   const Vector most = h * leaving(piece).cwiseAbs().cwiseMax(arriving(piece).cwiseAbs());

@@ -101,7 +101,7 @@ class Polyline {
 
   BranchPoint point_between(std::size_t piece, double x) const {
     const BranchPoint& from = branch_.points[piece];
-    Sample sample = curve_.between(piece, x);
+    Sample sample = curve_.place(piece, x);
     BranchPoint point;
     point.regime = sample.regime;
     point.unknowns = std::move(sample.unknowns);

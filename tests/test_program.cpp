@@ -38,6 +38,34 @@ TEST_CASE("check and run print the groups of a system in SI units, and run its s
                                          "dissipated_J"});
 }
 
+TEST_CASE("curves.csv has the points of branches.csv, more of the curve in between, and no verdicts") {
+  const TemporaryFolder folder;
+  const std::string stability = case_named("stability");
+  REQUIRE(arcslip_program("run " + stability + " --quiet -o " + folder.path("r")).status == 0);
+  const auto branches = read_csv(folder.path("r/branches.csv"));
+  const auto curves = read_csv(folder.path("r/curves.csv"));
+  REQUIRE(curves.front() == branches.front());
+  CHECK(curves.size() > 2 * branches.size());
+  const auto place = [&](const char* name) {
+    return std::find(curves[0].begin(), curves[0].end(), name) - curves[0].begin();
+  };
+  const auto number = [](const auto& row, std::ptrdiff_t i) {
+    return std::stod(row[static_cast<std::size_t>(i)]);
+  };
+  std::size_t next = 1;
+  for (std::size_t i = 1; i < curves.size(); ++i) {
+    CHECK(std::isfinite(number(curves[i], place("Y"))));
+    CHECK(std::isnan(number(curves[i], place("growth"))));
+    CHECK(number(curves[i], place("unstable")) >= 0);
+    if (std::isnan(number(curves[i], place("residual")))) continue;
+    REQUIRE(next < branches.size());
+    CHECK(curves[i][2] == branches[next][2]);
+    CHECK_THAT(number(curves[i], place("Y")), WithinRel(number(branches[next], place("Y")), 1e-9));
+    ++next;
+  }
+  CHECK(next == branches.size());
+}
+
 TEST_CASE("run writes both files whole, prints the special points and nothing on stderr") {
   const TemporaryFolder folder;
   const Outcome outcome = arcslip_program("run " + figure_8 + " -o " + folder.path("r"));

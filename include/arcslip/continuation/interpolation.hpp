@@ -40,6 +40,9 @@ class InterpolatedBranch {
   /// A part `x` of the way, from 0 to 1, between the points `piece` and `piece` + 1.
   Sample between(std::size_t piece, double x) const;
 
+  /// The same without its error, which takes longer.
+  Sample place(std::size_t piece, double x) const;
+
   /// Wherever the continuation parameter has this value, in the order of the branch.
   std::vector<Sample> where(double value) const;
 
@@ -56,6 +59,7 @@ class InterpolatedBranch {
   bool is_corner(std::size_t point) const;
   std::optional<std::size_t> neighbour(std::size_t piece, int way) const;
   Vector missed(std::size_t from, std::size_t point, std::size_t to) const;
+  Sample place(const Cubic& cubic, std::size_t piece, double x) const;
   Vector error(std::size_t piece, const Cubic& cubic) const;
 
   const Branch& branch_;
