@@ -29,7 +29,9 @@ KrylovSpace::KrylovSpace(const FiniteSector& sector, const SectorWave& wave, con
   basis_.resize(reduction_.size(), 0);
   if (is_static(request)) return;
   constexpr double part = 0.1;
-  sigma_ = -std::max(square(part * request.eta_high), resolved * largest_square(reduction_));
+  const double largest = largest_square(reduction_);
+  sigma_ = -square(part * request.eta_high);
+  if (largest > 0) sigma_ = -std::clamp(-sigma_, resolved * largest, largest);
   shifted_ = reduction_.stiffness() - sigma_ * reduction_.mass();
   if (!factors_.factor(shifted_)) throw SectorError("the stiffness of the sector is singular at its shift");
 }

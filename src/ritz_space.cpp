@@ -34,16 +34,18 @@ void RitzSpace::add(const ComplexMatrix& columns) {
   }
 }
 
-/// K - shift M, where `shift` < 0 is enlarged until this is definite: by no more than what matrices of a few
-/// digits need.
+/// K - shift M, where `shift` < 0 is made no larger than K is, beside which it would lose its digits, and is
+/// enlarged until this is definite: by no more than what matrices of a few digits need.
 RitzSpace::NumberMatrix RitzSpace::shifted(Real& shift) const {
   constexpr Real least = 1e-15;  // of the largest w*^2
   constexpr Real most = 1e-6;
   const Real largest = (stiffness_.diagonal().real().array() / mass_.diagonal().real().array()).maxCoeff();
-  for (shift = std::min(shift, -least * largest);; shift *= 10) {
+  const Real enough = std::max(-shift, most * largest);
+  if (largest > 0) shift = -std::clamp(-shift, least * largest, largest);
+  for (;; shift *= 10) {
     NumberMatrix definite = stiffness_ - Number(shift) * mass_;
     if (definite.llt().info() == Eigen::Success) return definite;
-    if (-shift > most * largest)
+    if (-shift >= enough)
       throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
   }
 }

@@ -124,6 +124,9 @@ class FullResponse {
     matrix_ *= k;
     for (Index i = 0; i < matrix_.nonZeros(); ++i)
       matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
+    if (!matrix_.coeffs().allFinite())
+      throw SectorError(fmt::format(
+          "the sector has no response at eta = {:g}, where w*^2 M is beyond the range of a double", eta));
     if (!factors_.factor(matrix_))
       throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
     const Index contacts = extended_.contacts();

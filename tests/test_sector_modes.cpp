@@ -116,6 +116,26 @@ TEST_CASE("The modes of the lumped bladed disk have the published frequencies, 0
   }
 }
 
+TEST_CASE("Windows far above all resonances leave the modes their digits, up to the range of a double") {
+  const Index all_modes = GENERATE(0, 100);
+  FiniteSector disk = bladed_disk();
+  disk.outputs = {};  // between two dofs the sums over modes cancel there
+  disk.load = ComplexVector::Unit(4, 0);
+  const FiniteSector sector = checked(disk);
+  for (const double high : {1e6, 1e12, 1e75, 1e150}) {
+    const SectorModes found =
+        sector_modes(sector, {3, 24}, {50, high, 1e-10, Loss{.structural = 2e-3}, all_modes});
+    CAPTURE(all_modes, high, found.error, found.error_eta);
+    REQUIRE(found.frequencies.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK_THAT(found.frequencies[k], WithinRel(testing::bladed_disk_frequencies[3][k], 1e-8));
+    CHECK(found.error < 1e-11);  // as in a narrow window
+  }
+  CHECK_THROWS_WITH(
+      sector_modes(sector, {3, 24}, {50, 1e160, 1e-10, Loss{.structural = 2e-3}, all_modes}),
+      "the sector has no response at eta = 1e+160, where w*^2 M is beyond the range of a double");
+}
+
 TEST_CASE("A sector that moves as a rigid body has a mode at no frequency") {
   const FiniteSector sector = one_contact(rod_element(1, 1, 1, 30), 5, 0, 30);
   const Index all_modes = GENERATE(0, 100);
