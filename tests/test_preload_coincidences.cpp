@@ -2,10 +2,15 @@
 // ridge in slip meets the border all in one, as wherever R and Y peak together; ranges and windows that end
 // on it.
 
+#include <cmath>
+#include <numbers>
+
 #include "arcslip/problems/response_slopes.hpp"
+#include "arcslip/study_case.hpp"
 #include "catch.hpp"
 #include "optimum_judge.hpp"
 #include "random_systems.hpp"
+#include "sector_files.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -112,6 +117,42 @@ TEST_CASE("A ridge is known at preloads between points of equal eta, and right b
   const double end = 61.599346034807176;
   ending.range = {10.768805510602878, 1802.4853970415195, 1.5101564734778503, 131.45809477815575, {end}};
   CHECK(complaints(ending, {end}) == none);
+}
+
+// R = Y of one mass is highest where m w*^2 = K + k Re f(R/S), 2 zeta K + k Im f = F/R. Im f is largest at R
+// = 2 S, 1/pi, where Re f = 1/2. What sticks is highest at its undamped resonance exactly.
+TEST_CASE("One mass with structural damping has its best preload in closed form, whatever the contact") {
+  const double zeta = GENERATE(1e-2, 1e-5);
+  const TemporaryFolder folder;
+  FiniteSector mass;
+  mass.mass = sparse(Matrix(Eigen::Vector2d(1, 0).asDiagonal()));
+  mass.stiffness = sparse((Matrix(2, 2) << 1500, -500, -500, 500).finished());
+  mass.left = {0};
+  mass.right = {1};
+  mass.contacts = {0};
+  mass.load = ComplexVector::Unit(2, 0);
+  const StudyCase study = read_study(folder.write(
+      "case.toml", fmt::format("[system]\nmodel = \"sector\"\nwave_number = 4\nsectors = 24\n"
+                               "contact_stiffness = 1.0\ndamping = {{ base = {} }}\n",
+                               zeta) +
+                       write_sector(folder, "base", mass, "damping_kind = \"structural\"") +
+                       "[study]\nparameter = \"P\"\nfrom = 0.01\nto = 10.0\neta = [2.0, 20.0]\n"
+                       "for_each.contact_stiffness = { from = 100.0, to = 5000.0, count = 40 }\n"));
+  REQUIRE(study.count == 40);
+  constexpr double pi = std::numbers::pi;
+  constexpr double K = 1500;  // 1000 + 500 (2 - 2 cos(2 pi 4/24))
+  for (std::size_t i = 0; i < study.count; ++i) {
+    const SystemParameters system = study.design(i).system;
+    const double k = system.contacts.front().stiffness;
+    CAPTURE(zeta, k);
+    const PreloadStudy found = problems::study_preload(system, study.range);
+    REQUIRE(found.optimum);
+    const double Y = 1 / (2 * zeta * K + k / pi);
+    CHECK(found.optimum->kind == problems::OptimumKind::smooth);
+    CHECK_THAT(found.optimum->peak.Y, WithinRel(Y, 1e-12));
+    CHECK_THAT(found.optimum->peak.preload, WithinRel(k * Y / 2, 1e-9));  // flat to the root of rounding
+    CHECK_THAT(found.optimum->peak.eta, WithinRel(std::sqrt(K + k / 2) / (2 * pi), 1e-9));
+  }
 }
 
 TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the middle of what sticks") {
