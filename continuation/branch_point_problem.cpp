@@ -1,5 +1,6 @@
 #include "arcslip/continuation/branch_point_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/borders.hpp"
@@ -61,6 +62,13 @@ void BranchPointProblem::each_border(const std::function<void(double*, Index)>& 
   ExtendedProblem::each_border(use);
   use(rows_.data(), rows_.size());
   use(&active_scale_, 1);
+  use(&second_.memory(), 1);
+}
+
+double BranchPointProblem::strain() const {
+  const Index n = base().size();
+  return std::max(
+      {left_.head(n).norm() * unfolding_.norm(), right_[0].head(n + 1).norm(), right_[1].head(n + 1).norm()});
 }
 
 bool BranchPointProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {

@@ -156,6 +156,18 @@ void progress(Archive& archive, Way& way) {
   list(archive, way.taken, number);
   archive(way.residual_size);
   list(archive, way.borders, number);
+  archive(way.here.log_determinant);
+  list(archive, way.past, [&](auto& past) {
+    archive(past.behind);
+    archive(past.sign);
+    archive(past.log);
+    archive(past.rate);
+  });
+  list(archive, way.looks, [&](auto& look) {
+    archive(look.behind);
+    list(archive, look.functions, number);
+    list(archive, look.rates, number);
+  });
 }
 
 Stop stop_named(const std::string& name) {

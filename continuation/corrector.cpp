@@ -7,7 +7,7 @@ namespace arcslip::continuation {
 
 Work operator+(const Work& a, const Work& b) {
   return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
-          a.rejected_steps + b.rejected_steps};
+          a.rejected_steps + b.rejected_steps, a.spectra + b.spectra};
 }
 
 Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options)
@@ -176,7 +176,8 @@ void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector&
     return solved ? turn_to_parameter() : std::numeric_limits<double>::infinity();
   };
   const double first = turn_to_parameter();
-  if (!(first > options_.tolerance && first < near)) return;
+  if (!(first < near)) return;
+  if (first <= options_.tolerance) return apply(point, origin);
   before_ = point.unknowns;
   double length = first;
   for (int i = 0; i < most && length > options_.tolerance; ++i) {
@@ -229,8 +230,23 @@ void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
     point.tangent.head(size_).array() *= origin.scale.head(size_).array() / point.scale.head(size_).array();
     point.tangent(size_) *= parameter_scale / point.scale(size_);
   }
-  point.tangent.normalize();
+  const double length = point.tangent.norm();
+  point.tangent /= length;
   point.orientation = border_sign_;
+  LogProduct size;
+  solver_->multiply_determinant(size);
+  if (&point != &origin) {
+    for (Index i = 0; i <= size_; ++i) size *= point.scale(i) / origin.scale(i);
+  }
+  size *= length;
+  point.log_determinant = size.log();
+}
+
+double Corrector::log_determinant() const {
+  if (border_sign_ == 0) return -std::numeric_limits<double>::infinity();
+  LogProduct size;
+  solver_->multiply_determinant(size);
+  return size.log();
 }
 
 }  // namespace arcslip::continuation

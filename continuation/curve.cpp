@@ -68,10 +68,12 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
 Branch follow_half(ExtendedProblem& problem, const Observer& observer,
                    const std::function<Branch(const Observer& follow)>& trace) {
   const auto follow = [&](const BranchPoint& point) {
-    return problem.adapt(problem.split(point.unknowns, point.parameters, point.regime)) &&
+    return problem.follow(problem.split(point.unknowns, point.parameters, point.regime)) &&
            (!observer || observer(point));
   };
+  const long before = problem.evaluations();
   Branch half = trace(follow);
+  half.work.evaluations = problem.evaluations() - before;
   if (half.points.empty()) return half;
   BranchPoint& last = half.points.back();
   const bool is_over = last.label == end_of_window ||
@@ -140,7 +142,9 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
 
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
                    const CurveWindow& window, const Observer& observer) {
+  const long before = problem.evaluations();
   const auto located = locate(problem, start, options.tolerance);
+  const long to_locate = problem.evaluations() - before;
   if (!located) {
     Branch none;
     none.explanation = "no special point of this kind was found next to the start";
@@ -160,6 +164,7 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
                                return first;
                              },
                              guess);
+  curve.work.evaluations += to_locate;
   return told(std::move(curve), window, why_first_ended);
 }
 

@@ -46,6 +46,10 @@ double DenseBorderedSolver::factor() {
   return sign;
 }
 
+void DenseBorderedSolver::multiply_determinant(LogProduct& product) const {
+  for (const double pivot : small() ? factors_.diagonal() : lu_.matrixLU().diagonal()) product *= pivot;
+}
+
 /// Column by column, from which the earlier columns are eliminated four at a time.
 double DenseBorderedSolver::factor_small() {
   const Index n = matrix_.rows();

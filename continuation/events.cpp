@@ -1,321 +1,412 @@
 #include "arcslip/continuation/events.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "arcslip/continuation/border_crossing.hpp"
+#include "arcslip/continuation/readings.hpp"
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
-struct Zero {
-  enum class State { found, absent, failed };
-  State state;
-  double s = 0;
-};
+constexpr double one_place = 1e-12;   // of the step: events closer together fall on one point
+constexpr double least = 1e-9;        // of the step: zeros of one function closer together are one
+constexpr double just_passed = 1e-7;  // of its change over the step: what a function is just behind a zero
+constexpr double noise = 0.01;        // of its change: more is left of a function only where it jumps
+constexpr double vanishes = 1e-10;    // the same, at another event: as well as both are located
+constexpr double on_axis = 1e-12;     // of the largest eigenvalue: a real part that is rounding all along
+constexpr double rough = 1e-10;       // the same: one in which rounding may show
+constexpr double significant = 1e-6;  // the same: more than what the values differ by from those of the flow
+constexpr double coincides = 1e-8;    // of the way of its real part: another eigenvalue on the axis with one
+constexpr double surely_imaginary = 1e-4;  // of the largest: rounding parts no two real ones as far
+constexpr double aside = 1e-3;             // of the step: where the pair of a smaller one must be, too
+constexpr double as_cusp = 1e-6;           // of the step: how far second derivatives may mislay a cusp
+constexpr double plainly = 10;        // times what it falls by to a zero that it passes straight: its value
+constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
+constexpr double jump = 0.01;         // of its end values: more is left of a function only where it jumps
 
-/// A function of the branch within the step: positive before its zero and negative behind it, or the other
-/// way round.
-struct Bracket {
-  double upper;     ///< the zero lies in (0, upper)
-  double at_zero;   ///< value at 0; noise if another zero has just been located there
-  int before;       ///< sign before the zero
-  double at_upper;  ///< of the other sign
-};
+using NodeAt = std::function<std::optional<Node>(double s)>;
+using ValueAt = std::function<std::optional<double>(double s)>;
 
-/// Locates the zero. Where the value at 0 may be noise, a point that shows the sign before the zero is looked
-/// for.
-template <class Function>
-Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
-  bool solved = true;
-  std::vector<std::pair<double, double>> seen;  // s and the value there
-  const auto along = [&](double s) {
-    solved = solved && stepper.probe(s);
-    seen.emplace_back(s, solved ? f(stepper) : 0.0);
-    return seen.back().second;
-  };
-  double lower = 0;
-  double at_lower = bracket.at_zero;
-  if (sign_of(at_lower) != bracket.before || std::abs(at_lower) < 0.01 * std::abs(bracket.at_upper)) {
-    double s = 0.5 * bracket.upper;
-    double value = along(s);
-    while (solved && sign_of(value) != bracket.before && s > 1e-12 * bracket.upper) value = along(s *= 0.5);
-    if (!solved) return {Zero::State::failed};
-    if (sign_of(value) == bracket.before) {
-      lower = s;
-      at_lower = value;
-    } else if (sign_of(at_lower) != bracket.before) {
-      // No zero in sight, or the step begins on it, by the last bits behind it.
-      const bool begins_there = std::abs(at_lower) < 1e-6 * std::abs(bracket.at_upper);
-      return {begins_there ? Zero::State::found : Zero::State::absent, 0};
+/// Zeros that are known, to be divided out of a function.
+struct Divisor {
+  std::optional<double> low;
+  std::optional<double> high;
+
+  Node divide(Node node) const {
+    for (const std::optional<double>& zero : {low, high}) {
+      if (!zero) continue;
+      if (node.s == *zero) {
+        node = {node.s, node.slope, std::nan("")};
+      } else {
+        const double value = node.value / (node.s - *zero);
+        node = {node.s, value, (node.slope - value) / (node.s - *zero)};
+      }
     }
+    return node;
   }
-  const auto close = [&](double a, double b) { return std::abs(b - a) <= 1e-14 * bracket.upper; };
-  std::uintmax_t iterations = 100;
-  const auto [a, b] = boost::math::tools::toms748_solve(along, lower, bracket.upper, at_lower,
-                                                        bracket.at_upper, close, iterations);
-  if (!solved) return {Zero::State::failed};
-  const auto size_at = [&](double s) {
-    const auto at = std::find_if(seen.begin(), seen.end(), [s](const auto& pair) { return pair.first == s; });
-    return std::abs(at != seen.end() ? at->second : s == lower ? at_lower : bracket.at_upper);
-  };
-  return {Zero::State::found, size_at(a) < size_at(b) ? a : b};
+};
+
+bool any_of_type(const std::vector<Event>& events, std::initializer_list<PointType> types) {
+  return std::any_of(events.begin(), events.end(), [&](const Event& event) {
+    return std::find(types.begin(), types.end(), event.type) != types.end();
+  });
 }
 
-/// Looks for the end of the regime first: what lies beyond it is not the branch, so that everything else is
-/// looked for up to there only.
 class Search {
  public:
   Search(Stepper& stepper, Watch& watch, const Signs& signs)
       : stepper_(stepper),
         watch_(watch),
         signs_(signs),
+        readings_(stepper, watch),
         upper_(stepper.distance()),
-        at_upper_(&stepper.to()),
-        rate_at_upper_(stepper.parameter_rate_to()) {}
+        functions_at_end_(watch.functions()),
+        eigenvalues_at_end_(watch.eigenvalues()) {}
 
+  /// What lies beyond the end of the regime is not the branch, so that all else is looked for up to there.
   EventSearch run() {
-    const auto borders = static_cast<Index>(at_upper_->size()) - stepper_.tracked_count();
-    for (Index b = 0; b < borders; ++b) border(b);
-    if (result_.solved && !result_.events.empty()) {
-      double first = upper_;
-      for (const Event& event : result_.events) first = std::min(first, event.s);
-      result_.solved = end_at(first) && stepper_.resolved(upper_, stepper_.probed());
-    }
-    if (!result_.solved) return result_;
-    search_inside();
-    while (search_before_first()) {
-    }
-    return result_;
+    borders();
+    if (result_.solved) search_inside();
+    if (result_.solved) explain();
+    return std::move(result_);
   }
 
  private:
-  void note(Event::Kind kind, PointType type, Index index, const Zero& zero) {
-    if (zero.state == Zero::State::failed) result_.solved = false;
-    if (zero.state == Zero::State::found) result_.events.push_back({kind, type, index, zero.s});
+  void borders() {
+    const auto count = static_cast<Index>(stepper_.to().size()) - stepper_.tracked_count();
+    std::vector<Event> reached;
+    for (Index b = 0; b < count && result_.solved; ++b) {
+      const Zero zero = border_crossing(stepper_, b);
+      if (zero.state == Zero::State::failed) result_.solved = false;
+      if (zero.state == Zero::State::found)
+        reached.push_back({Event::Kind::border, PointType::regime_switch, b, zero.s});
+    }
+    if (!result_.solved || reached.empty()) return;
+    for (const Event& event : reached) note(event);
+    result_.solved = stepper_.probe(upper_) && stepper_.resolved(upper_, stepper_.probed());
   }
 
-  /// Leaves out of the search what lies behind s.
-  bool end_at(double s) {
-    if (!stepper_.probe(s)) return false;
-    upper_ = s;
-    cut_ = stepper_.probed();
-    at_upper_ = &cut_;
-    rate_at_upper_ = stepper_.probed_parameter_rate();
-    return true;
+  /// Keeps the events of the first place only; the others are looked for up to there.
+  void note(Event event) {
+    const double near = one_place * stepper_.distance();
+    if (event.s > upper_ + near) return;
+    if (event.s < upper_ - near) {
+      result_.events.clear();
+      upper_ = event.s;
+    }
+    event.s = upper_;
+    ends_at_event_ = true;
+    result_.events.push_back(event);
+  }
+
+  void note(Event::Kind kind, PointType type, Index index, const Zero& zero) {
+    if (zero.state == Zero::State::failed) result_.solved = false;
+    if (zero.state == Zero::State::found && result_.solved) note({kind, type, index, zero.s});
   }
 
   void search_inside() {
-    look_at_upper();
-    fold();
-    for (Index i = 0; i < stepper_.tracked_count(); ++i) extremum(i);
-    if (stepper_.crossing() && stepper_.crossing()->s <= upper_)
-      note(Event::Kind::crossing, PointType::branch_point, 0, {Zero::State::found, stepper_.crossing()->s});
-    for (std::size_t i = 0; i < functions_at_upper_.size(); ++i) function(i);
-    eigenvalues();
-    keep_first();
+    if (stepper_.crossing())
+      note({Event::Kind::crossing, PointType::branch_point, 0, stepper_.crossing()->s});
+    functions(false);
+    jumps_count_ = true;
+    if (result_.solved) fold();
+    for (Index i = 0; i < stepper_.tracked_count() && result_.solved; ++i) extremum(i);
+    functions(true);
+    if (result_.solved) eigenvalues();
   }
 
-  /// The step is to end at the first event. What changes its sign twice within all of the step, and so was
-  /// not seen, may do so once up to there. Returns whether something was found.
-  bool search_before_first() {
-    const std::vector<Event> known = result_.events;
-    if (!result_.solved || known.empty()) return false;
-    const double first = known.front().s;
-    if (!(first > 0 && first < upper_)) return false;
-    if (known.front().kind == Event::Kind::crossing) return false;  // a probe there would be singular
-    if (!end_at(first)) return false;
-    result_.events.clear();
-    search_inside();
-    const auto earlier = [&](const Event& event) { return event.s < first - 1e-9 * stepper_.distance(); };
-    const bool found = result_.solved && std::any_of(result_.events.begin(), result_.events.end(), earlier);
-    if (!found) result_ = {true, known};
-    return found;
-  }
-
-  /// Within what part of the step a fold is one with such a point. On the turning branch of a pitchfork the
-  /// parameter's rate, by which folds are located, is noise up to a distance of about rounding^(1/3).
-  double blur(const Event& event) const {
-    const auto& crossing = stepper_.crossing();
-    const bool turns = event.type == PointType::branch_point && crossing &&
-                       std::abs(crossing->point.tangent(crossing->point.tangent.size() - 1)) < 1e-6;
-    return turns ? 1e-2 : 1e-4;
-  }
-
-  /// Keeps the first event and those at the very same point. A fold beside a branch point or a cusp, where
-  /// what it is located by is noise, is that point.
-  void keep_first() {
+  /// Another event at the same place may say what an event is: a parameter turns at a pitchfork, all that
+  /// depends on the parameters alone turns at a cusp, and where Hopf points meet a zero eigenvalue curves of
+  /// them may cross.
+  void explain() {
     auto& events = result_.events;
-    std::erase_if(events, [&](const Event& event) {
-      return event.type == PointType::fold &&
-             std::any_of(events.begin(), events.end(), [&](const Event& other) {
-               return explains_fold(other.type) &&
-                      std::abs(other.s - event.s) < blur(other) * stepper_.distance();
-             });
-    });
-    double first = upper_;
-    for (const Event& event : events) first = std::min(first, event.s);
-    std::erase_if(events, [&](const Event& event) { return event.s > first + 1e-12 * stepper_.distance(); });
+    for (Event& event : events) {
+      switch (event.kind) {
+        case Event::Kind::fold:
+          event.told =
+              !any_of_type(events, {PointType::branch_point, PointType::cusp, PointType::bogdanov_takens});
+          break;
+        case Event::Kind::extremum: event.told = !any_of_type(events, {PointType::cusp}); break;
+        case Event::Kind::crossing:
+          event.told = !any_of_type(events, {PointType::cusp, PointType::bogdanov_takens,
+                                             PointType::zero_hopf, PointType::hopf_hopf});
+          break;
+        default: break;
+      }
+    }
   }
 
-  void fold() {
-    if (signs_.parameter * sign_of(rate_at_upper_) > 0) return hidden_fold();
-    if (signs_.parameter * sign_of(rate_at_upper_) < 0) fold_before(upper_, rate_at_upper_);
+  bool is_whole() const { return upper_ == stepper_.distance(); }
+
+  /// The first zero of one of the readings in (from, upper], of which `sign` is that before the zero, 0 if
+  /// unknown.
+  Zero first(std::size_t which, int sign, double from, double tolerance) {
+    // A derivative may have no value at a point, as that of an amplitude where this vanishes.
+    const double begin = readings_.value(which, from) ? from : from + just_behind * (upper_ - from);
+    const std::optional<Node> a = readings_.node(which, begin);
+    const std::optional<Node> b = readings_.node(which, upper_);
+    if (!a || !b) return {Zero::State::failed};
+    return first_between(*a, *b, sign, tolerance, which);
   }
 
-  void fold_before(double s, double rate) {
-    note(Event::Kind::fold, PointType::fold, 0,
-         locate(stepper_, {s, stepper_.parameter_rate_from(), signs_.parameter, rate},
-                [](Stepper& stepper) { return stepper.probed_parameter_rate(); }));
-  }
-
-  /// Two folds in one step, the second of which turns the parameter back.
-  void hidden_fold() {
-    const std::optional<double> suspected = stepper_.suspected_folds();
-    if (!suspected || *suspected >= upper_) return;
-    double least = std::numeric_limits<double>::infinity();  // rate of the parameter in its direction
-    double lowest = 0;
-    const auto rate = [&](double s) {
-      if (least < 0 || !result_.solved) return least;  // there it is
-      result_.solved = stepper_.probe(s);
-      const double value = signs_.parameter * stepper_.probed_parameter_rate();
-      if (value < least) lowest = s;
-      least = std::min(least, value);
-      return value;
+  /// At both ends a function that all but vanishes has a zero, which is divided out.
+  Zero first_between(const Node& a, const Node& b, int sign, double tolerance, std::size_t which) {
+    const double width = b.s - a.s;
+    const double change = std::max({std::abs(a.value), std::abs(b.value), std::abs(a.slope) * width});
+    Divisor divisor;
+    const bool is_beyond = sign != 0 && sign_of(a.value) == -sign;
+    const bool is_small = is_beyond || std::abs(a.value) <= just_passed * change;
+    const bool vanishes_here = is_small && (jumps_count_ || is_left_over(a, b, which));
+    if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
+    if (vanishes_here) {
+      if (sign != 0 && sign_of(a.slope) == -sign)  // it is just ahead, but for rounding
+        return {Zero::State::found, a.s + std::clamp(-a.value / a.slope, 0.0, width)};
+      divisor.low = a.s;
+    }
+    if (std::abs(b.value) <= tolerance * change) divisor.high = b.s;
+    const NodeAt at = [&](double s) -> std::optional<Node> {
+      const std::optional<Node> node = readings_.node(which, s);
+      return node ? std::optional(divisor.divide(*node)) : std::nullopt;
     };
-    const double ends = std::min(std::abs(stepper_.parameter_rate_from()), std::abs(rate_at_upper_));
-    if (rate(*suspected) > 0.2 * ends) return;
-    std::uintmax_t iterations = 40;
-    boost::math::tools::brent_find_minima(rate, 0.0, upper_, 24, iterations);
-    if (least < 0 && result_.solved) fold_before(lowest, signs_.parameter * least);
+    const auto value_at = [&](double s) -> std::optional<double> {
+      const std::optional<double> value = readings_.value(which, s);
+      return value ? std::optional(divisor.divide({s, *value, 0}).value) : std::nullopt;
+    };
+    const Node from = divisor.divide(a);
+    const Node to = divisor.divide(b);
+    const FirstZero found = first_zero(from, to, at, least * stepper_.distance());
+    switch (found.kind) {
+      case FirstZero::Kind::unknown: return {Zero::State::failed};
+      case FirstZero::Kind::unclear:
+        return a.value * b.value < 0 || stepper_.is_least() ? by_sign(a, b, sign, which)
+                                                            : Zero{Zero::State::failed};
+      case FirstZero::Kind::touch:
+        return {
+            divisor.low || divisor.high || change < least_touched_ ? Zero::State::absent : Zero::State::found,
+            found.before.s};
+      case FirstZero::Kind::change:
+        return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)),
+                      value_at);
+      case FirstZero::Kind::none: break;
+    }
+    const bool ends_there = divisor.high && b.slope * (divisor.low ? a.slope : a.value) < 0;
+    return {ends_there ? Zero::State::found : Zero::State::absent, b.s};
   }
 
-  Zero locate_extremum(std::size_t monitor, int before) {
-    return locate(stepper_, {upper_, stepper_.from()[monitor].slope, before, (*at_upper_)[monitor].slope},
-                  [monitor](Stepper& s) { return s.probed()[monitor].slope; });
+  /// Whether the first value is what rounding leaves of a zero.
+  bool is_left_over(const Node& a, const Node& b, std::size_t which) {
+    const double middle = readings_.value(which, 0.5 * (a.s + b.s)).value_or(0);
+    return std::abs(a.value) <= noise * std::max(std::abs(b.value), std::abs(middle));
   }
 
+  /// A zero that the signs at both ends tell of, where rounding hides all others.
+  Zero by_sign(const Node& a, const Node& b, int sign, std::size_t which) {
+    const int before = sign != 0 ? sign : sign_of(a.value);
+    if (before * sign_of(b.value) >= 0) return {Zero::State::absent};
+    if (before * sign_of(a.value) <= 0) return {Zero::State::found, a.s};
+    return locate(a, b, std::max(std::abs(a.value), std::abs(b.value)),
+                  [&](double s) { return readings_.value(which, s); });
+  }
+
+  Zero locate(const Node& a, const Node& b, double size, const ValueAt& at) {
+    bool solved = true;
+    const auto value = [&](double s) {
+      const std::optional<double> there = solved ? at(s) : std::nullopt;
+      solved = there.has_value();
+      return there.value_or(0);
+    };
+    const double s = zero_between(value, a.s, b.s, a.value, b.value);
+    const bool jumps = std::abs(value(s)) > jump * size;
+    if (!solved) return {Zero::State::failed};
+    return {jumps && !jumps_count_ ? Zero::State::absent : Zero::State::found, s};
+  }
+
+  /// A reading at the upper end, of which `end` is that at the end of the whole step.
+  double at_upper(std::size_t which, double end) {
+    return is_whole() ? end : readings_.value(which, upper_).value_or(0);
+  }
+
+  double chord() const { return stepper_.chord() * upper_ / stepper_.distance(); }
+
+  /// Two folds in one step, the second of which turns the parameter back, show in how far it has come.
+  void fold() {
+    const double after = at_upper(Readings::rate, stepper_.parameter_rate_to());
+    const bool turns = signs_.parameter * sign_of(after) < 0 || stepper_.may_turn_twice();
+    note(Event::Kind::fold, PointType::fold, 0, turn(Readings::rate, signs_.parameter, turns));
+  }
+
+  /// The zero of a derivative along the branch; all of those that are made of parameters vanish at a cusp.
+  Zero turn(std::size_t which, int sign, bool changes) {
+    bool at_cusp = false;
+    if (any_of_type(result_.events, {PointType::cusp})) {
+      const std::optional<double> here = readings_.value(which, 0);
+      const std::optional<Node> there = readings_.node(which, upper_);
+      if (!here || !there) return {Zero::State::failed};
+      const double fall = -sign * there->slope;  // where it only touches zero there is none
+      at_cusp = std::abs(there->value) <= as_cusp * fall * stepper_.distance() &&
+                std::abs(*here) < plainly * fall * upper_;
+    }
+    if (!changes && !at_cusp) return {Zero::State::absent};
+    const Zero zero = first(which, sign, 0, at_cusp ? std::numeric_limits<double>::infinity() : vanishes);
+    return at_cusp && zero.state == Zero::State::absent ? Zero{Zero::State::found, upper_} : zero;
+  }
+
+  /// Pairs of them are left to the step, which has to resolve the observable.
   void extremum(Index i) {
     const auto m = static_cast<std::size_t>(i);
     const int before = signs_.observables[m];
-    if (before * sign_of_slope(stepper_, m, (*at_upper_)[m]) >= 0) return;
+    const double after = at_upper(readings_.slope(i), sign_of_slope(stepper_, m, stepper_.to()[m]));
     note(Event::Kind::extremum, before > 0 ? PointType::peak : PointType::trough, i,
-         locate_extremum(m, before));
+         turn(readings_.slope(i), before, before * sign_of(after) < 0));
   }
 
-  /// A branch that comes beyond a border by less than the tolerance, as where it all but touches it, stays.
-  void border(Index b) {
-    const auto m = static_cast<std::size_t>(stepper_.tracked_count() + b);
-    const double touch = stepper_.tolerance();
-    const Monitor from = stepper_.from()[m];
-    const Monitor to = (*at_upper_)[m];
-    double upper = upper_;
-    double value = to.value;
-    if (value <= rounding || (value <= touch && to.slope < 0)) {
-      if (!(from.slope > 0 && to.slope < 0)) return;
-      const Zero top = locate_extremum(m, 1);  // the border function's highest point in the step
-      if (top.state != Zero::State::found || !stepper_.probe(top.s)) {
-        result_.solved = false;
-        return;
-      }
-      upper = top.s;
-      value = stepper_.probed()[m].value;
-      if (value <= touch) return;
-    }
-    const bool begins_beyond = from.value > rounding && from.value <= touch && from.slope > 0;
-    const Zero zero = begins_beyond ? Zero{Zero::State::found, 0} : locate_border(m, upper, value);
-    if (zero.state == Zero::State::absent)
-      result_.solved = false;  // beyond the border, yet nowhere across it
-    note(Event::Kind::border, PointType::regime_switch, b, zero);
+  /// Zeros of the problem's tests, or of the user's functions.
+  void functions(bool of_user) {
+    jumps_count_ = false;
+    for (std::size_t i = 0; i < functions_at_end_.size() && result_.solved; ++i)
+      if ((watch_.type(i) == PointType::event) == of_user) function(i);
   }
 
-  /// Of a step that begins on the border and goes nowhere inside, it is where the value leaves rounding.
-  Zero locate_border(std::size_t m, double upper, double value) {
-    const double at_zero = stepper_.from()[m].value;
-    const auto where_it_is = [&](double level) {
-      return locate(stepper_, {upper, at_zero - level, -1, value - level},
-                    [=](Stepper& s) { return s.probed()[m].value - level; });
-    };
-    const Zero zero = where_it_is(0);
-    const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= rounding;
-    return at_once && value > rounding ? where_it_is(rounding) : zero;
-  }
-
-  void look_at_upper() {
-    if (watch_.empty()) return;
-    watch_.look(at_upper_ == &cut_ ? stepper_.probed_point() : stepper_.there());
-    functions_at_upper_ = watch_.functions();
-    eigenvalues_at_upper_ = watch_.eigenvalues();
-  }
-
-  /// Zeros of tests and user's functions. A function may jump instead; then there is no zero.
   void function(std::size_t i) {
+    const double end = functions_at_end_[i];
+    const auto index = static_cast<Index>(i);
+    if (!std::isfinite(end) || !std::isfinite(watch_.kept().front().functions[i])) return;  // no zero is told
+    if (!is_whole() && !readings_.value(readings_.function(index), upper_)) return;
     const int before = signs_.functions[i];
-    const double at_upper = functions_at_upper_[i];
-    if (before != 0 && at_upper == 0)
-      return note(Event::Kind::function, watch_.type(i), static_cast<Index>(i), {Zero::State::found, upper_});
-    if (before * sign_of(at_upper) >= 0) return;
-    const auto value = [&](Stepper& stepper) {
-      watch_.look(stepper.probed_point());
-      return watch_.functions()[i];
-    };
-    watch_.look(stepper_.here());
-    const Zero zero = locate(stepper_, {upper_, watch_.functions()[i], before, at_upper}, value);
-    if (zero.state == Zero::State::found && stepper_.probe(zero.s) &&
-        std::abs(value(stepper_)) > 1e-6 * std::abs(at_upper)) {
-      return;
-    }
-    note(Event::Kind::function, watch_.type(i), static_cast<Index>(i), zero);
+    const double after = at_upper(readings_.function(index), end);
+    const bool changes = before != 0 && before != sign_of(after);
+    if (!changes && !watch_.function_may_vanish(i, chord(), after)) return;
+    note(Event::Kind::function, watch_.type(i), index, first(readings_.function(index), before, 0, vanishes));
   }
 
-  /// Pairs of eigenvalues on the imaginary axis: sorted by their real parts, each real part is continuous
-  /// along the branch, and those between the old and the new number of unstable ones have crossed.
+  /// Eigenvalues on the imaginary axis. In descending order each real part is continuous along the branch;
+  /// the first to vanish is that of the last unstable one or of the first stable one.
   void eigenvalues() {
-    const auto after = static_cast<int>((eigenvalues_at_upper_.real().array() > 0).count());
-    if (signs_.unstable < 0 || eigenvalues_at_upper_.size() == 0) return;
-    const int way = after > signs_.unstable ? 1 : -1;
-    const int first = way > 0 ? signs_.unstable : signs_.unstable - 1;  // crosses before the others
-    for (int i = first; i != first + after - signs_.unstable; i += way) {
-      const auto value = [&](Stepper& stepper) {
-        watch_.look(stepper.probed_point());
-        return i < watch_.eigenvalues().size() ? watch_.eigenvalues()(i).real() : 0;
-      };
-      watch_.look(stepper_.here());
-      const double here = watch_.eigenvalues()(i).real();
-      if (here == 0 || eigenvalues_at_upper_(i).real() == 0)
-        continue;  // on the axis all along, or split there
-      const Zero zero = locate(stepper_, {upper_, here, -way, eigenvalues_at_upper_(i).real()}, value);
-      if (zero.state != Zero::State::found || !stepper_.probe(zero.s)) continue;
-      value(stepper_);
-      const Complex at_zero = watch_.eigenvalues()(i);
-      const double largest = watch_.eigenvalues().cwiseAbs().maxCoeff();
-      if (std::abs(at_zero.imag()) <= 1e-6 * largest) continue;  // a real one, or two beside zero: a fold
-      if (std::abs(at_zero.real()) > 1e-6 * std::abs(at_zero.imag())) continue;
-      note(Event::Kind::pair, watch_.pair_crossing(), i, zero);
-      return;
+    const Index count = eigenvalues_at_end_.size();
+    if (signs_.unstable < 0 || count == 0) return;
+    Index unstable = unstable_at_start();
+    least_touched_ = significant * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    double from = 0;
+    for (Index tries = 0; tries < count; ++tries) {
+      Zero next;
+      Index crosses = 0;
+      for (const Index i : {unstable - 1, unstable}) {
+        if (i < 0 || i >= count || (from == 0 && !may_cross_axis(i, i < unstable ? 1 : -1))) continue;
+        const Zero zero = cross_axis(i, i < unstable ? 1 : -1, from);
+        if (zero.state == Zero::State::failed) return note(Event::Kind::pair, PointType::regular, 0, zero);
+        if (zero.state == Zero::State::absent || (next.state == Zero::State::found && zero.s >= next.s))
+          continue;
+        next = zero;
+        crosses = i;
+      }
+      if (next.state != Zero::State::found || note_on_axis(crosses, crosses < unstable, next.s)) return;
+      unstable += crosses < unstable ? -1 : 1;
+      from = next.s;
     }
   }
 
-  static constexpr double rounding = 1e-13;  // of a border function where it vanishes
+  /// As was counted, where the step begins on the axis; else the values themselves tell.
+  Index unstable_at_start() const {
+    const auto& here = watch_.kept().front().rates;
+    const Index both = std::min(eigenvalues_at_end_.size(), static_cast<Index>(here.size()));
+    double way = 0;
+    for (Index i = 0; i < both; ++i)
+      way = std::max(way, std::abs(eigenvalues_at_end_(i).real() - here[static_cast<std::size_t>(i)]));
+    const double near = std::max(rough * eigenvalues_at_end_.cwiseAbs().maxCoeff(), coincides * way);
+    const auto above = [&](double level) {
+      return std::count_if(here.begin(), here.end(), [=](double rate) { return rate > level; });
+    };
+    return std::clamp<Index>(signs_.unstable, above(near), above(-near));
+  }
+
+  Zero cross_axis(Index i, int sign, double from) {
+    const std::size_t which = readings_.real_part(i);
+    const std::optional<double> a = readings_.value(which, from);
+    const std::optional<double> b = readings_.value(which, upper_);
+    const double floor = rough * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    if (!a || !b || std::max(std::abs(*a), std::abs(*b)) > floor)
+      return first(which, sign, from, just_passed);
+    return by_sign({from, *a, 0}, {upper_, *b, 0}, sign, which);
+  }
+
+  bool may_cross_axis(Index i, int sign) {
+    const auto k = static_cast<std::size_t>(i);
+    const double end = at_upper(readings_.real_part(i), eigenvalues_at_end_(i).real());
+    const auto& here = watch_.kept().front().rates;
+    const double rounding = on_axis * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    if (k < here.size() && std::abs(here[k]) <= rounding && std::abs(end) <= rounding) return false;
+    return sign_of(end) != sign || watch_.rate_may_vanish(k, chord(), end);
+  }
+
+  /// Names what vanishes with the i-th real part at s. False if it is nothing: a real eigenvalue that the
+  /// branch has no name for.
+  bool note_on_axis(Index i, bool falls, double s) {
+    if (!stepper_.probe(s)) {
+      result_.solved = false;
+      return true;
+    }
+    watch_.look(stepper_.probed_point());
+    const ComplexVector values = watch_.eigenvalues();
+    if (i >= values.size()) return true;
+    const auto way_of = [&](Index j) {
+      const auto part = [&](double place) {
+        return readings_.value(readings_.real_part(j), place).value_or(0);
+      };
+      return std::max(std::abs(part(0)), std::abs(part(is_whole() ? upper_ : stepper_.distance())));
+    };
+    const double near = std::max(10 * std::abs(values(i).real()), coincides * way_of(i));
+    int pairs = 0;
+    bool real = false;
+    for (Index j = 0; j < values.size(); ++j) {
+      const bool lies_there = std::abs(values(j).real()) <= near && (j == i || way_of(j) > 1e3 * near);
+      if (!lies_there) continue;
+      const bool is_pair = is_imaginary(values, j, s);
+      pairs += static_cast<int>(is_pair && values(j).imag() > 0);
+      real = real || !is_pair;
+    }
+    const int way = falls ? -1 : 1;
+    const bool named = watch_.real_crossing() != PointType::regular;
+    if (pairs > 0) note({Event::Kind::pair, watch_.pair_crossing(), i, s, true, 2 * way * pairs});
+    if (real && named) note({Event::Kind::real, watch_.real_crossing(), i, s, true, way});
+    return pairs > 0 || (real && named) || (ends_at_event_ && s == upper_);
+  }
+
+  /// Whether an eigenvalue on the axis is one of a pair, and not of two real ones that meet in zero, where
+  /// rounding parts them.
+  bool is_imaginary(const ComplexVector& values, Index i, double s) {
+    const double size = std::abs(values(i).imag());
+    const double largest = std::max(values.cwiseAbs().maxCoeff(), eigenvalues_at_end_.cwiseAbs().maxCoeff());
+    if (size == 0 || size > surely_imaginary * largest) return size != 0;
+    for (const double way : {-1.0, 1.0}) {
+      const double place = s + way * aside * stepper_.distance();
+      if (place < 0 || place > stepper_.distance()) continue;
+      if (!stepper_.probe(place)) return false;
+      watch_.look(stepper_.probed_point());
+      const ComplexVector& there = watch_.eigenvalues();
+      if (i >= there.size() || std::abs(std::abs(there(i).imag()) - size) > 0.5 * size) return false;
+    }
+    return true;
+  }
 
   Stepper& stepper_;
   Watch& watch_;
   const Signs& signs_;
+  Readings readings_;
   double upper_;
-  const std::vector<Monitor>* at_upper_;
-  std::vector<Monitor> cut_;  // the monitors at the crossing
-  double rate_at_upper_;
-  std::vector<double> functions_at_upper_;
-  ComplexVector eigenvalues_at_upper_;
+  bool ends_at_event_ = false;
+  // What a function must come from for a zero that it only touches to count.
+  double least_touched_ = std::numeric_limits<double>::infinity();
+  bool jumps_count_ = true;  // where it jumps across it: a derivative does so at a corner
+  std::vector<double> functions_at_end_;
+  ComplexVector eigenvalues_at_end_;
   EventSearch result_;
 };
 
 }  // namespace
-
-bool explains_fold(PointType type) {
-  return type == PointType::branch_point || type == PointType::cusp || type == PointType::bogdanov_takens;
-}
 
 EventSearch find_first_events(Stepper& stepper, Watch& watch, const Signs& signs) {
   return Search(stepper, watch, signs).run();

@@ -36,6 +36,7 @@ void ExtendedProblem::join(const BasePoint& point, Vector& unknowns, Vector& par
 }
 
 bool ExtendedProblem::adapt(const BasePoint& point) {
+  ++revision_;
   Vector parameter_scale(point.parameters.size());
   base_.scale(point.unknowns, point.parameters, scale_, parameter_scale);
   Vector at_zero = point.parameters;
@@ -68,8 +69,24 @@ void ExtendedProblem::set_borders(const std::vector<double>& numbers) {
   });
 }
 
+bool ExtendedProblem::follow(const BasePoint& point) {
+  constexpr double worst_strain = 1.5;
+  constexpr double most = 4;  // by which the conditions' slopes and the base's scale may have changed
+  Vector unknown_scale(base_.size());
+  Vector parameter_scale(point.parameters.size());
+  base_.scale(point.unknowns, point.parameters, unknown_scale, parameter_scale);
+  const auto growth = unknown_scale.array() / scale_.array();
+  const double slope = last_steepness(point);
+  const bool fits =
+      strain() <= worst_strain && slope <= most && growth.maxCoeff() <= most && growth.minCoeff() >= 1 / most;
+  return fits || adapt(point);
+}
+
 double ExtendedProblem::steepness(const BasePoint& point) {
-  if (!conditions(point, values_, &gradients_)) return 1;
+  return conditions(point, values_, &gradients_) ? last_steepness(point) : 1;
+}
+
+double ExtendedProblem::last_steepness(const BasePoint& point) const {
   const Index n = base_.size();
   Vector unknown_scale(n);
   Vector parameter_scale(point.parameters.size());

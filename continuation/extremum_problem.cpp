@@ -53,7 +53,10 @@ void ExtremumProblem::each_border(const std::function<void(double*, Index)>& use
   use(row_.data(), row_.size());
   use(&active_scale_, 1);
   use(&size_, 1);
+  use(&second_.memory(), 1);
 }
+
+double ExtremumProblem::strain() const { return tangent_.norm(); }
 
 bool ExtremumProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_tangent(point)) return false;
@@ -75,7 +78,7 @@ bool ExtremumProblem::conditions(const BasePoint& point, Vector& values, Matrix*
     return out.allFinite();
   };
   const double step = 0.02 / second_.length(point.unknowns, point.parameters, du, dp);
-  if (!std::isfinite(differentiate(slope_at, step, bend))) return false;
+  if (!std::isfinite(differentiate(slope_at, step, bend).error)) return false;
   gradients->row(0) = (bend / size_ - row).transpose();
   return true;
 }

@@ -1,5 +1,6 @@
 #include "arcslip/continuation/fold_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/borders.hpp"
@@ -46,6 +47,12 @@ void FoldProblem::each_border(const std::function<void(double*, Index)>& use) {
   ExtendedProblem::each_border(use);
   use(column_.data(), column_.size());
   use(row_.data(), row_.size());
+  use(&second_.memory(), 1);
+}
+
+double FoldProblem::strain() const {
+  const Index n = base().size();
+  return std::max(right_.head(n).norm(), left_.head(n).norm() * column_.norm());
 }
 
 bool FoldProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
@@ -100,7 +107,7 @@ void FoldProblem::test(const Vector& u, const Vector& p, int regime, Vector& val
 bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
   if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
-  remove_nearest(values, 0);
+  remove_zero(values);
   return true;
 }
 

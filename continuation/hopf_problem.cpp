@@ -61,6 +61,12 @@ void HopfProblem::each_border(const std::function<void(double*, Index)>& use) {
   ExtendedProblem::each_border(use);
   use(column_.data(), column_.size());
   use(row_.data(), row_.size());
+  use(&second_.memory(), 1);
+}
+
+double HopfProblem::strain() const {
+  const Index n = base().size();
+  return std::max(right_.head(2 * n).norm(), left_[0].head(2 * n).norm() * column_.norm());
 }
 
 bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
@@ -72,20 +78,20 @@ bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gra
   const Vector real = right_.head(n);
   const Vector imaginary = right_.segment(n, n);
   const Vector by_kappa = imaginary - column_.tail(n) * right_(2 * n + 1);
-  Vector row;
-  for (Index j = 0; j < 2; ++j) {
-    const auto a = left_[j].head(n);
-    const auto b = left_[j].segment(n, n);
-    gradients->row(j).setZero();
-    for (const bool first : {true, false}) {
-      if (!second_.contract(point.unknowns, point.parameters, point.regime, first ? a : b,
-                            first ? real : imaginary, none, row)) {
-        return false;
-      }
-      gradients->row(j).head(row.size()) -= row.transpose();
+  gradients->setZero();
+  Matrix weights(n, 2);
+  Matrix columns;
+  for (const bool first : {true, false}) {
+    for (Index j = 0; j < 2; ++j) weights.col(j) = left_[j].segment(first ? 0 : n, n);
+    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, first ? real : imaginary,
+                          none, columns)) {
+      return false;
     }
-    (*gradients)(j, row.size()) = left_[j](2 * n) * row_.tail(n).dot(imaginary) - a.dot(by_kappa);
+    gradients->leftCols(columns.rows()) -= columns.transpose();
   }
+  for (Index j = 0; j < 2; ++j)
+    (*gradients)(j, columns.rows()) =
+        left_[j](2 * n) * row_.tail(n).dot(imaginary) - left_[j].head(n).dot(by_kappa);
   return true;
 }
 
@@ -111,21 +117,8 @@ bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, Comp
   return true;
 }
 
-void HopfProblem::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  values.resize(2);
-  values(0) = u(u.size() - 1);
-  values(1) = 1;
-  ComplexVector others;
-  if (!eigenvalues(u, p, regime, others)) return;
-  // The real eigenvalue next to zero, with the sign of the product of all.
-  double least = std::numeric_limits<double>::infinity();
-  double sign = 1;
-  for (const Complex& value : others) {
-    if (value.imag() != 0) continue;
-    least = std::min(least, std::abs(value.real()));
-    if (value.real() < 0) sign = -sign;
-  }
-  if (std::isfinite(least)) values(1) = sign * least;
+void HopfProblem::test(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+  values = u.tail(1);
 }
 
 }  // namespace arcslip::continuation

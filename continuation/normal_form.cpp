@@ -61,7 +61,7 @@ class CubicTerm {
       return true;
     };
     Vector row;
-    if (h.size() == 0 || !std::isfinite(differentiate(second_at, step_, third)) ||
+    if (h.size() == 0 || !std::isfinite(differentiate(second_at, step_, third).error) ||
         !second_.contract(point_.unknowns, point_.parameters, point_.regime, psi_, v, none, row)) {
       return std::nan("");
     }
@@ -69,6 +69,8 @@ class CubicTerm {
     const double mixed = row.head(n).dot(d.head(n)) / d(n) + row(n + parameter_);
     return -cubic / mixed;
   }
+
+  long evaluations() const { return at_.evaluations() + second_.evaluations(); }
 
  private:
   /// h with F_u h = -F_uu v v in the complement of v.
@@ -81,7 +83,7 @@ class CubicTerm {
       at_.multiply(v, out);
       return true;
     };
-    if (!std::isfinite(differentiate(product, step_, bend))) return {};
+    if (!std::isfinite(differentiate(product, step_, bend).error)) return {};
     if (!at_.evaluate(point_.unknowns, point_.parameters, point_.regime)) return {};
     const auto solver = make_bordered_solver(n, 1, problem_.sparse());
     at_.fill(*solver, scale_.head(n));
@@ -170,6 +172,7 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
 
   BranchPointForm result;
   result.cubic = std::nan("");
+  result.evaluations = extended.evaluations() + second.evaluations();
   bool degenerate = false;
   const std::vector<Eigen::Vector2d> roots = null_directions(form, degenerate);
   if (roots.empty()) {
@@ -194,7 +197,9 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
     result.slopes[1] = 0;
     const Vector v =
         result.directions[1].head(n) / result.directions[1].head(n).cwiseQuotient(scale.head(n)).norm();
-    result.cubic = CubicTerm(problem, parameter, extended, point).coefficient(v, result.directions[0]);
+    CubicTerm cubic(problem, parameter, extended, point);
+    result.cubic = cubic.coefficient(v, result.directions[0]);
+    result.evaluations += cubic.evaluations();
   }
   return result;
 }

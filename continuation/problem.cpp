@@ -15,6 +15,11 @@ void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& 
   parameters = p.cwiseAbs().cwiseMax(1);
 }
 
+bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, const Vector& /*w*/,
+                     const Vector& /*du*/, const Vector& /*dp*/, Vector& /*out*/) const {
+  return false;
+}
+
 bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
   if (!is_equilibrium() || sparse()) return false;
   Matrix jacobian(size(), size());

@@ -1,9 +1,12 @@
 #include "arcslip/continuation/second_derivative.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -34,14 +37,15 @@ Estimate& best_of(std::vector<Estimate>& estimates) {
 
 }  // namespace
 
-double differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative) {
+Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
+                         int level) {
   std::array<Vector, order> row;
   std::array<Vector, order> previous;
   std::vector<Estimate> estimates;
   Vector forward;
   Vector backward;
   std::size_t begun = 0;
-  for (int level = 0; level < levels; ++level, step *= 0.25) {
+  for (step *= std::pow(0.25, level); level < levels; ++level, step *= 0.25) {
     if (!f(step, forward) || !f(-step, backward)) {
       begun = 0;
       continue;
@@ -56,13 +60,13 @@ double differentiate(const std::function<bool(double h, Vector& out)>& f, double
     estimates.push_back({row[last], (row[last] - row[last - 1]).lpNorm<Eigen::Infinity>()});
     if (last == order - 1 && estimates.back().error <= agreement * row[last].lpNorm<Eigen::Infinity>()) {
       derivative = row[last];
-      return estimates.back().error;
+      return {estimates.back().error, true, level};
     }
   }
-  if (estimates.empty()) return std::numeric_limits<double>::infinity();
+  if (estimates.empty()) return {std::numeric_limits<double>::infinity(), false, level};
   Estimate& best = best_of(estimates);
   derivative = std::move(best.derivative);
-  return best.error;
+  return {best.error, false, level};
 }
 
 SecondDerivative::SecondDerivative(const Problem& problem)
@@ -80,21 +84,60 @@ double SecondDerivative::length(const Vector& u, const Vector& p, const Vector& 
 
 bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, const Vector& w,
                                 const Vector& du, const Vector& dp, Vector& out) {
-  const Index n = u.size();
+  Matrix column;
+  if (!contract(u, p, regime, Matrix(w), du, dp, column)) return false;
+  out = column.col(0);
+  return true;
+}
+
+bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, const Matrix& weights,
+                                const Vector& du, const Vector& dp, Matrix& out) {
+  out.setZero(u.size() + p.size(), weights.cols());
   const double size = length(u, p, du, dp);
-  if (!(size > 0) || !std::isfinite(size)) {
-    out.setZero(n + p.size());
-    return size == 0;
+  if (!(size > 0) || !std::isfinite(size)) return size == 0;
+  if (ask(u, p, regime, weights, du, dp, out)) return out.allFinite();
+  return difference(u, p, regime, weights, du, dp, out);
+}
+
+bool SecondDerivative::ask(const Vector& u, const Vector& p, int regime, const Matrix& weights,
+                           const Vector& du, const Vector& dp, Matrix& out) {
+  for (Index k = 0; k < weights.cols(); ++k) {
+    weight_ = weights.col(k);
+    own_row_.setConstant(out.rows(), std::nan(""));
+    if (!problem_.second(u, p, regime, weight_, du, dp, own_row_)) return false;
+    ++own_;
+    if (own_row_.size() != out.rows())
+      throw std::logic_error(
+          fmt::format("Problem::second: out has {} entries; expected {}", own_row_.size(), out.rows()));
+    out.col(k) = own_row_;
   }
+  return true;
+}
+
+bool SecondDerivative::difference(const Vector& u, const Vector& p, int regime, const Matrix& weights,
+                                  const Vector& du, const Vector& dp, Matrix& out) {
+  const Index n = u.size();
   const auto f = [&](double h, Vector& value) {
     if (!at_.evaluate(u + h * du, p + h * dp, regime)) return false;
-    value.resize(n + p.size());
-    at_.multiply_transposed(w, row_);
-    value.head(n) = row_;
-    value.tail(p.size()).noalias() = at_.parameter_jacobian().transpose() * w;
+    value.resize(out.size());
+    for (Index k = 0; k < weights.cols(); ++k) {
+      weight_ = weights.col(k);
+      at_.multiply_transposed(weight_, row_);
+      value.segment(k * out.rows(), n) = row_;
+      value.segment(k * out.rows() + n, p.size()).noalias() = at_.parameter_jacobian().transpose() * weight_;
+    }
     return value.allFinite();
   };
-  return std::isfinite(differentiate(f, first_step / size, out));
+  Vector derivative;
+  const double step = first_step / length(u, p, du, dp);
+  // Where the last differences agreed these will, too, as a rule: that saves the coarser ones.
+  const int begin = std::max(0, static_cast<int>(level_) - static_cast<int>(order) + 1);
+  Difference difference = differentiate(f, step, derivative, begin);
+  if (!difference.agrees && begin > 0) difference = differentiate(f, step, derivative);
+  level_ = difference.agrees ? difference.level : 0;
+  if (!std::isfinite(difference.error)) return false;
+  out = derivative.reshaped(out.rows(), out.cols());
+  return true;
 }
 
 }  // namespace arcslip::continuation

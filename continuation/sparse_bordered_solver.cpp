@@ -200,6 +200,11 @@ double SparseBorderedSolver::factor() {
   return factors_->factor_with_new_pivots(scaled_) ? factors_->sign() : 0;
 }
 
+void SparseBorderedSolver::multiply_determinant(LogProduct& product) const {
+  const auto* pivots = static_cast<const double*>(factors_->numeric->Udiag);
+  for (Index i = 0; i < matrix_.rows(); ++i) product *= pivots[i] / row_scale_(i);
+}
+
 /// Solves for right_hand_side_ with the scaled matrix, into solution_. The corrections of a refinement shrink
 /// by one factor, so that the first tells whether it is enough.
 void SparseBorderedSolver::solve_refined(bool transposed) {

@@ -5,24 +5,6 @@
 #include <limits>
 
 namespace arcslip::continuation {
-namespace {
-
-/// Where the slope of the cubic on [0, 1] with these end slopes of one sign and this change is least, if that
-/// is less than a third of the slope at either end, by more than `shallow`: there may be a pair of extrema.
-std::optional<double> dip(double slope_0, double slope_1, double change, double shallow) {
-  if (!(slope_0 * slope_1 > 0)) return std::nullopt;
-  const double sign = slope_0 > 0 ? 1 : -1;
-  const double a = sign * slope_0;
-  const double b = 6 * sign * change - 4 * a - 2 * sign * slope_1;  // slope a + b x + c x^2
-  const double c = -b + sign * slope_1 - a;
-  if (!(c > 0) || !(b < 0) || !(-b < 2 * c)) return std::nullopt;
-  const double least = std::min(a, sign * slope_1);
-  const double lowest = a - b * b / (4 * c);
-  if (!(lowest < least / 3) || !(least - lowest > shallow)) return std::nullopt;
-  return -b / (2 * c);
-}
-
-}  // namespace
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step)
     : problem_(problem),
@@ -31,17 +13,20 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
       max_step_(max_step),
       here_(corrector.make_point()),
       there_(corrector.make_point()),
-      probe_(corrector.make_point()) {
+      probe_(corrector.make_point()),
+      beside_(corrector.make_point()) {
   const Index size = corrector.size() + 1;
   for (Vector* v : {&normal_, &slope_from_, &slope_to_, &probe_slope_, &predicted_, &step_, &work_, &bend_,
-                    &next_bend_}) {
+                    &next_bend_, &expected_}) {
     v->setZero(size);
   }
   gradient_.unknowns.setZero(corrector.size());
   gradient_.parameters.setZero(here_.parameters.size());
   const std::vector<Observable> observables = problem.observables();
   for (const Index which : tracked_) scales_.push_back(observables[static_cast<std::size_t>(which)].scale);
-  for (std::vector<Monitor>* m : {&at_here_, &from_, &to_, &probed_}) m->reserve(tracked_.size() + 8);
+  past_.reserve(most_past);
+  for (std::vector<Monitor>* m : {&at_here_, &from_, &to_, &probed_, &at_beside_})
+    m->reserve(tracked_.size() + 8);
 }
 
 Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int regime, double forward) {
@@ -81,11 +66,15 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
   }
   here_.tangent = normal_;
   here_.orientation = 0;
-  if (result == Correction::converged && !corrector_.nearly_singular()) {
+  if (result == Correction::converged && !starts_singular()) {
+    corrector_.linearise(here_, normal_);
     begin_piece(here_);
   } else {  // a branch point: the direction is all there is
+    here_.log_determinant = -std::numeric_limits<double>::infinity();
     monitor(here_, here_.scale, here_.tangent, at_here_);
     bend_.setZero();
+    past_.clear();
+    revision_ = problem_.revision();
   }
   return Correction::converged;
 }
@@ -100,6 +89,11 @@ void Stepper::restore(const Progress& progress) {
   here_ = progress.here;
   bend_ = progress.bend;
   at_here_ = progress.monitors;
+  past_ = progress.past;
+  revision_ = problem_.revision();
+  if (!std::isnan(here_.log_determinant)) return;
+  corrector_.linearise(here_, here_.tangent);
+  here_.log_determinant = corrector_.log_determinant();
 }
 
 Correction Stepper::enter(int regime) {
@@ -158,6 +152,8 @@ void Stepper::begin_piece(const CurvePoint& origin) {
   corrector_.set_tangent(here_, origin);
   monitor(here_, here_.scale, here_.tangent, at_here_);
   bend_.setZero();
+  past_.clear();
+  revision_ = problem_.revision();
 }
 
 void Stepper::scale_gradient(const Vector& scale, Vector& out) const {
@@ -176,6 +172,7 @@ double Stepper::parameter_slope(Hold hold) const {
 }
 
 void Stepper::set_condition(Hold hold) {
+  if (revision_ != problem_.revision()) rescale_determinant();
   hold_ = hold;
   if (hold == Hold::tangent) {
     normal_ = here_.tangent;
@@ -219,6 +216,7 @@ bool Stepper::attempt_landing(double value) {
 bool Stepper::finish(bool lands, double value) {
   signals_ = {};
   if (lands) there_.parameters(corrector_.parameter()) = value;
+  anchors_.clear();
   const Correction result = corrector_.correct(there_, here_, normal_, distance_, lands);
   signals_.contraction = corrector_.contraction();
   last_correction_ = result;
@@ -236,10 +234,11 @@ bool Stepper::finish(bool lands, double value) {
   const bool corner = signals_.turn > limits_.turn_limit && is_tiny(distance_);
   if (corner) signals_.turn = 0;
   if (!acceptable(signals_, limits_, max_step_)) return false;
-  if (!lands) {
+  if (!lands && !is_tiny(distance_)) {
     corrector_.close(there_, here_, normal_);
     slope_to_ = corrector_.direction();
     corrector_.difference(there_, here_, step_);
+    distance_ = normal_.dot(step_);
   }
 
   next_bend_ = (slope_to_ - slope_from_) / distance_;
@@ -247,18 +246,18 @@ bool Stepper::finish(bool lands, double value) {
   // rounding, or a corner in between
   if (straight || corner || slope_to_.dot(slope_from_) < 0) next_bend_.setZero();
   corrector_.set_tangent(there_, here_);
-  // Either a branch point lies in between, or the corrector jumped to a piece that runs the other way.
-  if (there_.orientation * here_.orientation < 0 && !find_crossing()) {
-    signals_.turn = limits_.turn_limit * 4;
-    return false;
-  }
   next_bend_.array() *= here_.scale.array() / there_.scale.array();
   next_bend_ /= arc_rate() * arc_rate();
   from_ = at_here_;
   for (Monitor& from : from_) from.slope *= slope_length(hold_);
   monitor(there_, here_.scale, slope_to_, to_);
-  if (resolved(distance_, to_)) return true;
-  signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
+  if (!resolved(distance_, to_)) {
+    signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
+    return false;
+  }
+  if (!may_cross() || search_crossing()) return true;
+  if (there_.orientation == here_.orientation && is_tiny(distance_)) return true;  // a corner
+  signals_.turn = limits_.turn_limit * 4;
   return false;
 }
 
@@ -279,64 +278,15 @@ void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector
   }
 }
 
-std::optional<double> Stepper::suspected_folds() const {
-  constexpr double steep = 1e-8;  // the parameter's own rounding hides what is below
-  const Index n = corrector_.size();
-  const double from = slope_from_(n) / slope_from_.norm();  // over arclength, for which the chord stands
-  const double to = slope_to_(n) / slope_to_.norm();
-  if (from * to > 0 && std::max(std::abs(from), std::abs(to)) < steep) return 0.5 * distance_;
-  const auto place = dip(from, to, step_(n) / step_.norm(), 1e-13);
-  return place ? std::optional(*place * distance_) : std::nullopt;
-}
-
-bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
-  if (is_tiny(s)) return true;
-  const double shallow = 100 * corrector_.tolerance();  // the values themselves are no better
-  for (std::size_t i = 0; i < from_.size(); ++i) {
-    const Monitor& a = from_[i];
-    const Monitor& b = at_s[i];
-    const double change = b.value - a.value;
-    const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
-    // No more than a factor of two at a time: the observable is wanted as a curve, too.
-    if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
-    // The mean of the end slopes is to give the change, or else there is more between than these can tell.
-    const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
-    const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
-    if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
-    if (dip(a.slope * s, b.slope * s, change, shallow * size)) return false;
-  }
-  return true;
-}
-
-/// What is still unlike a curve on so short a step is rounding, or a corner.
-bool Stepper::is_tiny(double s) const { return s * slope_from_.norm() < 1e-7 * max_step_; }
-
-void Stepper::interpolate(double s, Vector& out) const {
-  const double x = s / distance_;
-  const double y = 1 - x;
-  out = x * x * (3 - 2 * x) * step_ + distance_ * (x * y * y * slope_from_ - x * x * y * slope_to_);
-}
-
-bool Stepper::probe(double s) {
-  if (s == probed_s_ && corrector_.work().evaluations == probed_when_) return true;
-  interpolate(s, work_);
-  corrector_.displace(here_, work_, probe_);
-  if (corrector_.correct(probe_, here_, normal_, s, true) != Correction::converged) return false;
-  probe_slope_ = corrector_.direction();
-  monitor(probe_, here_.scale, probe_slope_, probed_);
-  probed_s_ = s;
-  probed_when_ = corrector_.work().evaluations;
-  return true;
-}
-
-void Stepper::cut(double s) {
-  probed_when_ = -1;
+void Stepper::cut() {
   std::swap(there_, probe_);
   slope_to_ = probe_slope_;
   std::swap(to_, probed_);
-  distance_ = s;
+  distance_ = probed_s_;
   corrector_.difference(there_, here_, step_);
-  corrector_.set_tangent(there_, here_);
+  if (!probe_is_known_) corrector_.set_tangent(there_, here_);
+  probed_when_ = -1;
+  anchors_.clear();
 }
 
 Correction Stepper::settle_on_border(int border) {
@@ -366,8 +316,17 @@ void Stepper::advance() {
   const double rate = arc_rate();
   at_here_ = to_;
   for (Monitor& monitor : at_here_) monitor.slope /= rate;
+  remember();
   std::swap(here_, there_);
   bend_ = next_bend_;
+}
+
+/// Keeps the determinant at `here`, which is to be left.
+void Stepper::remember() {
+  const double length = step_.norm();
+  for (PastPoint& past : past_) past.behind += length;
+  if (past_.size() == most_past) past_.pop_back();
+  past_.insert(past_.begin(), {length, here_.orientation, here_.log_determinant, rate_at(here_)});
 }
 
 }  // namespace arcslip::continuation

@@ -56,6 +56,11 @@ Branch Tracer::run(const Progress& progress) {
     stepper_.restore(progress);
     targets_.restore(progress.taken);
     watch_.look(stepper_.here());
+    if (progress.looks.empty()) {
+      watch_.begin();
+    } else {
+      watch_.restore(progress.looks);
+    }
   });
 }
 
@@ -80,6 +85,7 @@ Branch Tracer::finished(const Begin& begin) {
     look_at_derivatives(stepper_.here().unknowns, stepper_.here().parameters, stepper_.here().regime);
   if (!branch_.warning.empty()) branch_.explanation += "; " + branch_.warning;
   branch_.work = corrector_.work();
+  branch_.work.spectra = watch_.spectra();
   const bool further = branch_.stop == Stop::max_points || branch_.stop == Stop::time_limit ||
                        branch_.stop == Stop::interrupted || branch_.stop == Stop::requested;
   if (further && !branch_.points.empty()) {
@@ -87,6 +93,8 @@ Branch Tracer::finished(const Begin& begin) {
     state_.bend = stepper_.bend();
     state_.monitors = stepper_.at_here();
     state_.taken = targets_.taken();
+    state_.past = stepper_.past();
+    state_.looks = watch_.kept();
     state_.residual_size = corrector_.residual_size();
     branch_.checkpoint.emplace().of = identity();
     branch_.checkpoint->ahead = std::move(state_);
@@ -181,8 +189,6 @@ bool Tracer::find_events() {
   if (closing_) events_.clear();
   if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there(), 0);
   const double s = closing_ ? *closing_ : events_.front().s;
-  if (stepper_.crossing() && stepper_.crossing()->s == s)
-    return !passes_target(stepper_.crossing()->point, same_value);
   return stepper_.probe(s) && !passes_target(stepper_.probed_point(), same_value);
 }
 
@@ -210,15 +216,9 @@ void Tracer::take() {
     return stop(Stop::left_range, fmt::format("the branch leaves the range at {}", place()));
   }
   const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
-  const int sign_beyond = sign_of(stepper_.parameter_rate_to());
   if (!events_.empty() || closing_) {
-    const double s = closing_ ? *closing_ : events_.front().s;
-    if (stepper_.crossing() && stepper_.crossing()->s == s) {
-      stepper_.cut_at_crossing();
-    } else {
-      stepper_.probe(s);
-      stepper_.cut(s);
-    }
+    stepper_.probe(closing_ ? *closing_ : events_.front().s);
+    stepper_.cut();
     for (const Event& event : events_) {
       if (event.kind == Event::Kind::border) stepper_.settle_on_border(static_cast<int>(event.index));
     }
@@ -231,12 +231,13 @@ void Tracer::take() {
   if (whole) state_.distance *= factor;
   const Signs before = state_.signs;
   watch_.look(stepper_.here());
+  watch_.keep(state_.last_chord);
   update(state_.signs, stepper_, watch_, !events_.empty());
   if (closing_) {
     store(PointType::end);
     return stop(Stop::closed_loop, "the branch came back to its start");
   }
-  if (!events_.empty()) return take_events(before, sign_beyond);
+  if (!events_.empty()) return take_events(before);
   if (landing_ != nullptr) return take_target(*landing_);
   store(PointType::regular);
 }
@@ -293,6 +294,7 @@ void Tracer::cross(int border, bool several) {
                 fmt::format("the branch beyond the border does not leave it, at {}", place()));
   }
   watch_.look(stepper_.here());
+  watch_.begin();
   store(PointType::regime_switch, {}, arrival);
   corner_events(before);
   // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
@@ -307,6 +309,7 @@ bool Tracer::turn_back() {
   const std::size_t stored = branch_.points.size();
   if (!stepper_.turn_back()) return false;
   watch_.look(stepper_.here());
+  watch_.begin();
   corner_events(before);
   if (branch_.points.size() == stored) store(PointType::regular);
   state_.distance = 1e-6 * options_.max_step / stepper_.slope_length(state_.hold);

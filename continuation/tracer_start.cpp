@@ -47,6 +47,7 @@ void Tracer::start(const Guess& guess, double forward) {
   }
   storing_ = true;
   watch_.look(stepper_.here());
+  watch_.begin();
   state_.signs = signs_at_start(stepper_, watch_);
   // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.
   if (std::abs(stepper_.parameter_slope(Hold::tangent)) < 1e-9) state_.signs.parameter = 0;
@@ -72,11 +73,15 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   };
   BasePoint unfolded = near;
   unfolded.extras = Vector::Zero(1);
+  long& evaluations = corrector_.work().evaluations;
   BranchPointProblem branch_point(problem_, parameter_);
-  if (const auto located = locate(branch_point, unfolded, corrector_.tolerance());
-      located && is_there(located->point)) {
-    const Guess at{located->point.unknowns, located->point.parameters, guess.regime, {}};
+  const auto located_branch_point = locate(branch_point, unfolded, corrector_.tolerance());
+  evaluations += branch_point.evaluations();
+  if (located_branch_point && is_there(located_branch_point->point)) {
+    const BasePoint& there = located_branch_point->point;
+    const Guess at{there.unknowns, there.parameters, guess.regime, {}};
     const auto form = branch_point_form(problem_, parameter_, at);
+    if (form) evaluations += form->evaluations;
     if (form && form->directions[0].size() > 0) {
       const double rate = form->directions[0](corrector_.size());
       return stepper_.start_along(at.unknowns, at.parameters, guess.regime,
@@ -84,7 +89,9 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
     }
   }
   FoldProblem fold(problem_, parameter_);
-  if (const auto located = locate(fold, near, corrector_.tolerance()); located && is_there(located->point)) {
+  const auto located = locate(fold, near, corrector_.tolerance());
+  evaluations += fold.evaluations();
+  if (located && is_there(located->point)) {
     Vector direction = Vector::Zero(corrector_.size() + 1);
     direction.head(corrector_.size()) = fold.right_null();
     return stepper_.start_along(located->point.unknowns, located->point.parameters, guess.regime, direction);

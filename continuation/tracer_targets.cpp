@@ -25,7 +25,10 @@ bool Tracer::try_landing() {
   // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
   const double distance = stepper_.distance();
   const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
-  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) return true;
+  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) {
+    use(Hold::tangent);  // at a fold the parameter cannot be kept
+    return true;
+  }
   landing_failed_ = true;
   rest_before(*landing_);
   use(Hold::parameter);

@@ -1,6 +1,7 @@
 #include "arcslip/continuation/watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arcslip::continuation {
@@ -13,6 +14,7 @@ int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor&
 Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
     : problem_(problem), events_(events), tests_(problem.test_types()) {
   functions_.reserve(tests_.size() + events.size());
+  kept_.reserve(1 + most_past);
 }
 
 void Watch::look(const CurvePoint& point) {
@@ -23,8 +25,14 @@ void Watch::look(const CurvePoint& point) {
   }
   for (const UserEvent& event : events_)
     functions_.push_back(event.function(point.unknowns, point.parameters, point.regime));
-  spectral_ = spectral_ && problem_.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues_);
-  if (!spectral_) {
+  spectra_ += static_cast<long>(spectral_);
+  const bool seen =
+      spectral_ && problem_.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues_);
+  if (kept_.empty()) {  // the first point shows whether there are any
+    spectral_ = seen;
+    if (!seen) spectra_ = 0;
+  }
+  if (!seen) {
     eigenvalues_.resize(0);
     unstable_ = -1;
     return;
@@ -34,6 +42,48 @@ void Watch::look(const CurvePoint& point) {
   });
   unstable_ = static_cast<int>(
       std::count_if(eigenvalues_.begin(), eigenvalues_.end(), [](const Complex& z) { return z.real() > 0; }));
+}
+
+void Watch::keep(double chord) {
+  if (empty()) return;
+  Look last;
+  if (kept_.size() > most_past) {
+    last = std::move(kept_.back());
+    kept_.pop_back();
+  }
+  for (Look& look : kept_) look.behind += chord;
+  last.behind = 0;
+  last.functions = functions_;
+  last.rates.resize(static_cast<std::size_t>(eigenvalues_.size()));
+  for (Index i = 0; i < eigenvalues_.size(); ++i)
+    last.rates[static_cast<std::size_t>(i)] = eigenvalues_(i).real();
+  kept_.insert(kept_.begin(), std::move(last));
+}
+
+void Watch::begin() {
+  kept_.clear();
+  keep(0);
+}
+
+bool Watch::may_vanish(std::vector<double> Look::*values, std::size_t index, double distance,
+                       double value) const {
+  std::array<double, 2 + most_past> places{distance};
+  std::array<double, 2 + most_past> seen{value};
+  std::size_t count = 1;
+  for (const Look& look : kept_) {
+    if (index >= (look.*values).size()) return true;
+    places[count] = -look.behind;
+    seen[count++] = (look.*values)[index];
+  }
+  return may_vanish_twice({places.data(), count}, {seen.data(), count});
+}
+
+bool Watch::function_may_vanish(std::size_t function, double distance, double value) const {
+  return may_vanish(&Look::functions, function, distance, value);
+}
+
+bool Watch::rate_may_vanish(std::size_t rate, double distance, double value) const {
+  return may_vanish(&Look::rates, rate, distance, value);
 }
 
 PointType Watch::type(std::size_t function) const {

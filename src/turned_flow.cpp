@@ -22,7 +22,7 @@ template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double pi = std::numbers::pi;
-constexpr double forgotten = 1e-13;
+constexpr double forgotten = 1e-13;  // of what grows most: less is nothing, or only rounding
 
 /// What moves a contact of node k, of phase -pi k/M.
 template <class Scalar>
@@ -263,11 +263,13 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
     for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
   }
   const auto add = [&](auto flow) {
-    for (const Complex& nu : spectrum(deflated(flow.turned_map(), flow.drifts()))) {
-      if (std::abs(nu) < forgotten) continue;
+    const ComplexVector multipliers = spectrum(deflated(flow.turned_map(), flow.drifts()));
+    const double largest = multipliers.size() == 0 ? 1 : std::max(1.0, multipliers.cwiseAbs().maxCoeff());
+    for (const Complex& nu : multipliers) {
+      if (std::abs(nu) < forgotten * largest) continue;
       const double size = std::log(std::abs(nu));
       const double angle = nu.imag() != 0 ? std::arg(nu) / pi : nu.real() < 0 ? 1 : 0;
-      all.emplace_back(std::abs(size) < flow.rounding() ? 0 : size / step(eta),
+      all.emplace_back(std::abs(size) < flow.rounding() * largest ? 0 : size / step(eta),
                        angle * static_cast<double>(nodes_) * eta);
     }
   };

@@ -178,7 +178,7 @@ TEST_CASE("A contact that is cut in two has the exponents of the whole", "[stabi
 }
 
 TEST_CASE("An exponent vanishes at each fold that the engine finds", "[stability]") {
-  const Run run("negative_damping", {"branch.stability=true"});
+  const Run run("negative_damping", {"branch.stability=true", "system.elements=5"});
   const continuation::Branch& branch = run.traced.front().branch;
   int folds = 0;
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {

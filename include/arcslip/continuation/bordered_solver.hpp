@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "arcslip/continuation/log_product.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -35,6 +36,9 @@ class BorderedSolver {
 
   /// Factors the whole and returns the sign of its determinant: 0 if it is singular or not finite.
   virtual double factor() = 0;
+
+  /// Multiplies by the determinant of what has been factored.
+  virtual void multiply_determinant(LogProduct& product) const = 0;
 
   /// Overwrites (f, g), n + borders, by (x, y), after `factor` has returned a sign.
   virtual void solve(Vector& right_hand_side) = 0;

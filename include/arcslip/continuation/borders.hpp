@@ -32,4 +32,17 @@ inline void remove_nearest(ComplexVector& values, Complex away) {
   values = ComplexVector(values.head(values.size() - 1));
 }
 
+/// Takes an eigenvalue out that is known to be zero. Next to a second one rounding may have made a pair of
+/// the two: then the other one is their sum, which is as exact as the trace.
+inline void remove_zero(ComplexVector& values) {
+  Index nearest = 0;
+  values.array().abs().minCoeff(&nearest);
+  const Complex zero = values(nearest);
+  std::swap(values(nearest), values(values.size() - 1));
+  values = ComplexVector(values.head(values.size() - 1));
+  if (zero.imag() == 0 || values.size() == 0) return;
+  (values.array() - std::conj(zero)).abs().minCoeff(&nearest);
+  values(nearest) = 2 * zero.real();
+}
+
 }  // namespace arcslip::continuation

@@ -30,6 +30,8 @@ class BranchPointProblem : public ExtendedProblem {
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
   void each_border(const std::function<void(double*, Index)>& use) override;
+  double strain() const override;
+  long own_evaluations() const override { return second_.evaluations(); }
 
  private:
   bool solve_borders() const;

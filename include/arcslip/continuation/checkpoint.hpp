@@ -25,6 +25,23 @@ struct Monitor {
   double slope = 0;
 };
 
+/// What changes its sign at branch points and at folds, at an earlier point.
+struct PastPoint {
+  double behind = 0;  ///< its distance
+  double sign = 0;    ///< of the determinant
+  double log = 0;     ///< of the determinant's size
+  double rate = 0;    ///< of the parameter over arclength
+};
+
+/// What a branch is watched by, at this point or at an earlier one.
+struct Look {
+  double behind = 0;              ///< its distance
+  std::vector<double> functions;  ///< tests of the problem, then the user's events
+  std::vector<double> rates;      ///< real parts of the eigenvalues, descending
+};
+
+constexpr std::size_t most_past = 3;  ///< points before this one that are remembered
+
 /// Signs along the branch as last seen, 0 where a function has just vanished; an event changes a sign. They
 /// are remembered, not computed again, since just behind a zero the sign is noise.
 struct Signs {
@@ -50,6 +67,8 @@ struct Progress {
   std::vector<double> taken;          ///< values of the parameter that have their point here
   double residual_size = 0;           ///< what the tolerance on F is relative to; 0: to be found again
   std::vector<double> borders;        ///< of an extended problem: those of its conditions
+  std::vector<PastPoint> past;        ///< the last one first
+  std::vector<Look> looks;            ///< the one here, then earlier ones
 };
 
 /// What a branch is one of; whatever goes on with it must be the same.

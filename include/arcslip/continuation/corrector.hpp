@@ -9,6 +9,7 @@
 // 1983]. Either way the Jacobian is the exact one, bordered, and the last factorisation gives the tangent.
 
 #include <functional>
+#include <limits>
 
 #include "arcslip/continuation/bordered_solver.hpp"
 #include "arcslip/continuation/linearization.hpp"
@@ -22,9 +23,11 @@ struct CurvePoint {
   int regime = 0;
   Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
   Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
-  double orientation = 0;  ///< sign of det [J F_p; tangent^T], which a smooth branch keeps
-  double residual = 0;     ///< largest entry of F
-  int iterations = 0;      ///< Newton corrections spent on it
+  double orientation = 0;  ///< sign of det [J F_p; tangent^T], which changes at branch points alone
+  /// The logarithm of its size, in units of `scale`: -infinity at a branch point, nan where it is not known.
+  double log_determinant = std::numeric_limits<double>::quiet_NaN();
+  double residual = 0;  ///< largest entry of F
+  int iterations = 0;   ///< Newton corrections spent on it
 };
 
 enum class Correction { converged, cannot_evaluate, singular, diverging, too_many_iterations };
@@ -37,10 +40,11 @@ struct CorrectorOptions {
 
 /// Work counted over a branch.
 struct Work {
-  long evaluations = 0;     ///< of F with its derivatives
+  long evaluations = 0;     ///< of F with its derivatives; of a curve's base, for a curve
   long factorizations = 0;  ///< of the bordered Jacobian
   long iterations = 0;      ///< Newton corrections
   long rejected_steps = 0;
+  long spectra = 0;  ///< times that eigenvalues were asked for
 };
 
 Work operator+(const Work& a, const Work& b);
@@ -97,17 +101,20 @@ class Corrector {
   /// normal . (dz/ds) = 1.
   const Vector& direction() const { return direction_; }
 
-  /// Sets tangent, scale and orientation of `point` from `direction()`, which is measured in `origin.scale`.
+  /// Sets tangent, scale and determinant of `point` from `direction()`, which is measured in `origin.scale`.
   void set_tangent(CurvePoint& point, const CurvePoint& origin);
 
-  /// Factors the problem at a point that is already on the branch, with its own scale, for `direction()`.
+  /// Factors the problem at a point that is already on the branch, with the scale that it has, for
+  /// `direction()`.
   Correction linearise(CurvePoint& point, const Vector& normal);
 
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();
 
-  /// Sign of det [J F_p; normal^T] as last factored.
+  /// Sign of det [J F_p; normal^T] as last factored, in units of the origin's scale, and the logarithm of its
+  /// size.
   double orientation() const { return border_sign_; }
+  double log_determinant() const;
 
   Work& work() { return work_; }
 

@@ -18,6 +18,7 @@ class DenseBorderedSolver final : public BorderedSolver {
   using BorderedSolver::set_jacobian;
   void set_jacobian(const Matrix& jacobian, const Vector& column_scale) override;
   double factor() override;
+  void multiply_determinant(LogProduct& product) const override;
   void solve(Vector& right_hand_side) override;
   void solve_transposed(Vector& right_hand_side) override;
 

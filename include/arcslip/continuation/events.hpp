@@ -10,15 +10,14 @@
 
 namespace arcslip::continuation {
 
-/// Whether the parameter may turn at a point of this type without a fold of its own.
-bool explains_fold(PointType type);
-
 struct Event {
-  enum class Kind { border, fold, extremum, crossing, function, pair };
+  enum class Kind { border, fold, extremum, crossing, function, pair, real };
   Kind kind;
   PointType type;
-  Index index;  ///< of the border, observable, function or eigenvalue
-  double s;     ///< where in the step
+  Index index;       ///< of the border, observable, function or eigenvalue
+  double s;          ///< where in the step
+  bool told = true;  ///< false if another event at the same place says what it is
+  int unstable = 0;  ///< by how many eigenvalues more the branch is unstable behind it
 };
 
 struct EventSearch {

@@ -45,6 +45,13 @@ class ExtendedProblem : public Problem {
   /// followed. The solutions do not depend on it. False where the problem has no value.
   virtual bool adapt(const BasePoint& point);
 
+  /// Does so where the borders that there are have come to fit badly, at a point of a curve next to the last
+  /// evaluation.
+  bool follow(const BasePoint& point);
+
+  /// Of the base so far, with its derivatives.
+  long evaluations() const { return at_.evaluations() + own_evaluations(); }
+
   /// What `adapt` has chosen, as numbers that a checkpoint holds, and the same put back; the latter throws
   /// std::invalid_argument if these are of another problem.
   std::vector<double> borders();
@@ -53,6 +60,7 @@ class ExtendedProblem : public Problem {
   Index size() const override { return base_.size() + conditions_; }
   std::vector<std::string> parameter_names() const override;
   bool sparse() const override { return base_.sparse(); }
+  long revision() const override { return revision_; }
   bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
@@ -75,9 +83,16 @@ class ExtendedProblem : public Problem {
   /// Calls `use` with each list of numbers that `adapt` chooses.
   virtual void each_border(const std::function<void(double* numbers, Index count)>& use);
 
+  /// By how much the null vectors last found are longer than with the best borders, times 1 or more.
+  virtual double strain() const { return 1; }
+
+  /// Of the base by the conditions themselves.
+  virtual long own_evaluations() const { return 0; }
+
   /// The steepest condition's slope over (u, p_a) in the base's scale, at least 1: divided by it a condition
   /// is as good as a distance from the special point, be the base as sharply bent as it may.
   double steepness(const BasePoint& point);
+  double last_steepness(const BasePoint& point) const;
 
   mutable Linearization at_;
   Vector scale_;      ///< n, of the base's unknowns where the borders were chosen
@@ -95,6 +110,7 @@ class ExtendedProblem : public Problem {
   mutable Vector values_;
   mutable Matrix gradients_;
   mutable Gradient of_base_;
+  long revision_ = 0;                   // of the borders
   double active_observable_scale_ = 0;  // of the active parameter where it vanishes
 };
 

@@ -20,6 +20,8 @@ class ExtremumProblem : public ExtendedProblem {
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
   void each_border(const std::function<void(double*, Index)>& use) override;
+  double strain() const override;
+  long own_evaluations() const override { return second_.evaluations(); }
 
  private:
   bool solve_tangent(const BasePoint& point) const;

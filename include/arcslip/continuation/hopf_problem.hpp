@@ -23,16 +23,17 @@ class HopfProblem : public ExtendedProblem {
   bool adapt(const BasePoint& point) override;
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  std::vector<PointType> test_types() const override {
-    return {PointType::bogdanov_takens, PointType::zero_hopf};
-  }
+  std::vector<PointType> test_types() const override { return {PointType::bogdanov_takens}; }
   void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
   bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
   PointType pair_crossing() const override { return PointType::hopf_hopf; }
+  PointType real_crossing() const override { return PointType::zero_hopf; }
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
   void each_border(const std::function<void(double*, Index)>& use) override;
+  double strain() const override;
+  long own_evaluations() const override { return second_.evaluations(); }
 
  private:
   bool solve_borders(double kappa) const;

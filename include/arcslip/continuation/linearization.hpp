@@ -16,6 +16,8 @@ class Linearization {
   /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
   bool evaluate(const Vector& u, const Vector& p, int regime);
 
+  long evaluations() const { return evaluations_; }  ///< so far
+
   const Vector& residual() const { return residual_; }                      ///< F, n
   const Matrix& parameter_jacobian() const { return parameter_jacobian_; }  ///< n x number of parameters
 
@@ -36,6 +38,7 @@ class Linearization {
  private:
   const Problem& problem_;
   bool sparse_;
+  long evaluations_ = 0;
   Vector residual_;
   Matrix parameter_jacobian_;
   Matrix jacobian_;

@@ -45,7 +45,8 @@ struct BranchPointForm {
   BranchPointKind kind = BranchPointKind::degenerate;
   std::array<Vector, 2> directions;  ///< n + 1 each, |d/scale| = 1; the pitchfork's turning branch second
   std::array<double, 2> slopes{};    ///< of p_a over distance along u, dp_a/|du/scale|; 0 where it turns
-  double cubic = 0;  ///< pitchfork: c in p_a = p_a* + c x^2 of the turning branch, x along u; else nan
+  double cubic = 0;      ///< pitchfork: c in p_a = p_a* + c x^2 of the turning branch, x along u; else nan
+  long evaluations = 0;  ///< that it took
 };
 std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
                                                  const Guess& branch_point);

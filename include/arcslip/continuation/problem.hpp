@@ -47,8 +47,20 @@ class Problem {
   /// the step.
   virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
 
+  /// Second derivatives of F along one direction, contracted from the left,
+  ///
+  ///   w^T d/dh [dF/du  dF/dp](u + h du, p + h dp)  at h = 0,
+  ///
+  /// n entries for the unknowns, then one for each parameter. False where the problem does not give them:
+  /// then differences of `evaluate` take their place, at the price of six evaluations or more.
+  virtual bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
+                      const Vector& dp, Vector& out) const;
+
   /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
   virtual bool sparse() const { return false; }
+
+  /// Counts how often F was scaled anew, which changes its values and leaves its zeros.
+  virtual long revision() const { return 0; }
 
   /// Whether F is the right-hand side of u' = F(u, p), so that eigenvalues of dF/du tell stability and pairs
   /// of them that cross the imaginary axis are Hopf points.
@@ -60,6 +72,10 @@ class Problem {
 
   /// What a pair of these that crosses the imaginary axis is called.
   virtual PointType pair_crossing() const { return PointType::hopf; }
+
+  /// What a real one that crosses zero is called; regular where it has no name of its own, as at folds and
+  /// branch points, which are found without eigenvalues.
+  virtual PointType real_crossing() const { return PointType::regular; }
 
   /// Functions along a branch whose zeros are special points: the types of these points, and the functions'
   /// values, in the same order.

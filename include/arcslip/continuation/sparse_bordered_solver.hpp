@@ -28,6 +28,7 @@ class SparseBorderedSolver final : public BorderedSolver {
 
   /// Throws std::bad_alloc or std::length_error where the factors do not fit into memory or their indices.
   double factor() override;
+  void multiply_determinant(LogProduct& product) const override;
 
   void solve(Vector& right_hand_side) override;
   void solve_transposed(Vector& right_hand_side) override;

@@ -12,6 +12,8 @@
 
 #include "arcslip/continuation/checkpoint.hpp"
 #include "arcslip/continuation/corrector.hpp"
+#include "arcslip/continuation/first_zero.hpp"
+#include "arcslip/continuation/remote_zero.hpp"
 #include "arcslip/continuation/step_control.hpp"
 
 namespace arcslip::continuation {
@@ -35,6 +37,7 @@ class Stepper {
   /// Puts back what a checkpoint holds.
   void restore(const Progress& progress);
   const Vector& bend() const { return bend_; }
+  const std::vector<PastPoint>& past() const { return past_; }
 
   /// Why the last attempt was not kept, where the corrector failed.
   Correction last_correction() const { return last_correction_; }
@@ -84,33 +87,43 @@ class Stepper {
   double parameter_rate_to() const { return slope_to_(slope_to_.size() - 1); }
 
   /// Where the parameter may turn twice within the step although it runs the same way at both ends.
-  std::optional<double> suspected_folds() const;
+  bool may_turn_twice() const;
 
-  /// The branch at 0 <= s <= distance within the step, solved to rounding: false if that fails.
+  /// The branch at 0 <= s <= distance within the step, solved to rounding; its ends and the branch point in
+  /// it are known already. False if that fails.
   bool probe(double s);
   const std::vector<Monitor>& probed() const { return probed_; }
   const CurvePoint& probed_point() const { return probe_; }
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
 
+  /// Goes a little way along the tangent from the point last probed, within the step: returns how far in s,
+  /// or 0 if nothing can be evaluated there.
+  double look_beside();
+  const CurvePoint& beside_point() const { return beside_; }
+  const std::vector<Monitor>& beside_monitors() const { return at_beside_; }
+  double beside_parameter_rate() const { return beside_rate_; }
+
   /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.
   bool resolved(double s, const std::vector<Monitor>& at_s) const;
 
+  /// Whether the step is so short that what is still unlike a smooth curve is rounding, or a corner.
+  bool is_least() const { return is_tiny(distance_); }
+
   /// Ends the step at the point last probed.
-  void cut(double s);
+  void cut();
 
   /// Moves `there`, which is next to it, onto a border of its regime, and thereby to the parameter's last bit
   /// off the branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
   Correction settle_on_border(int border);
 
-  /// The branch point within the step, if the step passes one.
+  /// The first branch point within the step, if the step passes one.
   struct Crossing {
     double s = 0;
     CurvePoint point;
+    Vector slope;            ///< n + 1, of the branch in s
+    double rate_behind = 0;  ///< of the parameter
   };
   const std::optional<Crossing>& crossing() const { return crossing_; }
-
-  /// Ends the step at the branch point in it.
-  void cut_at_crossing();
 
   /// Whether a point of the branch's past lies within the step, passed in the same direction; the step then
   /// ends there if `cut` is called with the value.
@@ -122,16 +135,35 @@ class Stepper {
  private:
   void begin_piece(const CurvePoint& origin);
   void interpolate(double s, Vector& out) const;
-  bool find_crossing();
-  bool locate_crossing(double s);
+  bool starts_singular();
+  void rescale_determinant();
+  bool may_cross() const;
+  bool search_crossing();
+  std::optional<Node> determinant_at(double s);
+  double beside(double s) const;
+  Correction linearise_beside(const CurvePoint& point, const Vector& slope, double offset);
+  bool probe_between(double s);
+  void anchor(double s);
+  bool narrow(Node& before, Node& behind, double& s, double radius);
+  bool locate_crossing(Node before, Node behind);
+  bool take_crossing(const RemoteZero& zero, double sign_behind);
+  void remember();
   void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
   bool is_tiny(double s) const;
-  double arc_rate() const;  // arclength per distance at there_
+  double rate_at(const CurvePoint& point) const;  // of the parameter over arclength
+  double arc_rate() const;                        // arclength per distance at there_
   void set_condition(Hold hold);
   void predict();
   bool finish(bool lands, double value);
   void monitor(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
   void bend_along(Vector& out) const;
+
+  /// A point of the branch within the step, relative to `here`.
+  struct Anchor {
+    double s;
+    Vector place;
+    Vector slope;
+  };
 
   const Problem& problem_;
   Corrector& corrector_;
@@ -157,11 +189,23 @@ class Stepper {
   StepSignals signals_;
   Correction last_correction_ = Correction::converged;
   std::optional<Crossing> crossing_;
+  std::vector<PastPoint> past_;  // the last one first
+  long revision_ = 0;            // of the problem's scaling that these belong to
+  std::vector<Anchor> anchors_;  // by s
+  struct {
+    double here, there, unit;  // logarithms of det [J F_p; normal^T] at both ends, and what it is measured in
+    bool from_zero;            // the step starts on a branch point
+  } determinant_{};
+  Vector expected_;
   std::vector<Monitor> at_here_;  // with slopes along the unit tangent
   std::vector<Monitor> from_;
   std::vector<Monitor> to_;
   std::vector<Monitor> probed_;
+  CurvePoint beside_;
+  std::vector<Monitor> at_beside_;
+  double beside_rate_ = 0;
   double probed_s_ = 0;
+  bool probe_is_known_ = false;  // an end of the step or the branch point in it
   long probed_when_ =
       -1;  // the corrector's evaluations when it was done; it stands as long as there are no others
   Gradient gradient_;

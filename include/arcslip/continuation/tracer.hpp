@@ -57,10 +57,10 @@ class Tracer {
   bool find_events();
   bool leaves_range() const;
   void take();
-  void take_events(const Signs& before, int sign_beyond);
+  void take_events(const Signs& before);
   void take_targets_around(bool turns);
-  void take_event(const Event& event, const Signs& before, int sign_beyond);
-  void count_unstable(const Signs& before, bool turns);
+  void take_event(const Event& event, const Signs& before);
+  int real_crossings(const Signs& before) const;
   void take_target(const Target& target);
   void cross(int border, bool several);
   bool turn_back();

@@ -29,21 +29,41 @@ class Watch {
   const ComplexVector& eigenvalues() const { return eigenvalues_; }    ///< by descending real part, or none
   int unstable() const { return unstable_; }                           ///< -1 without eigenvalues
 
+  long spectra() const { return spectra_; }  ///< times that eigenvalues were asked for
+
   bool empty() const { return tests_.empty() && events_.empty() && !spectral_; }
-  std::size_t test_count() const { return tests_.size(); }
   PointType pair_crossing() const { return problem_.pair_crossing(); }
+  PointType real_crossing() const { return problem_.real_crossing(); }
   PointType type(std::size_t function) const;
   const std::string& label(std::size_t function) const;
 
+  /// Keeps what was seen last as that of the point that the branch has come to, which lies `chord` behind the
+  /// one before; `begin` forgets those before.
+  void keep(double chord);
+  void begin();
+
+  /// What is kept, of this point first.
+  const std::vector<Look>& kept() const { return kept_; }
+  void restore(std::vector<Look> looks) { kept_ = std::move(looks); }
+
+  /// Whether a function, or a real part of an eigenvalue, may vanish twice on the way to a point at this
+  /// distance, where it has this value.
+  bool function_may_vanish(std::size_t function, double distance, double value) const;
+  bool rate_may_vanish(std::size_t rate, double distance, double value) const;
+
  private:
+  bool may_vanish(std::vector<double> Look::*values, std::size_t index, double distance, double value) const;
+
   const Problem& problem_;
   const std::vector<UserEvent>& events_;
   std::vector<PointType> tests_;
   bool spectral_ = true;
+  long spectra_ = 0;
   Vector values_;
   std::vector<double> functions_;
   ComplexVector eigenvalues_;
   int unstable_ = -1;
+  std::vector<Look> kept_;
   std::string none_;
 };
 

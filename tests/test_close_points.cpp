@@ -1,0 +1,121 @@
+// Special points of a branch that lie in one step, against closed forms.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "catch.hpp"
+#include "polynomial_systems.hpp"
+
+using namespace arcslip;
+using namespace arcslip::continuation;
+using namespace arcslip::testing;
+
+namespace {
+
+/// Cells in a row, each with the reaction 100 x/(1 + x + x^2), between which it diffuses:
+/// x' = p - 100 x/(1 + x + x^2) - (1 + L) x, L the Laplacian of a path, with the eigenvalues 2 - 2 cos(k
+/// pi/n).
+class ReactingCells : public Problem {
+ public:
+  ReactingCells(Index cells, bool equilibrium)
+      : equilibrium_(equilibrium), exchange_(Matrix::Zero(cells, cells)) {
+    for (Index i = 0; i < cells; ++i) exchange_(i, i) = i == 0 || i == cells - 1 ? 2 : 3;
+    exchange_.diagonal(1).setConstant(-1);
+    exchange_.diagonal(-1).setConstant(-1);
+  }
+  Index size() const override { return exchange_.rows(); }
+  bool is_equilibrium() const override { return equilibrium_; }
+  std::vector<std::string> parameter_names() const override { return {"p"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    const Vector d = 1 + u.array() + u.array().square();
+    if (out.residual != nullptr)
+      *out.residual = (p(0) - 100 * u.array() / d.array()).matrix() - exchange_ * u;
+    if (out.jacobian != nullptr) {
+      *out.jacobian = -exchange_;
+      out.jacobian->diagonal().array() -= 100 * (1 - u.array().square()) / d.array().square();
+    }
+    if (out.parameter_jacobian != nullptr) out.parameter_jacobian->setOnes();
+    return true;
+  }
+
+  /// p where the mode k of equal cells has a zero eigenvalue, between two values of x.
+  double singular(int k, double low, double high) const {
+    const double stiffness = 3 - 2 * std::cos(k * std::numbers::pi / static_cast<double>(size()));
+    const auto rate = [=](double x) {
+      const double d = 1 + x + x * x;
+      return 100 * (1 - x * x) / (d * d) + stiffness;
+    };
+    for (int i = 0; i < 200; ++i) {
+      const double middle = 0.5 * (low + high);
+      (rate(middle) * rate(low) > 0 ? low : high) = middle;
+    }
+    return 100 * low / (1 + low + low * low) + low;
+  }
+
+ private:
+  bool equilibrium_;
+  Matrix exchange_;
+};
+
+}  // namespace
+
+TEST_CASE("All branch points of reacting cells are found, however long the steps are") {
+  const int cells = GENERATE(2, 5, 7, 12);
+  const double max_step = GENERATE(0.4, 0.1, 0.05);
+  const bool equilibrium = GENERATE(false, true);
+  CAPTURE(cells, max_step, equilibrium);
+  const ReactingCells problem(cells, equilibrium);
+  TraceOptions options = over("p", 0, 60);
+  options.max_step = max_step;
+  const Branch branch = trace(problem, {Vector::Zero(cells), Vector::Zero(1)}, options);
+  REQUIRE(branch.complete());
+  CHECK(of_type(branch, PointType::fold).size() == 2);
+  const auto found = of_type(branch, PointType::branch_point);
+  std::vector<double> expected;
+  const double least = 2 * std::cos(std::numbers::pi / 9);  // where the slope of the reaction is least
+  for (int k = 1; k < cells; ++k) {
+    expected.push_back(problem.singular(k, 1, least));
+    expected.push_back(problem.singular(k, least, 60));
+  }
+  std::sort(expected.begin(), expected.end(), std::greater<>());
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CHECK_THAT(found[i].parameters(0), WithinRel(expected[i], 1e-9));
+    CHECK(found[i].unknowns.maxCoeff() - found[i].unknowns.minCoeff() < 1e-9);
+  }
+}
+
+TEST_CASE("Special points down to 1e-6 apart are all located, each as what it is") {
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    const RandomPolynomials random(seed);
+    const Branch branch = random.trace();
+    CAPTURE(seed, branch.explanation, random.system.size());
+    REQUIRE(branch.complete());
+    const std::vector<SpecialPoint> found = random.found(branch);
+    REQUIRE(found.size() == random.special.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      CHECK(found[i].second == random.special[i].second);
+      CHECK_THAT(found[i].first,
+                 WithinAbs(random.special[i].first, 1e-8));  // of a step of 0.1, by 1e-9 of it
+    }
+  }
+}
+
+TEST_CASE("The fold next to the value that a branch is to land on is passed with the tangent kept") {
+  for (int i = 1; i <= 8; ++i) {
+    PolynomialSystem bend;
+    bend.folds = {0.5};
+    bend.to_x = bend.from_x = Matrix::Identity(1, 1);
+    bend.sign = -1;
+    const double top = bend.value(0.5);
+    const double before = std::pow(10, -i);
+    // p = P(y) comes down to its fold and turns; the value lies just beyond.
+    const Branch branch = trace(bend, {Vector::Constant(1, -1), Vector::Constant(1, bend.value(-1))},
+                                over("p", bend.value(-1), top - before));
+    CAPTURE(i, branch.explanation);
+    CHECK(branch.stop == Stop::left_range);
+    CHECK(of_type(branch, PointType::fold).size() == 1);
+  }
+}
