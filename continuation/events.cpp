@@ -62,10 +62,10 @@ class Search {
       : stepper_(stepper),
         watch_(watch),
         signs_(signs),
-        readings_(stepper, watch),
-        upper_(stepper.distance()),
         functions_at_end_(watch.functions()),
-        eigenvalues_at_end_(watch.eigenvalues()) {}
+        eigenvalues_at_end_(watch.eigenvalues()),
+        readings_(stepper, watch, functions_at_end_, eigenvalues_at_end_),
+        upper_(stepper.distance()) {}
 
   /// What lies beyond the end of the regime is not the branch, so that all else is looked for up to there.
   EventSearch run() {
@@ -395,14 +395,14 @@ class Search {
   Stepper& stepper_;
   Watch& watch_;
   const Signs& signs_;
+  std::vector<double> functions_at_end_;
+  ComplexVector eigenvalues_at_end_;
   Readings readings_;
   double upper_;
   bool ends_at_event_ = false;
   // What a function must come from for a zero that it only touches to count.
   double least_touched_ = std::numeric_limits<double>::infinity();
   bool jumps_count_ = true;  // where it jumps across it: a derivative does so at a corner
-  std::vector<double> functions_at_end_;
-  ComplexVector eigenvalues_at_end_;
   EventSearch result_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double margin = 0.5;       // of the end values, that the cubic has to keep from zero
 constexpr double foretold = 0.03;    // of a value: what the cubic may err by where it is relied upon
 constexpr int most_places = 40;      // of one search
-constexpr double safety = 5;         // on what a polynomial through earlier values leaves a function to do
+constexpr double safety = 2.5;       // on what a polynomial through earlier values leaves a function to do
 constexpr double rounded = 3e-14;    // of the larger end value: nothing, where two zeros are one
 constexpr double negligible = 1e-7;  // the same between places that are not told apart
 

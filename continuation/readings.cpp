@@ -4,22 +4,50 @@
 #include <cmath>
 
 namespace arcslip::continuation {
+namespace {
+
+void read_slopes(double parameter_rate, const std::vector<Monitor>& monitors, Index tracked,
+                 std::vector<double>& values) {
+  values.push_back(parameter_rate);
+  for (Index i = 0; i < tracked; ++i) values.push_back(monitors[static_cast<std::size_t>(i)].slope);
+}
+
+}  // namespace
 
 Readings::Place* Readings::at(double s) {
   const auto known =
       std::find_if(places_.begin(), places_.end(), [s](const Place& place) { return place.s == s; });
   if (known != places_.end()) return &*known;
-  if (!stepper_.probe(s)) return nullptr;
+  const bool is_known = s == 0 || s == stepper_.distance();
+  if (!is_known && !stepper_.probe(s)) return nullptr;
   Place& place = places_.emplace_back(Place{s, {}, {}});
-  read(stepper_.probed_point(), stepper_.probed_parameter_rate(), stepper_.probed(), place.values);
+  if (s == 0) {
+    read_start(place.values);
+  } else if (is_known) {
+    read_end(place.values);
+  } else {
+    read(stepper_.probed_point(), stepper_.probed_parameter_rate(), stepper_.probed(), place.values);
+  }
   return &place;
+}
+
+void Readings::read_start(std::vector<double>& values) const {
+  read_slopes(stepper_.parameter_rate_from(), stepper_.from(), stepper_.tracked_count(), values);
+  if (watch_.empty()) return;
+  const Look& here = watch_.kept().front();
+  values.insert(values.end(), here.functions.begin(), here.functions.end());
+  values.insert(values.end(), here.rates.begin(), here.rates.end());
+}
+
+void Readings::read_end(std::vector<double>& values) const {
+  read_slopes(stepper_.parameter_rate_to(), stepper_.to(), stepper_.tracked_count(), values);
+  values.insert(values.end(), functions_at_end_.begin(), functions_at_end_.end());
+  for (const Complex& eigenvalue : eigenvalues_at_end_) values.push_back(eigenvalue.real());
 }
 
 void Readings::read(const CurvePoint& point, double parameter_rate, const std::vector<Monitor>& monitors,
                     std::vector<double>& values) {
-  values.push_back(parameter_rate);
-  for (Index i = 0; i < stepper_.tracked_count(); ++i)
-    values.push_back(monitors[static_cast<std::size_t>(i)].slope);
+  read_slopes(parameter_rate, monitors, stepper_.tracked_count(), values);
   if (watch_.empty()) return;
   watch_.look(point);
   values.insert(values.end(), watch_.functions().begin(), watch_.functions().end());

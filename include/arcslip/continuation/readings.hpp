@@ -14,7 +14,10 @@ namespace arcslip::continuation {
 
 class Readings {
  public:
-  Readings(Stepper& stepper, Watch& watch) : stepper_(stepper), watch_(watch) {}
+  /// `functions` and `eigenvalues` are those at the end of the step.
+  Readings(Stepper& stepper, Watch& watch, const std::vector<double>& functions,
+           const ComplexVector& eigenvalues)
+      : stepper_(stepper), watch_(watch), functions_at_end_(functions), eigenvalues_at_end_(eigenvalues) {}
 
   /// Which of the values is which.
   static constexpr std::size_t rate = 0;
@@ -39,12 +42,16 @@ class Readings {
   };
 
   Place* at(double s);
+  void read_start(std::vector<double>& values) const;
+  void read_end(std::vector<double>& values) const;
   void read(const CurvePoint& point, double parameter_rate, const std::vector<Monitor>& monitors,
             std::vector<double>& values);
 
   Stepper& stepper_;
   Watch& watch_;
-  Index functions_ = static_cast<Index>(watch_.functions().size());
+  const std::vector<double>& functions_at_end_;
+  const ComplexVector& eigenvalues_at_end_;
+  Index functions_ = static_cast<Index>(functions_at_end_.size());
   std::deque<Place> places_;
 };
 
