@@ -166,10 +166,9 @@ double Corrector::turn_to_parameter() {
   return correction_.norm();
 }
 
-void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector& normal) {
+void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double near) {
   constexpr int most = 5;          // corrections, of which each is to be much shorter than the last
   constexpr double shrinks = 0.2;  // beside a fold they halve at best
-  constexpr double near = 0.01;    // of the problem's scale
   const auto solve = [&] {
     const bool solved = evaluate(point) && factor(origin.scale, normal) && solve_direction() &&
                         std::isfinite(solve_correction(0));

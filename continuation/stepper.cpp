@@ -234,8 +234,9 @@ bool Stepper::finish(bool lands, double value) {
   const bool corner = signals_.turn > limits_.turn_limit && is_tiny(distance_);
   if (corner) signals_.turn = 0;
   if (!acceptable(signals_, limits_, max_step_)) return false;
-  if (!lands && !is_tiny(distance_)) {
-    corrector_.close(there_, here_, normal_);
+  if (!lands) {
+    constexpr double aside = 1e-3;  // of the step: by more no point is moved
+    corrector_.close(there_, here_, normal_, aside * step_.norm());
     slope_to_ = corrector_.direction();
     corrector_.difference(there_, here_, step_);
     distance_ = normal_.dot(step_);

@@ -297,9 +297,11 @@ void Tracer::cross(int border, bool several) {
   watch_.begin();
   store(PointType::regime_switch, {}, arrival);
   corner_events(before);
-  // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is.
-  state_.distance = std::max(change / std::abs(stepper_.parameter_slope(state_.hold)),
-                             1e-3 * length_before / stepper_.slope_length(state_.hold));
+  // Beyond the corner the parameter is to change as fast as before it, however steep the new piece is. The
+  // last step may have been one of rounding, on the way to a value.
+  state_.distance =
+      std::max(change / std::abs(stepper_.parameter_slope(state_.hold)),
+               std::max(1e-3 * length_before, 1e-6 * options_.max_step) / stepper_.slope_length(state_.hold));
 }
 
 /// Corners within a regime that no step can pass.

@@ -91,8 +91,8 @@ class Corrector {
   /// Right after `correct` with the same arguments: corrects the unknowns at the parameter as it is. Where
   /// the branch is steep what is left after `correct`, below the tolerance along the branch, is much longer
   /// so, and to solve at the parameter that is told is what a point is for. Nothing is changed where the
-  /// branch is vertical, or what is left does not shrink.
-  void close(CurvePoint& point, const CurvePoint& origin, const Vector& normal);
+  /// branch is vertical, what is left does not shrink, or is no shorter than `near`.
+  void close(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double near);
 
   /// Contraction rate of the last corrections, |dz_2|/|dz_1|; 0 where fewer than two were needed.
   double contraction() const { return contraction_; }
