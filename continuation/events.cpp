@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "arcslip/continuation/border_crossing.hpp"
-#include "arcslip/continuation/readings.hpp"
-#include "arcslip/zero_between.hpp"
+#include "arcslip/continuation/zero_search.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
 constexpr double one_place = 1e-12;   // of the step: events closer together fall on one point
-constexpr double least = 1e-9;        // of the step: zeros of one function closer together are one
 constexpr double just_passed = 1e-7;  // of its change over the step: what a function is just behind a zero
-constexpr double noise = 0.01;        // of its change: more is left of a function only where it jumps
 constexpr double vanishes = 1e-10;    // the same, at another event: as well as both are located
 constexpr double on_axis = 1e-12;     // of the largest eigenvalue: a real part that is rounding all along
 constexpr double rough = 1e-10;       // the same: one in which rounding may show
@@ -24,31 +21,7 @@ constexpr double coincides = 1e-8;    // of the way of its real part: another ei
 constexpr double surely_imaginary = 1e-4;  // of the largest: rounding parts no two real ones as far
 constexpr double aside = 1e-3;             // of the step: where the pair of a smaller one must be, too
 constexpr double as_cusp = 1e-6;           // of the step: how far second derivatives may mislay a cusp
-constexpr double plainly = 10;        // times what it falls by to a zero that it passes straight: its value
-constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
-constexpr double jump = 0.01;         // of its end values: more is left of a function only where it jumps
-
-using NodeAt = std::function<std::optional<Node>(double s)>;
-using ValueAt = std::function<std::optional<double>(double s)>;
-
-/// Zeros that are known, to be divided out of a function.
-struct Divisor {
-  std::optional<double> low;
-  std::optional<double> high;
-
-  Node divide(Node node) const {
-    for (const std::optional<double>& zero : {low, high}) {
-      if (!zero) continue;
-      if (node.s == *zero) {
-        node = {node.s, node.slope, std::nan("")};
-      } else {
-        const double value = node.value / (node.s - *zero);
-        node = {node.s, value, (node.slope - value) / (node.s - *zero)};
-      }
-    }
-    return node;
-  }
-};
+constexpr double plainly = 10;  // times what it falls by to a zero that it passes straight: its value
 
 bool any_of_type(const std::vector<Event>& events, std::initializer_list<PointType> types) {
   return std::any_of(events.begin(), events.end(), [&](const Event& event) {
@@ -65,6 +38,7 @@ class Search {
         functions_at_end_(watch.functions()),
         eigenvalues_at_end_(watch.eigenvalues()),
         readings_(stepper, watch, functions_at_end_, eigenvalues_at_end_),
+        zeros_(stepper, readings_),
         upper_(stepper.distance()) {}
 
   /// What lies beyond the end of the regime is not the branch, so that all else is looked for up to there.
@@ -112,7 +86,7 @@ class Search {
     if (stepper_.crossing())
       note({Event::Kind::crossing, PointType::branch_point, 0, stepper_.crossing()->s});
     functions(false);
-    jumps_count_ = true;
+    zeros_.jumps_count = true;
     if (result_.solved) fold();
     for (Index i = 0; i < stepper_.tracked_count() && result_.solved; ++i) extremum(i);
     functions(true);
@@ -142,89 +116,6 @@ class Search {
 
   bool is_whole() const { return upper_ == stepper_.distance(); }
 
-  /// The first zero of one of the readings in (from, upper], of which `sign` is that before the zero, 0 if
-  /// unknown.
-  Zero first(std::size_t which, int sign, double from, double tolerance) {
-    // A derivative may have no value at a point, as that of an amplitude where this vanishes.
-    const double begin = readings_.value(which, from) ? from : from + just_behind * (upper_ - from);
-    const std::optional<Node> a = readings_.node(which, begin);
-    const std::optional<Node> b = readings_.node(which, upper_);
-    if (!a || !b) return {Zero::State::failed};
-    return first_between(*a, *b, sign, tolerance, which);
-  }
-
-  /// At both ends a function that all but vanishes has a zero, which is divided out.
-  Zero first_between(const Node& a, const Node& b, int sign, double tolerance, std::size_t which) {
-    const double width = b.s - a.s;
-    const double change = std::max({std::abs(a.value), std::abs(b.value), std::abs(a.slope) * width});
-    Divisor divisor;
-    const bool is_beyond = sign != 0 && sign_of(a.value) == -sign;
-    const bool is_small = is_beyond || std::abs(a.value) <= just_passed * change;
-    const bool vanishes_here = is_small && (jumps_count_ || is_left_over(a, b, which));
-    if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
-    if (vanishes_here) {
-      if (sign != 0 && sign_of(a.slope) == -sign)  // it is just ahead, but for rounding
-        return {Zero::State::found, a.s + std::clamp(-a.value / a.slope, 0.0, width)};
-      divisor.low = a.s;
-    }
-    if (std::abs(b.value) <= tolerance * change) divisor.high = b.s;
-    const NodeAt at = [&](double s) -> std::optional<Node> {
-      const std::optional<Node> node = readings_.node(which, s);
-      return node ? std::optional(divisor.divide(*node)) : std::nullopt;
-    };
-    const auto value_at = [&](double s) -> std::optional<double> {
-      const std::optional<double> value = readings_.value(which, s);
-      return value ? std::optional(divisor.divide({s, *value, 0}).value) : std::nullopt;
-    };
-    const Node from = divisor.divide(a);
-    const Node to = divisor.divide(b);
-    const FirstZero found = first_zero(from, to, at, least * stepper_.distance());
-    switch (found.kind) {
-      case FirstZero::Kind::unknown: return {Zero::State::failed};
-      case FirstZero::Kind::unclear:
-        return a.value * b.value < 0 || stepper_.is_least() ? by_sign(a, b, sign, which)
-                                                            : Zero{Zero::State::failed};
-      case FirstZero::Kind::touch:
-        return {
-            divisor.low || divisor.high || change < least_touched_ ? Zero::State::absent : Zero::State::found,
-            found.before.s};
-      case FirstZero::Kind::change:
-        return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)),
-                      value_at);
-      case FirstZero::Kind::none: break;
-    }
-    const bool ends_there = divisor.high && b.slope * (divisor.low ? a.slope : a.value) < 0;
-    return {ends_there ? Zero::State::found : Zero::State::absent, b.s};
-  }
-
-  /// Whether the first value is what rounding leaves of a zero.
-  bool is_left_over(const Node& a, const Node& b, std::size_t which) {
-    const double middle = readings_.value(which, 0.5 * (a.s + b.s)).value_or(0);
-    return std::abs(a.value) <= noise * std::max(std::abs(b.value), std::abs(middle));
-  }
-
-  /// A zero that the signs at both ends tell of, where rounding hides all others.
-  Zero by_sign(const Node& a, const Node& b, int sign, std::size_t which) {
-    const int before = sign != 0 ? sign : sign_of(a.value);
-    if (before * sign_of(b.value) >= 0) return {Zero::State::absent};
-    if (before * sign_of(a.value) <= 0) return {Zero::State::found, a.s};
-    return locate(a, b, std::max(std::abs(a.value), std::abs(b.value)),
-                  [&](double s) { return readings_.value(which, s); });
-  }
-
-  Zero locate(const Node& a, const Node& b, double size, const ValueAt& at) {
-    bool solved = true;
-    const auto value = [&](double s) {
-      const std::optional<double> there = solved ? at(s) : std::nullopt;
-      solved = there.has_value();
-      return there.value_or(0);
-    };
-    const double s = zero_between(value, a.s, b.s, a.value, b.value);
-    const bool jumps = std::abs(value(s)) > jump * size;
-    if (!solved) return {Zero::State::failed};
-    return {jumps && !jumps_count_ ? Zero::State::absent : Zero::State::found, s};
-  }
-
   /// A reading at the upper end, of which `end` is that at the end of the whole step.
   double at_upper(std::size_t which, double end) {
     return is_whole() ? end : readings_.value(which, upper_).value_or(0);
@@ -251,7 +142,8 @@ class Search {
                 std::abs(*here) < plainly * fall * upper_;
     }
     if (!changes && !at_cusp) return {Zero::State::absent};
-    const Zero zero = first(which, sign, 0, at_cusp ? std::numeric_limits<double>::infinity() : vanishes);
+    const Zero zero =
+        zeros_.first(which, sign, 0, upper_, at_cusp ? std::numeric_limits<double>::infinity() : vanishes);
     return at_cusp && zero.state == Zero::State::absent ? Zero{Zero::State::found, upper_} : zero;
   }
 
@@ -266,7 +158,7 @@ class Search {
 
   /// Zeros of the problem's tests, or of the user's functions.
   void functions(bool of_user) {
-    jumps_count_ = false;
+    zeros_.jumps_count = false;
     for (std::size_t i = 0; i < functions_at_end_.size() && result_.solved; ++i)
       if ((watch_.type(i) == PointType::event) == of_user) function(i);
   }
@@ -280,7 +172,8 @@ class Search {
     const double after = at_upper(readings_.function(index), end);
     const bool changes = before != 0 && before != sign_of(after);
     if (!changes && !watch_.function_may_vanish(i, chord(), after)) return;
-    note(Event::Kind::function, watch_.type(i), index, first(readings_.function(index), before, 0, vanishes));
+    note(Event::Kind::function, watch_.type(i), index,
+         zeros_.first(readings_.function(index), before, 0, upper_, vanishes));
   }
 
   /// Eigenvalues on the imaginary axis. In descending order each real part is continuous along the branch;
@@ -289,7 +182,7 @@ class Search {
     const Index count = eigenvalues_at_end_.size();
     if (signs_.unstable < 0 || count == 0) return;
     Index unstable = unstable_at_start();
-    least_touched_ = significant * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    zeros_.least_touched = significant * eigenvalues_at_end_.cwiseAbs().maxCoeff();
     double from = 0;
     for (Index tries = 0; tries < count; ++tries) {
       Zero next;
@@ -329,8 +222,8 @@ class Search {
     const std::optional<double> b = readings_.value(which, upper_);
     const double floor = rough * eigenvalues_at_end_.cwiseAbs().maxCoeff();
     if (!a || !b || std::max(std::abs(*a), std::abs(*b)) > floor)
-      return first(which, sign, from, just_passed);
-    return by_sign({from, *a, 0}, {upper_, *b, 0}, sign, which);
+      return zeros_.first(which, sign, from, upper_, just_passed);
+    return zeros_.by_sign({from, *a, 0}, {upper_, *b, 0}, sign, which);
   }
 
   bool may_cross_axis(Index i, int sign) {
@@ -398,11 +291,9 @@ class Search {
   std::vector<double> functions_at_end_;
   ComplexVector eigenvalues_at_end_;
   Readings readings_;
+  ZeroSearch zeros_;
   double upper_;
   bool ends_at_event_ = false;
-  // What a function must come from for a zero that it only touches to count.
-  double least_touched_ = std::numeric_limits<double>::infinity();
-  bool jumps_count_ = true;  // where it jumps across it: a derivative does so at a corner
   EventSearch result_;
 };
 

@@ -12,6 +12,12 @@ void read_slopes(double parameter_rate, const std::vector<Monitor>& monitors, In
   for (Index i = 0; i < tracked; ++i) values.push_back(monitors[static_cast<std::size_t>(i)].slope);
 }
 
+void read_functions(const std::vector<double>& functions, const ComplexVector& eigenvalues,
+                    std::vector<double>& values) {
+  values.insert(values.end(), functions.begin(), functions.end());
+  for (const Complex& eigenvalue : eigenvalues) values.push_back(eigenvalue.real());
+}
+
 }  // namespace
 
 Readings::Place* Readings::at(double s) {
@@ -41,8 +47,7 @@ void Readings::read_start(std::vector<double>& values) const {
 
 void Readings::read_end(std::vector<double>& values) const {
   read_slopes(stepper_.parameter_rate_to(), stepper_.to(), stepper_.tracked_count(), values);
-  values.insert(values.end(), functions_at_end_.begin(), functions_at_end_.end());
-  for (const Complex& eigenvalue : eigenvalues_at_end_) values.push_back(eigenvalue.real());
+  read_functions(functions_at_end_, eigenvalues_at_end_, values);
 }
 
 void Readings::read(const CurvePoint& point, double parameter_rate, const std::vector<Monitor>& monitors,
@@ -50,8 +55,7 @@ void Readings::read(const CurvePoint& point, double parameter_rate, const std::v
   read_slopes(parameter_rate, monitors, stepper_.tracked_count(), values);
   if (watch_.empty()) return;
   watch_.look(point);
-  values.insert(values.end(), watch_.functions().begin(), watch_.functions().end());
-  for (const Complex& eigenvalue : watch_.eigenvalues()) values.push_back(eigenvalue.real());
+  read_functions(watch_.functions(), watch_.eigenvalues(), values);
 }
 
 std::optional<double> Readings::value(std::size_t which, double s) {

@@ -24,6 +24,8 @@ std::vector<Index> tracked_observables(const Problem& problem, const TraceOption
   return tracked;
 }
 
+constexpr double first_step = 1e-6;  // of the largest: where a corner may have made the last one shorter
+
 /// Ends a branch in the midst of a step.
 struct Halt {
   Stop reason;
@@ -314,7 +316,7 @@ bool Tracer::turn_back() {
   watch_.begin();
   corner_events(before);
   if (branch_.points.size() == stored) store(PointType::regular);
-  state_.distance = 1e-6 * options_.max_step / stepper_.slope_length(state_.hold);
+  state_.distance = first_step * options_.max_step / stepper_.slope_length(state_.hold);
   return true;
 }
 
