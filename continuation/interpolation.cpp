@@ -23,11 +23,6 @@ struct InterpolatedBranch::Cubic {
     return 6 * x * y * (z_1 - z_0) + y * (y - 2 * x) * d_0 + x * (x - 2 * y) * d_1;
   }
   Vector third_derivative() const { return 12 * (z_0 - z_1) + 6 * (d_0 + d_1); }
-  double last_at(double x) const {
-    const double y = 1 - x;
-    const Index n = z_0.size() - 1;
-    return y * y * (1 + 2 * x) * z_0(n) + x * x * (1 + 2 * y) * z_1(n) + x * y * (y * d_0(n) - x * d_1(n));
-  }
 
   /// How far it goes, by entries, of which those that hardly change are rounding.
   Vector sizes() const {
@@ -230,7 +225,7 @@ std::vector<Sample> InterpolatedBranch::where(double value) const {
     if (last == 0 && piece + 2 == branch_.points.size()) found.push_back(between(piece, 1));
     if (!(first * last < 0)) continue;  // within a piece it does not turn
     const Cubic curve = cubic(piece, piece + 1);
-    const auto away = [&](double x) { return curve.last_at(x) - value; };
+    const auto away = [&](double x) { return curve.at(x)(curve.z_0.size() - 1) - value; };
     found.push_back(between(piece, zero_between(away, 0, 1, first, last)));
     found.back().parameters(parameter_) = value;
   }

@@ -1,5 +1,7 @@
 #include "branch_file.hpp"
 
+#include <utility>
+
 namespace arcslip {
 
 BranchFile::BranchFile(const std::string& path, BranchTable::Detail detail)
