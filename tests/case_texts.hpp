@@ -8,8 +8,8 @@
 
 namespace arcslip::testing::case_texts {
 
-inline const std::string good = R"(title = "A case"
-[system]
+/// A system without its preload.
+inline const std::string beams = R"([system]
 model = "beams"
 wave_number = 2
 elements = 30
@@ -17,7 +17,9 @@ mass_ratio = 5.0
 frequency_ratio = 4.0
 slenderness = 33.3
 force = 1.0
-preload = 1.0
+)";
+
+inline const std::string good = "title = \"A case\"\n" + beams + R"(preload = 1.0
 
 [branch]
 parameter = "eta"

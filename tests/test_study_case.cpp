@@ -6,9 +6,8 @@
 #include <set>
 #include <thread>
 
+#include "case_texts.hpp"
 #include "catch.hpp"
-#include "mistakes.hpp"
-#include "temporary_folder.hpp"
 
 using namespace arcslip;
 using arcslip::testing::Mistake;
@@ -17,16 +16,7 @@ using arcslip::testing::TemporaryFolder;
 
 namespace {
 
-const std::string good = R"(title = "A study"
-[system]
-model = "beams"
-wave_number = 2
-elements = 30
-mass_ratio = 5.0
-frequency_ratio = 4.0
-slenderness = 33.3
-force = 1.0
-
+const std::string good = "title = \"A study\"\n" + testing::case_texts::beams + R"(
 [study]
 parameter = "P"
 from = 0.1
