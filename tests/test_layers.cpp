@@ -1,18 +1,16 @@
-// Who may include whom:
-//
-//   types <- continuation
-//   types <- mechanics
-//   continuation, mechanics <- problems <- files <- command line
+// Who may include whom: a file those of its own folder and of the folders before it, the mechanics nothing of
+// the engine.
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,55 +22,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Layer { types, continuation, mechanics, problems, files, command_line };
+/// The folders in the order in which they may use one another; those of one row are one layer.
+constexpr std::array<std::string_view, 12> layers = {
+    "types",    "continuation",  "motion",   "structure", "sectors",       "elements",
+    "assembly", "time interval", "problems", "keys",      "cases results", "app"};
 
-std::set<std::string, std::less<>> words(const std::string& text) {
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
+/// The place of one of the layers among all.
+std::size_t layer(std::string_view folder) {
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    std::istringstream names{std::string(layers[i])};
+    for (std::string name; names >> name;) {
+      if (name == folder) return i;
+    }
+  }
+  throw std::invalid_argument("no layer has the folder " + std::string(folder));
 }
 
-const std::set<std::string, std::less<>> mechanics = words(R"(
-annular_plate bracketed_newton chain_sector complex_factors contact contact_force contact_modes disturbance_flow
-disturbed_wave
-dynamic_stiffness
-elements extended_sector finite_sector first_crossing full_receptance harmonic_system
-hysteresis_loop interval interval_response krylov_space lowest_frequency matrix_market modal_model odd_motion
-physical_scale precise reduced_pair refined_solve ring ring_disturbances ring_motion ring_record ring_response ring_sector
-ring_stability ring_waves ritz_space sector sector_modes sector_pair sector_reduction sector_solver
-shape_functions spectrum stick_pattern stick_schedule system turned_flow)");
-const std::set<std::string, std::less<>> files = words(R"(
-atomic_file branch_columns branch_file branch_table case_file certificate_results continuation_section database for_each
-geometry_section input_file output output_folder printable results run_files runs sector_files sector_section
-stability_results study_case study_checksum study_extras study_results study_run study_store summary_file
-system_section toml_depth toml_reader uncertain_section verification_results)");
-
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
-Layer layer_of(const fs::path& file) {
+std::size_t layer_of(const fs::path& file) {
   for (const fs::path& folder : file.parent_path()) {
-    if (folder == "continuation") return Layer::continuation;
-    if (folder == "problems") return Layer::problems;
+    if (folder != "include" && folder != "arcslip" && folder != "src") return layer(folder.string());
   }
-  const std::string name = file.stem().string();
-  if (name == "types" || name == "zero_between") return Layer::types;
-  if (mechanics.contains(name)) return Layer::mechanics;
-  if (files.contains(name)) return Layer::files;
-  return Layer::command_line;
+  return layer("types");
 }
 
 /// The layer that an include asks for; none for a library that every layer may use.
-std::optional<Layer> included_layer(const fs::path& file, const std::string& target, bool quoted) {
-  if (target.starts_with("CLI/")) return Layer::command_line;
-  if (target.starts_with("toml++/") || target.starts_with("nlohmann/")) return Layer::files;
-  if (target.starts_with("arcslip/")) return layer_of(target);
-  if (quoted) return layer_of((file.parent_path() / target).lexically_normal());
+std::optional<std::size_t> included_layer(const std::string& target, bool quoted) {
+  if (target.starts_with("CLI/")) return layer("app");
+  if (target.starts_with("toml++/")) return layer("keys");
+  if (target.starts_with("nlohmann/")) return layer("keys");
+  if (quoted || target.starts_with("arcslip/")) return layer_of(target);
   return std::nullopt;
 }
 
-bool may_include(Layer from, Layer to) {
-  if (from == Layer::types || from == Layer::continuation || from == Layer::mechanics) {
-    return to == from || to == Layer::types;
-  }
-  return to <= from;
+bool may_include(std::size_t from, std::size_t to) {
+  const bool mechanics = from > layer("continuation") && from < layer("problems");
+  return to <= from && !(mechanics && to == layer("continuation"));
 }
 
 /// Whether `line`, in `file`, is an include against the layers.
@@ -80,7 +65,7 @@ bool forbidden(const fs::path& file, const std::string& line) {
   static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::smatch match;
   if (!std::regex_search(line, match, include)) return false;
-  const std::optional<Layer> target = included_layer(file, match[2], match[1] == "\"");
+  const std::optional<std::size_t> target = included_layer(match[2], match[1] == "\"");
   return target && !may_include(layer_of(file), *target);
 }
 
@@ -167,13 +152,13 @@ TEST_CASE("No file includes another against the layers", "[layers]") {
 
 TEST_CASE("Continuation, mechanics and problems neither print nor write", "[layers]") {
   CHECK(lines_where([](const Line& line) {
-          return layer_of(line.file) <= Layer::problems && prints(line.text);
+          return layer_of(line.file) <= layer("problems") && prints(line.text);
         }) == std::vector<std::string>{});
 }
 
 TEST_CASE("The continuation engine knows no word of physics", "[layers]") {
   CHECK(lines_where([](const Line& line) {
-          return layer_of(line.file) == Layer::continuation && names_physics(line.text);
+          return layer_of(line.file) == layer("continuation") && names_physics(line.text);
         }) == std::vector<std::string>{});
 }
 
@@ -201,30 +186,33 @@ TEST_CASE("Includes against the layers are recognised", "[layers]") {
   };
   const Example example = GENERATE(values<Example>({
       {"include/arcslip/types.hpp", "#include <Eigen/Core>", false},
-      {"include/arcslip/types.hpp", "#include \"arcslip/elements.hpp\"", true},
-      {"continuation/trace.cpp", "#include \"arcslip/continuation/branch.hpp\"", false},
-      {"continuation/trace.cpp", "#include \"arcslip/types.hpp\"", false},
-      {"continuation/trace.cpp", "#include <fmt/format.h>", false},
-      {"continuation/trace.cpp", "#include \"arcslip/contact.hpp\"", true},
-      {"continuation/trace.cpp", "#include \"../src/command_run.hpp\"", true},
-      {"continuation/trace.cpp", "#include <nlohmann/json.hpp>", true},
-      {"include/arcslip/continuation/problem.hpp", "#include <arcslip/system.hpp>", true},
-      {"include/arcslip/continuation/problem.hpp", "  #  include  \"arcslip/problems/any.hpp\"", true},
-      {"src/sector.cpp", "#include \"arcslip/precise.hpp\"", false},
-      {"src/sector.cpp", "#include \"arcslip/continuation/problem.hpp\"", true},
-      {"src/sector.cpp", "// #include \"arcslip/continuation/problem.hpp\"", false},
-      {"include/arcslip/contact.hpp", "#include \"arcslip/problems/forced_response.hpp\"", true},
-      {"include/arcslip/contact.hpp", "#include \"arcslip/case_file.hpp\"", true},
-      {"problems/forced_response.cpp", "#include \"arcslip/contact.hpp\"", false},
-      {"problems/forced_response.cpp", "#include \"arcslip/continuation/trace.hpp\"", false},
-      {"problems/forced_response.cpp", "#include \"arcslip/results.hpp\"", true},
-      {"include/arcslip/problems/forced_response.hpp", "#include <toml++/toml.h>", true},
-      {"src/case_file.cpp", "#include \"toml_reader.hpp\"", false},
-      {"src/results.cpp", "#include \"arcslip/problems/forced_response.hpp\"", false},
-      {"src/results.cpp", "#include \"arcslip/command_run.hpp\"", true},
-      {"src/results.cpp", "#include <CLI/CLI.hpp>", true},
-      {"src/command_run.cpp", "#include \"arcslip/results.hpp\"", false},
-      {"src/main.cpp", "#include \"arcslip/command_run.hpp\"", false},
+      {"include/arcslip/types.hpp", "#include \"arcslip/time/ring.hpp\"", true},
+      {"continuation/path/trace.cpp", "#include \"arcslip/continuation/path/branch.hpp\"", false},
+      {"continuation/path/trace.cpp", "#include \"arcslip/types.hpp\"", false},
+      {"continuation/path/trace.cpp", "#include <fmt/format.h>", false},
+      {"continuation/path/trace.cpp", "#include \"arcslip/elements/contact.hpp\"", true},
+      {"continuation/path/trace.cpp", "#include \"app/commands.hpp\"", true},
+      {"continuation/path/trace.cpp", "#include <nlohmann/json.hpp>", true},
+      {"include/arcslip/continuation/problem/problem.hpp", "#include <arcslip/assembly/system.hpp>", true},
+      {"include/arcslip/continuation/problem/problem.hpp", "  #  include  \"arcslip/problems/any.hpp\"",
+       true},
+      {"src/sectors/sector.cpp", "#include \"arcslip/structure/precise.hpp\"", false},
+      {"src/sectors/sector.cpp", "#include \"arcslip/continuation/problem/problem.hpp\"", true},
+      {"src/sectors/sector.cpp", "// #include \"arcslip/continuation/problem/problem.hpp\"", false},
+      {"src/structure/modal_model.cpp", "#include \"arcslip/sectors/sector_modes.hpp\"", true},
+      {"include/arcslip/elements/contact.hpp", "#include \"arcslip/problems/response/forced_response.hpp\"",
+       true},
+      {"include/arcslip/elements/contact.hpp", "#include \"arcslip/cases/case_file.hpp\"", true},
+      {"problems/response/forced_response.cpp", "#include \"arcslip/elements/contact.hpp\"", false},
+      {"problems/response/forced_response.cpp", "#include \"arcslip/continuation/path/trace.hpp\"", false},
+      {"problems/response/forced_response.cpp", "#include \"arcslip/results/results.hpp\"", true},
+      {"include/arcslip/problems/response/forced_response.hpp", "#include <toml++/toml.h>", true},
+      {"src/cases/case_file.cpp", "#include \"keys/toml_reader.hpp\"", false},
+      {"src/keys/toml_reader.cpp", "#include \"arcslip/cases/case_file.hpp\"", true},
+      {"src/results/results.cpp", "#include \"arcslip/problems/response/forced_response.hpp\"", false},
+      {"src/results/results.cpp", "#include \"app/commands.hpp\"", true},
+      {"src/results/results.cpp", "#include <CLI/CLI.hpp>", true},
+      {"src/app/command_run.cpp", "#include \"arcslip/results/results.hpp\"", false},
   }));
   CAPTURE(example.file, example.line);
   CHECK(forbidden(example.file, example.line) == example.forbidden);

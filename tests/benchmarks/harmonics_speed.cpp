@@ -9,10 +9,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "arcslip/contact_force.hpp"
-#include "arcslip/problems/floquet_response.hpp"
-#include "arcslip/ring_response.hpp"
-#include "arcslip/system.hpp"
+#include "arcslip/assembly/system.hpp"
+#include "arcslip/elements/contact_force.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/time/ring_response.hpp"
 
 namespace {
 

@@ -14,13 +14,13 @@
 #include <numbers>
 #include <string>
 
-#include "../../src/complex_factors.hpp"
-#include "../../src/full_receptance.hpp"
-#include "arcslip/annular_plate.hpp"
-#include "arcslip/problems/forced_response.hpp"
-#include "arcslip/problems/harmonic_response.hpp"
-#include "arcslip/sector_modes.hpp"
-#include "arcslip/sector_solver.hpp"
+#include "../../src/sectors/complex_factors.hpp"
+#include "../../src/sectors/full_receptance.hpp"
+#include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/sectors/annular_plate.hpp"
+#include "arcslip/sectors/sector_modes.hpp"
+#include "arcslip/sectors/sector_solver.hpp"
 
 namespace {
 

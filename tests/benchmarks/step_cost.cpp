@@ -14,10 +14,10 @@
 #include <memory>
 #include <vector>
 
-#include "../engine_problems.hpp"
-#include "../sparse_problems.hpp"
-#include "arcslip/continuation/linearization.hpp"
-#include "arcslip/continuation/trace.hpp"
+#include "../support/engine_problems.hpp"
+#include "../support/sparse_problems.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/problem/linearization.hpp"
 
 namespace {
 

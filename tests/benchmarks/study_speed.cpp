@@ -16,9 +16,9 @@
 #include <thread>
 #include <vector>
 
-#include "../../src/study_results.hpp"
-#include "../../src/study_run.hpp"
-#include "arcslip/study_case.hpp"
+#include "../../src/results/study_results.hpp"
+#include "../../src/results/study_run.hpp"
+#include "arcslip/cases/study_case.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <chrono>
 #include <vector>
 
-#include "arcslip/continuation/stepper.hpp"
-#include "arcslip/problems/forced_response.hpp"
+#include "arcslip/continuation/path/stepper.hpp"
+#include "arcslip/problems/response/forced_response.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // What another project writes to trace a frequency response with the installed library: two rods, from far
 // below their first resonance to beyond it.
 
-#include <arcslip/continuation/trace.hpp>
-#include <arcslip/problems/forced_response.hpp>
+#include <arcslip/continuation/path/trace.hpp>
+#include <arcslip/problems/response/forced_response.hpp>
 #include <iostream>
 
 int main() {

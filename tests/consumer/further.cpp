@@ -1,12 +1,12 @@
 // What can be done with branches beyond tracing one, on two problems of the library.
 
 #include <algorithm>
-#include <arcslip/continuation/curve.hpp>
-#include <arcslip/continuation/interpolation.hpp>
-#include <arcslip/continuation/newton.hpp>
-#include <arcslip/continuation/switching.hpp>
-#include <arcslip/problems/cusp.hpp>
-#include <arcslip/problems/pp2.hpp>
+#include <arcslip/continuation/curves/curve.hpp>
+#include <arcslip/continuation/path/interpolation.hpp>
+#include <arcslip/continuation/path/newton.hpp>
+#include <arcslip/continuation/path/switching.hpp>
+#include <arcslip/problems/library/cusp.hpp>
+#include <arcslip/problems/library/pp2.hpp>
 #include <iostream>
 #include <sstream>
 

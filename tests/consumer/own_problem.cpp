@@ -4,8 +4,8 @@
 //
 // On a soft spring, k < 1/2, the arch snaps through. At k = 1/5 it does so at d = 1 +- sqrt(1/5).
 
-#include <arcslip/continuation/derivative_check.hpp>
-#include <arcslip/continuation/trace.hpp>
+#include <arcslip/continuation/path/trace.hpp>
+#include <arcslip/continuation/problem/derivative_check.hpp>
 #include <iostream>
 
 using namespace arcslip;

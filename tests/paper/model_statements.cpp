@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "../paper_cases.hpp"
-#include "../printed_rods.hpp"
-#include "arcslip/problems/one_way_response.hpp"
+#include "../support/paper_cases.hpp"
+#include "../support/printed_rods.hpp"
+#include "arcslip/problems/response/one_way_response.hpp"
 #include "statement.hpp"
 
 namespace arcslip::testing {

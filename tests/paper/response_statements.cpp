@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "../paper_cases.hpp"
+#include "../support/paper_cases.hpp"
 #include "statement.hpp"
 
 namespace arcslip::testing {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "../paper_cases.hpp"
-#include "arcslip/problems/preload_study.hpp"
+#include "../support/paper_cases.hpp"
+#include "arcslip/problems/ridges/preload_study.hpp"
 #include "statement.hpp"
 
 namespace arcslip::testing {

@@ -1,0 +1,89 @@
+#include "arcslip/continuation/events/border_crossing.hpp"
+
+#include <cmath>
+
+#include "arcslip/zero_between.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double rounding = 1e-13;  // of a border function where it vanishes
+
+int sign_of(double value) { return (value > 0) - (value < 0); }
+
+/// A function of the branch within the step: positive before its zero and negative behind it, or the other
+/// way round.
+struct Bracket {
+  double upper;     ///< the zero lies in (0, upper)
+  double at_zero;   ///< value at 0; noise if the step begins on the border
+  int before;       ///< sign before the zero
+  double at_upper;  ///< of the other sign
+};
+
+/// Locates the zero. Where the value at 0 may be noise, a point that shows the sign before the zero is looked
+/// for.
+template <class Function>
+Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
+  bool solved = true;
+  const auto along = [&](double s) {
+    solved = solved && stepper.probe(s);
+    return solved ? f(stepper) : 0.0;
+  };
+  double lower = 0;
+  double at_lower = bracket.at_zero;
+  if (sign_of(at_lower) != bracket.before || std::abs(at_lower) < 0.01 * std::abs(bracket.at_upper)) {
+    double s = 0.5 * bracket.upper;
+    double value = along(s);
+    while (solved && sign_of(value) != bracket.before && s > 1e-12 * bracket.upper) value = along(s *= 0.5);
+    if (!solved) return {Zero::State::failed};
+    if (sign_of(value) == bracket.before) {
+      lower = s;
+      at_lower = value;
+    } else if (sign_of(at_lower) != bracket.before) {
+      // No zero in sight, or the step begins on it, by the last bits behind it.
+      const bool begins_there = std::abs(at_lower) < 1e-6 * std::abs(bracket.at_upper);
+      return {begins_there ? Zero::State::found : Zero::State::absent, 0};
+    }
+  }
+  const double s = zero_between(along, lower, bracket.upper, at_lower, bracket.at_upper);
+  return {solved ? Zero::State::found : Zero::State::failed, s};
+}
+
+/// Of a step that begins on the border and goes nowhere inside, it is where the value leaves rounding.
+Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) {
+  const double at_zero = stepper.from()[m].value;
+  const auto where_it_is = [&](double level) {
+    return locate(stepper, {upper, at_zero - level, -1, value - level},
+                  [=](Stepper& s) { return s.probed()[m].value - level; });
+  };
+  const Zero zero = where_it_is(0);
+  const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= rounding;
+  return at_once && value > rounding ? where_it_is(rounding) : zero;
+}
+
+}  // namespace
+
+Zero border_crossing(Stepper& stepper, Index border) {
+  const auto m = static_cast<std::size_t>(stepper.tracked_count() + border);
+  const double touch = stepper.tolerance();
+  const Monitor from = stepper.from()[m];
+  const Monitor to = stepper.to()[m];
+  double upper = stepper.distance();
+  double value = to.value;
+  if (value <= rounding || (value <= touch && to.slope < 0)) {
+    if (!(from.slope > 0 && to.slope < 0)) return {Zero::State::absent};
+    const Zero top = locate(stepper, {upper, from.slope, 1, to.slope},  // the border function's highest point
+                            [m](Stepper& s) { return s.probed()[m].slope; });
+    if (top.state != Zero::State::found || !stepper.probe(top.s)) return {Zero::State::failed};
+    upper = top.s;
+    value = stepper.probed()[m].value;
+    if (value <= touch) return {Zero::State::absent};
+  }
+  const bool begins_beyond = from.value > rounding && from.value <= touch && from.slope > 0;
+  if (begins_beyond) return {Zero::State::found, 0};
+  const Zero zero = locate_border(stepper, m, upper, value);
+  // Beyond the border, yet nowhere across it.
+  return zero.state == Zero::State::absent ? Zero{Zero::State::failed} : zero;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,118 @@
+#include "arcslip/continuation/events/zero_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/zero_between.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double least = 1e-9;        // of the step: zeros of one function closer together are one
+constexpr double just_passed = 1e-7;  // of its change over the step: what a function is just behind a zero
+constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
+constexpr double left_over = 0.01;    // of its values around: more is left of a function only where it jumps
+
+/// Zeros that are known, to be divided out of a function.
+struct Divisor {
+  std::optional<double> low;
+  std::optional<double> high;
+
+  Node divide(Node node) const {
+    for (const std::optional<double>& zero : {low, high}) {
+      if (!zero) continue;
+      if (node.s == *zero) {
+        node = {node.s, node.slope, std::nan("")};
+      } else {
+        const double value = node.value / (node.s - *zero);
+        node = {node.s, value, (node.slope - value) / (node.s - *zero)};
+      }
+    }
+    return node;
+  }
+};
+
+}  // namespace
+
+/// The first zero of one of the readings in (from, upper], of which `sign` is that before the zero, 0 if
+/// unknown.
+Zero ZeroSearch::first(std::size_t which, int sign, double from, double to, double tolerance) {
+  // A derivative may have no value at a point, as that of an amplitude where this vanishes.
+  const double begin = readings_.value(which, from) ? from : from + just_behind * (to - from);
+  const std::optional<Node> a = readings_.node(which, begin);
+  const std::optional<Node> b = readings_.node(which, to);
+  if (!a || !b) return {Zero::State::failed};
+  return first_between(*a, *b, sign, tolerance, which);
+}
+
+/// At both ends a function that all but vanishes has a zero, which is divided out.
+Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double tolerance, std::size_t which) {
+  const double width = b.s - a.s;
+  const double change = std::max({std::abs(a.value), std::abs(b.value), std::abs(a.slope) * width});
+  Divisor divisor;
+  const bool is_beyond = sign != 0 && sign_of(a.value) == -sign;
+  const bool is_small = is_beyond || std::abs(a.value) <= just_passed * change;
+  const bool vanishes_here = is_small && (jumps_count || is_left_over(a, b, which));
+  if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
+  if (vanishes_here) {
+    if (sign != 0 && sign_of(a.slope) == -sign)  // it is just ahead, but for rounding
+      return {Zero::State::found, a.s + std::clamp(-a.value / a.slope, 0.0, width)};
+    divisor.low = a.s;
+  }
+  if (std::abs(b.value) <= tolerance * change) divisor.high = b.s;
+  const auto at = [&](double s) -> std::optional<Node> {
+    const std::optional<Node> node = readings_.node(which, s);
+    return node ? std::optional(divisor.divide(*node)) : std::nullopt;
+  };
+  const auto value_at = [&](double s) -> std::optional<double> {
+    const std::optional<double> value = readings_.value(which, s);
+    return value ? std::optional(divisor.divide({s, *value, 0}).value) : std::nullopt;
+  };
+  const Node from = divisor.divide(a);
+  const Node to = divisor.divide(b);
+  const FirstZero found = first_zero(from, to, at, least * stepper_.distance());
+  switch (found.kind) {
+    case FirstZero::Kind::unknown: return {Zero::State::failed};
+    case FirstZero::Kind::unclear:
+      return a.value * b.value < 0 || stepper_.is_least() ? by_sign(a, b, sign, which)
+                                                          : Zero{Zero::State::failed};
+    case FirstZero::Kind::touch:
+      return {
+          divisor.low || divisor.high || change < least_touched ? Zero::State::absent : Zero::State::found,
+          found.before.s};
+    case FirstZero::Kind::change:
+      return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)), value_at);
+    case FirstZero::Kind::none: break;
+  }
+  const bool ends_there = divisor.high && b.slope * (divisor.low ? a.slope : a.value) < 0;
+  return {ends_there ? Zero::State::found : Zero::State::absent, b.s};
+}
+
+/// Whether the first value is what rounding leaves of a zero.
+bool ZeroSearch::is_left_over(const Node& a, const Node& b, std::size_t which) {
+  const double middle = readings_.value(which, 0.5 * (a.s + b.s)).value_or(0);
+  return std::abs(a.value) <= left_over * std::max(std::abs(b.value), std::abs(middle));
+}
+
+Zero ZeroSearch::by_sign(const Node& a, const Node& b, int sign, std::size_t which) {
+  const int before = sign != 0 ? sign : sign_of(a.value);
+  if (before * sign_of(b.value) >= 0) return {Zero::State::absent};
+  if (before * sign_of(a.value) <= 0) return {Zero::State::found, a.s};
+  return locate(a, b, std::max(std::abs(a.value), std::abs(b.value)),
+                [&](double s) { return readings_.value(which, s); });
+}
+
+Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt& at) const {
+  bool solved = true;
+  const auto value = [&](double s) {
+    const std::optional<double> there = solved ? at(s) : std::nullopt;
+    solved = there.has_value();
+    return there.value_or(0);
+  };
+  const double s = zero_between(value, a.s, b.s, a.value, b.value);
+  const bool jumps = std::abs(value(s)) > left_over * size;
+  if (!solved) return {Zero::State::failed};
+  return {jumps && !jumps_count ? Zero::State::absent : Zero::State::found, s};
+}
+
+}  // namespace arcslip::continuation

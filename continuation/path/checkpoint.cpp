@@ -1,0 +1,238 @@
+#include "arcslip/continuation/path/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr std::string_view signature = "arcslip-checkpoint-";
+constexpr int newest = 2;  // of the versions of the text
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '\\' ? "\\\\" : c == '\n' ? "\\n" : std::string(1, c);
+  return result;
+}
+
+std::string unescaped(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escape = text[i] == '\\' && i + 1 < text.size();
+    result += !is_escape ? text[i] : text[++i] == 'n' ? '\n' : text[i];
+  }
+  return result;
+}
+
+/// One value after another, each archive in its own direction.
+class Writer {
+ public:
+  explicit Writer(std::ostream& out) : out_(out) { out_ << signature << newest << '\n'; }
+  void operator()(const double& value) { out_ << fmt::format("{:a}\n", value); }
+  void operator()(const int& value) { out_ << value << '\n'; }
+  void operator()(const long& value) { out_ << value << '\n'; }
+  void operator()(const std::string& value) { out_ << escaped(value) << '\n'; }
+  static constexpr bool reads = false;
+  static constexpr int version = newest;
+
+ private:
+  std::ostream& out_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::istream& in) : in_(in) {
+    const std::string first = line();
+    for (version = newest; version > 0; --version) {
+      if (first == fmt::format("{}{}", signature, version)) return;
+    }
+    throw std::runtime_error(
+        fmt::format("read_checkpoint: this is not a checkpoint of version 1 to {}", newest));
+  }
+  void operator()(double& value) { convert(value, std::strtod, "a number"); }
+  void operator()(long& value) {
+    convert(
+        value, [](const char* text, char** end) { return std::strtol(text, end, 10); }, "an integer");
+  }
+  void operator()(int& value) {
+    long wide = 0;
+    (*this)(wide);
+    value = static_cast<int>(wide);
+  }
+  void operator()(std::string& value) { value = unescaped(line()); }
+  static constexpr bool reads = true;
+  int version = 0;
+
+ private:
+  std::string line() {
+    std::string text;
+    if (!std::getline(in_, text)) throw std::runtime_error("read_checkpoint: the checkpoint is cut short");
+    return text;
+  }
+
+  template <class Value, class Convert>
+  void convert(Value& value, Convert conversion, const char* expected) {
+    const std::string text = line();
+    char* end = nullptr;
+    value = conversion(text.c_str(), &end);
+    if (text.empty() || *end != '\0')
+      throw std::runtime_error(fmt::format("read_checkpoint: expected {}, got '{}'", expected, text));
+  }
+
+  std::istream& in_;
+};
+
+constexpr long most = 100'000'000;  // entries of a list
+
+template <class Archive, class List, class Entry>
+void list(Archive& archive, List& values, Entry entry) {
+  auto size = static_cast<long>(values.size());
+  archive(size);
+  if constexpr (Archive::reads) {
+    if (size < 0 || size > most) throw std::runtime_error("read_checkpoint: a list of impossible length");
+    values.resize(static_cast<std::size_t>(size));
+  }
+  for (auto& value : values) entry(value);
+}
+
+template <class Archive, class Point>
+void curve_point(Archive& archive, Point& point) {
+  const auto number = [&](auto& value) { archive(value); };
+  for (auto* v : {&point.unknowns, &point.parameters, &point.scale, &point.tangent})
+    list(archive, *v, number);
+  archive(point.regime);
+  archive(point.orientation);
+  archive(point.residual);
+  archive(point.iterations);
+}
+
+template <class Archive>
+void counts(Archive& archive, std::conditional_t<Archive::reads, std::map<std::string, long>,
+                                                 const std::map<std::string, long>>& found) {
+  auto size = static_cast<long>(found.size());
+  archive(size);
+  if constexpr (Archive::reads) {
+    for (long i = 0; i < size; ++i) {
+      std::string name;
+      archive(name);
+      archive(found[name]);
+    }
+  } else {
+    for (const auto& [name, count] : found) {
+      archive(name);
+      archive(count);
+    }
+  }
+}
+
+template <class Archive, class Way>
+void progress(Archive& archive, Way& way) {
+  const auto number = [&](auto& value) { archive(value); };
+  curve_point(archive, way.here);
+  curve_point(archive, way.start);
+  list(archive, way.bend, number);
+  list(archive, way.monitors, [&](auto& monitor) {
+    archive(monitor.value);
+    archive(monitor.slope);
+  });
+  archive(way.signs.parameter);
+  list(archive, way.signs.observables, number);
+  list(archive, way.signs.functions, number);
+  archive(way.signs.unstable);
+  auto hold = static_cast<int>(way.hold);
+  archive(hold);
+  if constexpr (Archive::reads) way.hold = hold == 0 ? Hold::tangent : Hold::parameter;
+  archive(way.distance);
+  archive(way.arclength);
+  counts(archive, way.found);
+  if (archive.version == 1) return;
+  archive(way.last_value);
+  archive(way.last_chord);
+  list(archive, way.taken, number);
+  archive(way.residual_size);
+  list(archive, way.borders, number);
+  archive(way.here.log_determinant);
+  list(archive, way.past, [&](auto& past) {
+    archive(past.behind);
+    archive(past.sign);
+    archive(past.log);
+    archive(past.rate);
+  });
+  list(archive, way.looks, [&](auto& look) {
+    archive(look.behind);
+    list(archive, look.functions, number);
+    list(archive, look.rates, number);
+  });
+}
+
+Stop stop_named(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(Stop::no_start); ++i) {
+    if (name == to_string(static_cast<Stop>(i))) return static_cast<Stop>(i);
+  }
+  throw std::runtime_error(fmt::format("read_checkpoint: '{}' is no reason to stop", name));
+}
+
+template <class Archive, class Optional, class Entry>
+void maybe(Archive& archive, Optional& value, Entry entry) {
+  int there = value ? 1 : 0;
+  archive(there);
+  if constexpr (Archive::reads) {
+    if (there != 0) value.emplace();
+  }
+  if (value) entry(*value);
+}
+
+template <class Archive, class Identity>
+void identity(Archive& archive, Identity& of) {
+  const auto name = [&](auto& value) { archive(value); };
+  for (auto* names : {&of.parameters, &of.regimes, &of.tests, &of.extrema_of, &of.events})
+    list(archive, *names, name);
+  archive(of.parameter);
+}
+
+template <class Archive, class State>
+void all(Archive& archive, State& state) {
+  const auto number = [&](auto& value) { archive(value); };
+  const auto way = [&](auto& value) { progress(archive, value); };
+  maybe(archive, state.of, [&](auto& of) { identity(archive, of); });
+  maybe(archive, state.window, [&](auto& window) {
+    archive(window.low);
+    archive(window.high);
+  });
+  maybe(archive, state.ahead, way);
+  std::string stop(to_string(state.stop_ahead));
+  archive(stop);
+  if constexpr (Archive::reads) state.stop_ahead = stop_named(stop);
+  maybe(archive, state.back, way);
+  maybe(archive, state.begin_back, [&](auto& guess) {
+    list(archive, guess.unknowns, number);
+    list(archive, guess.parameters, number);
+    archive(guess.regime);
+    list(archive, guess.direction, number);
+  });
+}
+
+}  // namespace
+
+void write(std::ostream& out, const Checkpoint& checkpoint) {
+  Writer writer(out);
+  all(writer, checkpoint);
+}
+
+Checkpoint read_checkpoint(std::istream& in) {
+  Reader reader(in);
+  Checkpoint checkpoint;
+  if (reader.version == 1) {
+    progress(reader, checkpoint.ahead.emplace());
+  } else {
+    all(reader, checkpoint);
+  }
+  return checkpoint;
+}
+
+}  // namespace arcslip::continuation

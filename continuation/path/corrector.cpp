@@ -1,0 +1,251 @@
+#include "arcslip/continuation/path/corrector.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace arcslip::continuation {
+
+Work operator+(const Work& a, const Work& b) {
+  return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
+          a.rejected_steps + b.rejected_steps, a.spectra + b.spectra};
+}
+
+Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options)
+    : problem_(problem),
+      size_(problem.size()),
+      parameter_(parameter),
+      options_(options),
+      tolerance_(options.tolerance),
+      linearization_(problem),
+      solver_(make_bordered_solver(size_, 1, problem.sparse())),
+      correction_(size_ + 1),
+      direction_(size_ + 1),
+      unknown_scale_(size_),
+      magnitudes_(size_),
+      parameter_scale_(linearization_.parameter_jacobian().cols()),
+      before_(size_),
+      parameter_normal_(Vector::Unit(size_ + 1, size_)) {}
+
+CurvePoint Corrector::make_point() const {
+  CurvePoint point;
+  point.unknowns = Vector::Zero(size_);
+  point.parameters = Vector::Zero(parameter_scale_.size());
+  point.scale = Vector::Ones(size_ + 1);
+  point.tangent = Vector::Zero(size_ + 1);
+  return point;
+}
+
+void Corrector::set_scale(CurvePoint& point) {
+  problem_.scale(point.unknowns, point.parameters, unknown_scale_, parameter_scale_);
+  point.scale.head(size_) = unknown_scale_ * std::sqrt(static_cast<double>(size_));
+  point.scale(size_) = parameter_scale_(parameter_);
+}
+
+void Corrector::difference(const CurvePoint& point, const CurvePoint& origin, Vector& out) const {
+  out.head(size_) = (point.unknowns - origin.unknowns).cwiseQuotient(origin.scale.head(size_));
+  out(size_) = (point.parameters(parameter_) - origin.parameters(parameter_)) / origin.scale(size_);
+}
+
+void Corrector::displace(const CurvePoint& origin, const Vector& displacement, CurvePoint& point) const {
+  point.unknowns = origin.unknowns + origin.scale.head(size_).cwiseProduct(displacement.head(size_));
+  point.parameters = origin.parameters;
+  point.parameters(parameter_) += origin.scale(size_) * displacement(size_);
+  point.regime = origin.regime;
+}
+
+bool Corrector::calibrate(CurvePoint& point) {
+  constexpr double large = 1e3;  // where 1 is large for F
+  if (!evaluate(point)) return false;
+  linearization_.multiply_absolute(point.scale.head(size_), magnitudes_);
+  const double size = magnitudes_.maxCoeff() / std::sqrt(static_cast<double>(size_));
+  set_residual_size(size > large ? size : 1);
+  return true;
+}
+
+void Corrector::set_residual_size(double size) {
+  residual_size_ = size;
+  tolerance_ = options_.tolerance * size;
+}
+
+bool Corrector::evaluate(CurvePoint& point) {
+  if (options_.watch) options_.watch();
+  ++work_.evaluations;
+  if (!linearization_.evaluate(point.unknowns, point.parameters, point.regime)) return false;
+  point.residual = linearization_.residual().lpNorm<Eigen::Infinity>();
+  return true;
+}
+
+bool Corrector::factor(const Vector& scale, const Vector& normal) {
+  ++work_.factorizations;
+  linearization_.fill(*solver_, scale);
+  solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
+  solver_->rows() = normal.head(size_).transpose();
+  solver_->corner()(0, 0) = normal(size_);
+  border_sign_ = solver_->factor();
+  return border_sign_ != 0;
+}
+
+bool Corrector::solve_direction() {
+  direction_.setZero();
+  direction_(size_) = 1;
+  solver_->solve(direction_);
+  return direction_.allFinite();
+}
+
+double Corrector::rounding_level(const CurvePoint& point) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  linearization_.multiply_absolute(point.unknowns, magnitudes_);
+  const double of_unknowns = magnitudes_.maxCoeff();
+  magnitudes_ +=
+      (linearization_.parameter_jacobian().col(parameter_) * point.parameters(parameter_)).cwiseAbs();
+  const double all = magnitudes_.maxCoeff();
+  parameter_rounds_ = all > 10 * (1 + of_unknowns);
+  return 4 * epsilon * (1 + all);
+}
+
+/// The correction that changes the condition by `change`, and its length.
+double Corrector::solve_correction(double change) {
+  correction_.head(size_) = -linearization_.residual();
+  correction_(size_) = change;
+  solver_->solve(correction_);
+  return correction_.norm();
+}
+
+Correction Corrector::correct(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                              double distance, bool to_rounding) {
+  contraction_ = 0;
+  point.iterations = 0;
+  bool held = false;
+  double last_length = 0;
+  double last_residual = std::numeric_limits<double>::infinity();
+  const auto gap = [&] {
+    if (held) return 0.0;
+    difference(point, origin, correction_);
+    return distance - normal.dot(correction_);
+  };
+  while (true) {
+    if (!evaluate(point)) return Correction::cannot_evaluate;
+    if (!factor(origin.scale, normal)) return Correction::singular;
+    const bool last = point.iterations >= options_.max_iterations;
+    const bool stagnant = point.residual >= 0.5 * last_residual;
+    double length = solve_correction(gap());
+    // The correction that is left, too, since the residual is in units of the problem's.
+    const bool good = point.residual <= tolerance_ && (stagnant || length <= options_.tolerance);
+    const bool rounded = !good && (stagnant || (!to_rounding && length <= options_.tolerance)) &&
+                         point.residual <= rounding_level(point);
+    if (point.residual == 0 || (good && (!to_rounding || stagnant || last)) ||
+        (rounded && (held || !parameter_rounds_))) {
+      return solve_direction() ? Correction::converged : Correction::singular;
+    }
+    if (last) return Correction::too_many_iterations;
+    held = held || rounded;  // keep the parameter, whose rounding is what is left, and correct the unknowns
+    if (held) {
+      if (!factor(origin.scale, parameter_normal_)) return Correction::singular;
+      length = solve_correction(gap());
+    }
+    if (!std::isfinite(length)) return Correction::singular;
+    // A ratio of two roundings does not count, unless it is too small to shorten a step.
+    const auto counts = [&](double ratio) { return ratio < 0.01 || last_residual > rounding_level(point); };
+    if (point.iterations == 1 && !held && counts(length / last_length)) contraction_ = length / last_length;
+    if (point.iterations >= 1 && length > 0.7 * last_length && !good && !rounded &&
+        point.residual > rounding_level(point)) {
+      return Correction::diverging;
+    }
+    last_length = length;
+    last_residual = point.residual;
+    apply(point, origin);
+  }
+}
+
+/// Makes the correction the one that keeps the parameter, which differs by a multiple of the direction, and
+/// returns its length.
+double Corrector::turn_to_parameter() {
+  if (direction_(size_) == 0) return std::numeric_limits<double>::infinity();
+  correction_ -= correction_(size_) / direction_(size_) * direction_;
+  correction_(size_) = 0;
+  return correction_.norm();
+}
+
+void Corrector::close(CurvePoint& point, const CurvePoint& origin, const Vector& normal, double near) {
+  constexpr int most = 5;          // corrections, of which each is to be much shorter than the last
+  constexpr double shrinks = 0.2;  // beside a fold they halve at best
+  const auto solve = [&] {
+    const bool solved = evaluate(point) && factor(origin.scale, normal) && solve_direction() &&
+                        std::isfinite(solve_correction(0));
+    return solved ? turn_to_parameter() : std::numeric_limits<double>::infinity();
+  };
+  const double first = turn_to_parameter();
+  if (!(first < near)) return;
+  if (first <= options_.tolerance) return apply(point, origin);
+  before_ = point.unknowns;
+  double length = first;
+  for (int i = 0; i < most && length > options_.tolerance; ++i) {
+    const double last = length;
+    apply(point, origin);
+    length = solve();
+    if (!(length < shrinks * last)) break;
+  }
+  if (length <= shrinks * first) return;
+  point.unknowns = before_;
+  solve();
+}
+
+Correction Corrector::correct_once(CurvePoint& point, const CurvePoint& origin, const Vector& normal,
+                                   double change) {
+  if (!evaluate(point)) return Correction::cannot_evaluate;
+  if (!factor(origin.scale, normal)) return Correction::singular;
+  if (!std::isfinite(solve_correction(change))) return Correction::singular;
+  apply(point, origin);
+  return Correction::converged;
+}
+
+void Corrector::apply(CurvePoint& point, const CurvePoint& origin) {
+  point.unknowns += origin.scale.head(size_).cwiseProduct(correction_.head(size_));
+  point.parameters(parameter_) += origin.scale(size_) * correction_(size_);
+  ++point.iterations;
+  ++work_.iterations;
+}
+
+Correction Corrector::linearise(CurvePoint& point, const Vector& normal) {
+  if (!evaluate(point)) return Correction::cannot_evaluate;
+  if (!factor(point.scale, normal) || !solve_direction()) return Correction::singular;
+  return Correction::converged;
+}
+
+bool Corrector::nearly_singular() {
+  // A solution with a right-hand side of unit length and no preference is as long as the inverse is large.
+  correction_.setConstant(1 / std::sqrt(static_cast<double>(size_ + 1)));
+  for (Index i = 0; i <= size_; i += 2) correction_(i) *= 0.7;
+  solver_->solve(correction_);
+  linearization_.multiply_absolute(Vector::Ones(size_), magnitudes_);
+  return !(correction_.norm() * magnitudes_.maxCoeff() < 1e11);
+}
+
+void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
+  const double parameter_scale = origin.scale(size_);  // origin and point may be the same
+  set_scale(point);
+  point.tangent = direction_;
+  if (&point != &origin) {
+    point.tangent.head(size_).array() *= origin.scale.head(size_).array() / point.scale.head(size_).array();
+    point.tangent(size_) *= parameter_scale / point.scale(size_);
+  }
+  const double length = point.tangent.norm();
+  point.tangent /= length;
+  point.orientation = border_sign_;
+  LogProduct size;
+  solver_->multiply_determinant(size);
+  if (&point != &origin) {
+    for (Index i = 0; i <= size_; ++i) size *= point.scale(i) / origin.scale(i);
+  }
+  size *= length;
+  point.log_determinant = size.log();
+}
+
+double Corrector::log_determinant() const {
+  if (border_sign_ == 0) return -std::numeric_limits<double>::infinity();
+  LogProduct size;
+  solver_->multiply_determinant(size);
+  return size.log();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,193 @@
+#include "arcslip/continuation/path/newton.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "arcslip/continuation/problem/linearization.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+/// Newton's method with work space of its own and with known solutions taken out: with
+/// m(u) = prod_i (1 + 1/|u - u_i|^2) the correction of m F = 0 is that of F = 0, stretched.
+class Newton {
+ public:
+  Newton(const Problem& problem, const NewtonOptions& options)
+      : problem_(problem),
+        options_(options),
+        at_(problem),
+        solver_(make_bordered_solver(problem.size(), 1, problem.sparse())),
+        scale_(problem.size()),
+        parameter_scale_(static_cast<Index>(problem.parameter_names().size())),
+        absolute_(problem.size()),
+        correction_(problem.size() + 1) {
+    solver_->columns().setZero();
+    solver_->rows().setZero();
+    solver_->corner()(0, 0) = 1;
+  }
+
+  Solution run(const Guess& guess, const std::vector<Guess>& known) {
+    Solution solution{Correction::too_many_iterations, guess.unknowns, 0, 0};
+    double last = std::numeric_limits<double>::infinity();
+    double length = last;
+    while (true) {
+      if (!at_.evaluate(solution.unknowns, guess.parameters, guess.regime))
+        return ended(solution, Correction::cannot_evaluate);
+      solution.residual = at_.residual().lpNorm<Eigen::Infinity>();
+      problem_.scale(solution.unknowns, guess.parameters, scale_, parameter_scale_);
+      const bool stagnant = solution.residual >= 0.5 * last || solution.residual == 0;
+      const bool good =
+          solution.residual <= options_.tolerance || solution.residual <= level(solution.unknowns);
+      if (good && length <= 1e-6 && stagnant) return ended(solution, Correction::converged);
+      if (solution.iterations >= options_.max_iterations)
+        return ended(solution,
+                     good && length <= 1e-6 ? Correction::converged : Correction::too_many_iterations);
+      last = solution.residual;
+      if (!correct(solution, guess, known, length)) return ended(solution, Correction::singular);
+    }
+  }
+
+ private:
+  static Solution ended(Solution& solution, Correction outcome) {
+    solution.outcome = outcome;
+    return std::move(solution);
+  }
+
+  double level(const Vector& u) {
+    at_.multiply_absolute(u.cwiseAbs(), absolute_);
+    return 8 * rounding * (1 + absolute_.lpNorm<Eigen::Infinity>());
+  }
+
+  bool correct(Solution& solution, const Guess& guess, const std::vector<Guess>& known, double& length) {
+    const Index n = problem_.size();
+    at_.fill(*solver_, scale_);
+    if (solver_->factor() == 0) return false;
+    correction_.head(n) = -at_.residual();
+    correction_(n) = 0;
+    solver_->solve(correction_);
+    if (!correction_.allFinite()) return false;
+    double stretch = 1;
+    double slope = 0;  // of ln m along the correction
+    for (const Guess& solved : known) {
+      if (solved.regime != guess.regime) continue;
+      const Vector away = (solution.unknowns - solved.unknowns).cwiseQuotient(scale_);
+      const double square = away.squaredNorm();
+      if (square == 0) return false;
+      slope -= 2 * away.dot(correction_.head(n)) / (square * (1 + square));
+    }
+    stretch = 1 / (1 - slope);
+    if (!std::isfinite(stretch)) return false;
+    length = std::abs(stretch) * correction_.head(n).norm() / std::sqrt(static_cast<double>(n));
+    if (options_.max_correction > 0 && length > options_.max_correction) {
+      stretch *= options_.max_correction / length;
+      length = options_.max_correction;
+    }
+    solution.unknowns += stretch * scale_.cwiseProduct(correction_.head(n));
+    ++solution.iterations;
+    return true;
+  }
+
+  const Problem& problem_;
+  NewtonOptions options_;
+  Linearization at_;
+  std::unique_ptr<BorderedSolver> solver_;
+  Vector scale_;
+  Vector parameter_scale_;
+  Vector absolute_;
+  Vector correction_;
+};
+
+bool inside(const Problem& problem, const Guess& solution) {
+  for (int b = 0; b < problem.border_count(solution.regime); ++b) {
+    if (problem.border(solution.unknowns, solution.parameters, solution.regime, b, nullptr) > 1e-9)
+      return false;
+  }
+  return true;
+}
+
+/// Collects solutions: each start is tried until nothing new comes of it, then the next.
+class Collector {
+ public:
+  Collector(const Problem& problem, const SolveAllOptions& options)
+      : problem_(problem),
+        options_(options),
+        newton_(problem, {options.tolerance, 60, 10}),
+        plain_(problem, {options.tolerance}) {}
+
+  void exhaust(const Guess& start) {
+    while (!options_.go_on || options_.go_on()) {
+      Solution deflated = newton_.run(start, known_);
+      if (deflated.outcome != Correction::converged) return;
+      // Once more without deflation, which would stretch the last corrections.
+      Solution solution = plain_.run({deflated.unknowns, start.parameters, start.regime}, {});
+      if (solution.outcome != Correction::converged) return;
+      Guess found{std::move(solution.unknowns), start.parameters, start.regime};
+      if (!is_new(found)) return;
+      known_.push_back(std::move(found));
+    }
+  }
+
+  const std::vector<Guess>& known() const { return known_; }
+
+ private:
+  bool is_new(const Guess& found) const {
+    Vector scale(problem_.size());
+    Vector parameter_scale(found.parameters.size());
+    problem_.scale(found.unknowns, found.parameters, scale, parameter_scale);
+    for (const Guess& other : known_) {
+      if (other.regime == found.regime &&
+          (found.unknowns - other.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
+              options_.distinct) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const Problem& problem_;
+  const SolveAllOptions& options_;
+  Newton newton_;
+  Newton plain_;
+  std::vector<Guess> known_;
+};
+
+}  // namespace
+
+Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options) {
+  return Newton(problem, options).run(guess, {});
+}
+
+std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
+                             const SolveAllOptions& options) {
+  if (guesses.empty()) throw std::invalid_argument("solve_all: at least one guess is needed");
+  Collector collector(problem, options);
+  for (const Guess& guess : guesses) collector.exhaust(guess);
+  if (options.lower.size() == problem.size()) {
+    std::mt19937_64 random(options.seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto regimes = static_cast<int>(problem.regime_names().size());
+    for (int i = 0; i < options.starts; ++i) {
+      Vector u = options.lower;
+      for (Index k = 0; k < u.size(); ++k) u(k) += unit(random) * (options.upper(k) - options.lower(k));
+      for (int regime = 0; regime < regimes; ++regime)
+        collector.exhaust({u, guesses.front().parameters, regime, {}});
+    }
+  }
+  for (std::size_t i = 0; i < collector.known().size(); ++i) {
+    const Guess again = collector.known()[i];
+    Vector near = again.unknowns;
+    near.array() += 1e-3 * (1 + near.array().abs());
+    collector.exhaust({near, again.parameters, again.regime, {}});
+  }
+  std::vector<Guess> solutions;
+  for (const Guess& solution : collector.known()) {
+    if (inside(problem, solution)) solutions.push_back(solution);
+  }
+  return solutions;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,130 @@
+#include "arcslip/continuation/path/polyline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/path/interpolation.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double straight = 2e-3;   // of a piece's width and height
+constexpr double invisible = 1e-5;  // of the branch: a four-hundredth of the narrowest part that is enlarged
+constexpr int most_halvings = 5;
+
+bool is_singular(const BranchPoint& point) {
+  return point.type != PointType::regular && point.type != PointType::user;
+}
+
+/// The parameter, then what is drawn of a point; and behind these the logarithms of all, nan where there is
+/// none.
+using Coordinates = Eigen::ArrayXd;
+
+class Polyline {
+ public:
+  Polyline(const Branch& branch, Index parameter, const Drawn& drawn)
+      : branch_(branch), parameter_(parameter), drawn_(drawn), curve_(branch, parameter) {
+    std::vector<Coordinates> all;
+    for (const BranchPoint& point : branch.points) all.push_back(coordinates(point));
+    Coordinates low = all.front();
+    Coordinates high = low;
+    for (const Coordinates& point : all) {  // what is not a number is left out
+      low = low.isNaN().select(point, (point < low).select(point, low));
+      high = high.isNaN().select(point, (point > high).select(point, high));
+    }
+    extent_ = high - low;
+    for (std::size_t piece = 0; piece + 1 < all.size(); ++piece) {
+      result_.push_back(branch.points[piece]);
+      if (branch.points[piece + 1].arclength > branch.points[piece].arclength)
+        fill({piece, 0, 1, all[piece], all[piece + 1], (all[piece + 1] - all[piece]).abs()}, 0);
+    }
+    result_.push_back(branch.points.back());
+  }
+
+  std::vector<BranchPoint> take() { return std::move(result_); }
+
+ private:
+  struct Segment {
+    std::size_t piece;
+    double from, to;  ///< parts of the piece
+    Coordinates begin, end;
+    Coordinates size;  ///< of the whole piece
+  };
+
+  Coordinates coordinates(const BranchPoint& point) {
+    const std::vector<double>& values = drawn_(point);
+    const Index count = 1 + std::ssize(values);
+    Coordinates all(2 * count);
+    all(0) = point.parameters(parameter_);
+    std::copy(values.begin(), values.end(), all.data() + 1);
+    all.tail(count) = (all.head(count) > 0).select(all.head(count).log(), std::nan(""));
+    return all;
+  }
+
+  void fill(const Segment& segment, int halvings) {
+    const double middle = 0.5 * (segment.from + segment.to);
+    BranchPoint point = point_between(segment.piece, middle);
+    const Coordinates here = coordinates(point);
+    if (halvings >= most_halvings || is_straight(segment, here)) return;
+    Segment first = segment;
+    first.to = middle;
+    first.end = here;
+    fill(first, halvings + 1);
+    result_.push_back(std::move(point));
+    Segment second = segment;
+    second.from = middle;
+    second.begin = here;
+    fill(second, halvings + 1);
+  }
+
+  /// Whether the middle lies on the line from end to end, for each observable over the parameter and for both
+  /// of their axes.
+  bool is_straight(const Segment& segment, const Coordinates& here) const {
+    const Index count = here.size() / 2;
+    for (const Index x : {Index{0}, count}) {
+      for (Index i = 1; i < 2 * count; ++i) {
+        if (i == count || !is_visible(segment, x, i)) continue;
+        const auto place = [&](const Coordinates& c, Index k) {
+          return segment.size(k) > 0 ? (c(k) - segment.begin(k)) / segment.size(k) : 0;
+        };
+        const double across = place(segment.end, x), up = place(segment.end, i);
+        const double off = place(here, x) * up - place(here, i) * across;
+        if (std::abs(off) > straight * std::hypot(across, up)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool is_visible(const Segment& segment, Index x, Index i) const {
+    return segment.size(x) > invisible * extent_(x) && segment.size(i) > invisible * extent_(i);
+  }
+
+  BranchPoint point_between(std::size_t piece, double x) const {
+    const BranchPoint& from = branch_.points[piece];
+    Sample sample = curve_.place(piece, x);
+    BranchPoint point;
+    point.regime = sample.regime;
+    point.unknowns = std::move(sample.unknowns);
+    point.parameters = std::move(sample.parameters);
+    point.arclength = sample.arclength;
+    point.residual = std::nan("");
+    point.unstable = is_singular(from) ? branch_.points[piece + 1].unstable : from.unstable;
+    return point;
+  }
+
+  const Branch& branch_;
+  Index parameter_;
+  const Drawn& drawn_;
+  InterpolatedBranch curve_;
+  Coordinates extent_;
+  std::vector<BranchPoint> result_;
+};
+
+}  // namespace
+
+std::vector<BranchPoint> polyline(const Branch& branch, Index parameter, const Drawn& drawn) {
+  if (branch.points.size() < 2) return branch.points;
+  return Polyline(branch, parameter, drawn).take();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,30 @@
+#include "arcslip/continuation/path/stop.hpp"
+
+namespace arcslip::continuation {
+
+std::string_view to_string(Stop stop) {
+  switch (stop) {
+    case Stop::reached_end: return "reached_end";
+    case Stop::closed_loop: return "closed_loop";
+    case Stop::requested: return "requested";
+    case Stop::left_range: return "left_range";
+    case Stop::left_regime: return "left_regime";
+    case Stop::unbounded: return "unbounded";
+    case Stop::max_points: return "max_points";
+    case Stop::time_limit: return "time_limit";
+    case Stop::interrupted: return "interrupted";
+    case Stop::no_value: return "no_value";
+    case Stop::min_step: return "min_step";
+    case Stop::asymptotic: return "asymptotic";
+    case Stop::grazing_border: return "grazing_border";
+    case Stop::no_start: return "no_start";
+  }
+  return "";
+}
+
+bool is_end(Stop stop) {
+  return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
+         stop == Stop::requested || stop == Stop::left_regime;
+}
+
+}  // namespace arcslip::continuation

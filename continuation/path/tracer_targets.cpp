@@ -1,0 +1,110 @@
+// Values of the parameter on which a branch puts a point.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/path/tracer.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double rounding = 1e-13;  // of the parameter, in its scale
+
+}  // namespace
+
+/// A start on a special point lies on a value but for rounding, and no step of that length can be made from
+/// it.
+void Tracer::take_where_it_starts() {
+  for (const Target* target : targets_.around(value(), rounding * parameter_scale())) targets_.take(*target);
+}
+
+bool Tracer::try_landing() {
+  if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
+  // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
+  const double distance = stepper_.distance();
+  const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
+  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) {
+    use(Hold::tangent);  // at a fold the parameter cannot be kept
+    return true;
+  }
+  landing_failed_ = true;
+  rest_before(*landing_);
+  use(Hold::parameter);
+  state_.distance = 0.5 * distance;
+  return false;
+}
+
+/// The next value to land on within `reach`, or one that the branch seems to approach only: on this it is
+/// tried once whether it lies there at last. From a scale that shrinks with the parameter 0 is in no other
+/// reach.
+const Target* Tracer::next_target(double reach, double direction) const {
+  const double least = rounding * parameter_scale();
+  const Target* next = targets_.ahead(value(), direction, reach, least);
+  if (next != nullptr || landing_failed_) return next;
+  const double near = same_value * std::max(parameter_scale(), start_scale());
+  next = targets_.ahead(value(), direction, near, least);
+  return next != nullptr && only_approaches(*next) ? next : nullptr;
+}
+
+/// Whether the branch is as near to a value as can be told, and yet its last step came nearer by a factor
+/// only, however long it was. Before a fold it would have been as short as the root of the gap.
+bool Tracer::only_approaches(const Target& target) const {
+  constexpr double most_of_it = 0.1;
+  constexpr double long_step = 0.01;
+  const double gap = std::abs(target.value - value());
+  const double scale = target.value == 0 ? start_scale() : parameter_scale();
+  return gap <= same_value * scale && gap >= most_of_it * std::abs(target.value - state_.last_value) &&
+         state_.last_chord >= long_step;
+}
+
+/// Where no step lands on a value that is within rounding, the branch has reached it; one that it only
+/// approaches it never will.
+void Tracer::rest_before(const Target& target) {
+  if (std::abs(target.value - value()) <= rounding * parameter_scale()) return take_target(target);
+  if (!only_approaches(target)) return;
+  // A branch may climb beside a landmark as if it never reached it, and needs no point on it.
+  if (target.kind == Target::Kind::landmark) return targets_.take(target);
+  stop(Stop::asymptotic, fmt::format("the branch comes ever nearer to {} = {:.10g} without a point on it; "
+                                     "it stands at {}",
+                                     options_.parameter, target.value, place()));
+}
+
+/// Whether a target lies between here and a point of the step, further than `tolerance` from this. Then the
+/// step has to land on it first.
+bool Tracer::passes_target(const CurvePoint& point, double tolerance) const {
+  return targets_.between(value(), point.parameters(parameter_), tolerance * parameter_scale(),
+                          same_value * parameter_scale());
+}
+
+/// Takes the values at an event on which no point will be put: those that it lies on, that the step has
+/// passed, or that lie beyond a turn.
+void Tracer::take_targets_around(bool turns) {
+  if (turns) targets_.keep_taken(value(), rounding * parameter_scale());
+  for (const Target* target : targets_.around(value(), same_value * parameter_scale())) {
+    const double beyond = target->value - value();
+    const bool is_bound = target->kind == Target::Kind::bound;
+    const bool is_here = std::abs(beyond) <= rounding * parameter_scale();
+    const bool is_passed = (target->value - state_.last_value) * beyond < 0;
+    const bool is_missed = turns && !is_bound && beyond * (value() - state_.last_value) > 0;
+    if (is_passed || is_missed || (is_here && !(is_bound && turns))) take_target(*target);
+    if (stopped_) return;
+  }
+}
+
+void Tracer::take_target(const Target& target) {
+  targets_.take(target);
+  switch (target.kind) {
+    case Target::Kind::landmark: return store(PointType::regular);
+    case Target::Kind::user: return store(PointType::user);
+    case Target::Kind::end:
+      store(PointType::end);
+      return stop(Stop::reached_end, "the last value was reached");
+    case Target::Kind::bound:
+      store(PointType::end);
+      return stop(Stop::left_range, "the branch came back to its first value");
+  }
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,119 @@
+#include "arcslip/continuation/path/watch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace arcslip::continuation {
+
+int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
+  const double size = stepper.size_of(observable, monitor.value);
+  return std::abs(monitor.slope) <= 1e-14 * size ? 0 : sign_of(monitor.slope);
+}
+
+Watch::Watch(const Problem& problem, const std::vector<UserEvent>& events)
+    : problem_(problem), events_(events), tests_(problem.test_types()) {
+  functions_.reserve(tests_.size() + events.size());
+  kept_.reserve(1 + most_past);
+}
+
+void Watch::look(const CurvePoint& point) {
+  functions_.clear();
+  if (!tests_.empty()) {
+    problem_.test(point.unknowns, point.parameters, point.regime, values_);
+    functions_.assign(values_.begin(), values_.end());
+  }
+  for (const UserEvent& event : events_)
+    functions_.push_back(event.function(point.unknowns, point.parameters, point.regime));
+  spectra_ += static_cast<long>(spectral_);
+  const bool seen =
+      spectral_ && problem_.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues_);
+  if (kept_.empty()) {  // the first point shows whether there are any
+    spectral_ = seen;
+    if (!seen) spectra_ = 0;
+  }
+  if (!seen) {
+    eigenvalues_.resize(0);
+    unstable_ = -1;
+    return;
+  }
+  std::sort(eigenvalues_.begin(), eigenvalues_.end(), [](const Complex& a, const Complex& b) {
+    return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
+  });
+  unstable_ = static_cast<int>(
+      std::count_if(eigenvalues_.begin(), eigenvalues_.end(), [](const Complex& z) { return z.real() > 0; }));
+}
+
+void Watch::keep(double chord) {
+  if (empty()) return;
+  Look last;
+  if (kept_.size() > most_past) {
+    last = std::move(kept_.back());
+    kept_.pop_back();
+  }
+  for (Look& look : kept_) look.behind += chord;
+  last.behind = 0;
+  last.functions = functions_;
+  last.rates.resize(static_cast<std::size_t>(eigenvalues_.size()));
+  for (Index i = 0; i < eigenvalues_.size(); ++i)
+    last.rates[static_cast<std::size_t>(i)] = eigenvalues_(i).real();
+  kept_.insert(kept_.begin(), std::move(last));
+}
+
+void Watch::begin() {
+  kept_.clear();
+  keep(0);
+}
+
+bool Watch::may_vanish(std::vector<double> Look::*values, std::size_t index, double distance,
+                       double value) const {
+  std::array<double, 2 + most_past> places{distance};
+  std::array<double, 2 + most_past> seen{value};
+  std::size_t count = 1;
+  for (const Look& look : kept_) {
+    if (index >= (look.*values).size()) return true;
+    places[count] = -look.behind;
+    seen[count++] = (look.*values)[index];
+  }
+  return may_vanish_twice({places.data(), count}, {seen.data(), count});
+}
+
+bool Watch::function_may_vanish(std::size_t function, double distance, double value) const {
+  return may_vanish(&Look::functions, function, distance, value);
+}
+
+bool Watch::rate_may_vanish(std::size_t rate, double distance, double value) const {
+  return may_vanish(&Look::rates, rate, distance, value);
+}
+
+PointType Watch::type(std::size_t function) const {
+  return function < tests_.size() ? tests_[function] : PointType::event;
+}
+
+const std::string& Watch::label(std::size_t function) const {
+  return function < tests_.size() ? none_ : events_[function - tests_.size()].name;
+}
+
+Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
+  Signs signs;
+  signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.tracked_count()); ++i)
+    signs.observables.push_back(sign_of_slope(stepper, i, stepper.at_here()[i]));
+  for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
+  signs.unstable = watch.unstable();
+  return signs;
+}
+
+void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_event) {
+  const auto take = [at_event](int& sign, int now) {
+    if (now != 0 && !(at_event && sign != 0)) sign = now;
+  };
+  take(signs.parameter, sign_of(stepper.parameter_slope(Hold::tangent)));
+  for (std::size_t i = 0; i < signs.observables.size(); ++i)
+    take(signs.observables[i], sign_of_slope(stepper, i, stepper.at_here()[i]));
+  for (std::size_t i = 0; i < signs.functions.size(); ++i)
+    take(signs.functions[i], sign_of(watch.functions()[i]));
+  signs.unstable = watch.unstable();
+}
+
+}  // namespace arcslip::continuation

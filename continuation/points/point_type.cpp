@@ -1,0 +1,37 @@
+#include "arcslip/continuation/points/point_type.hpp"
+
+namespace arcslip::continuation {
+
+std::string_view to_string(PointType type) {
+  switch (type) {
+    case PointType::regular: return "regular";
+    case PointType::start: return "start";
+    case PointType::end: return "end";
+    case PointType::regime_switch: return "switch";
+    case PointType::fold: return "fold";
+    case PointType::corner_fold: return "corner_fold";
+    case PointType::branch_point: return "branch_point";
+    case PointType::hopf: return "hopf";
+    case PointType::peak: return "peak";
+    case PointType::trough: return "trough";
+    case PointType::user: return "user";
+    case PointType::event: return "event";
+    case PointType::cusp: return "cusp";
+    case PointType::bogdanov_takens: return "bogdanov_takens";
+    case PointType::zero_hopf: return "zero_hopf";
+    case PointType::hopf_hopf: return "hopf_hopf";
+    case PointType::neimark_sacker: return "neimark_sacker";
+    case PointType::period_doubling: return "period_doubling";
+    case PointType::symmetry_breaking: return "symmetry_breaking";
+  }
+  return "";
+}
+
+std::optional<PointType> point_type(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(PointType::symmetry_breaking); ++i) {
+    if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcslip::continuation

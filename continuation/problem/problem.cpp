@@ -1,0 +1,75 @@
+#include "arcslip/continuation/problem/problem.hpp"
+
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
+
+#include "arcslip/continuation/problem/evaluation.hpp"
+
+namespace arcslip::continuation {
+
+void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+  unknowns = u.cwiseAbs().cwiseMax(1);
+  parameters = p.cwiseAbs().cwiseMax(1);
+}
+
+bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, const Vector& /*w*/,
+                     const Vector& /*du*/, const Vector& /*dp*/, Vector& /*out*/) const {
+  return false;
+}
+
+bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+  if (!is_equilibrium() || sparse()) return false;
+  Matrix jacobian(size(), size());
+  Evaluation out;
+  out.jacobian = &jacobian;
+  if (!continuation::evaluate(*this, u, p, regime, out) || !jacobian.allFinite()) return false;
+  values = Eigen::EigenSolver<Matrix>(jacobian, false).eigenvalues();
+  return values.allFinite();
+}
+
+void Problem::test(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+  values.resize(0);
+}
+
+int Problem::border_count(int /*regime*/) const { return 0; }
+
+double Problem::border(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, int /*border*/,
+                       Gradient* /*gradient*/) const {
+  throw std::logic_error("Problem::border: this problem has no borders");
+}
+
+int Problem::regime_beyond(int /*regime*/, int /*border*/) const {
+  throw std::logic_error("Problem::regime_beyond: this problem has no borders");
+}
+
+void Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+  values.resize(0);
+}
+
+double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+                        Gradient& /*gradient*/) const {
+  throw std::logic_error("Problem::observe: this problem has no observable with a gradient");
+}
+
+std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, double /*to*/) const {
+  return {};
+}
+
+std::vector<std::string> observable_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const Observable& observable : problem.observables()) names.push_back(observable.name);
+  return names;
+}
+
+Index index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(fmt::format("there is no '{}' among {}", name, names));
+  }
+  return found - names.begin();
+}
+
+}  // namespace arcslip::continuation

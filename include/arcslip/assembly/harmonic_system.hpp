@@ -1,0 +1,39 @@
+#pragma once
+
+// Base, damper and their contacts in several harmonics. Under the travelling wave node i repeats node 1
+// with the delay (i - 1) a/w, so that harmonic h travels with the propagation constant h a at the frequency
+// h eta, and each has its own compliance, whatever N is:
+//
+//   r_h + C_h k f_h(r) = -y_0 delta_h1,   C_h(eta) = C_B(h eta; h a) + C_D(h eta; h a).
+
+#include <vector>
+
+#include "arcslip/structure/contact_modes.hpp"
+
+namespace arcslip {
+
+struct SystemParameters;
+
+struct HarmonicSystem {
+  std::vector<int> orders;           ///< h, ascending: of a response odd and from 1
+  std::vector<ContactModes> base;    ///< of each order, the first with the travelling load
+  std::vector<ContactModes> damper;  ///< of each order, without load
+  std::vector<SectorContact> contacts;
+  double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
+  std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
+};
+
+/// Throws std::invalid_argument where base, damper, orders and contacts do not fit, or a stiffness or
+/// threshold is not positive.
+void check(const HarmonicSystem& system);
+
+/// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
+ContactSystem build_wave(const SystemParameters& parameters);
+
+/// A system in the first harmonic alone.
+HarmonicSystem one_harmonic(ContactSystem system);
+
+/// The model of `parameters` in its harmonics. Throws SectorError.
+HarmonicSystem build_harmonic_system(const SystemParameters& parameters);
+
+}  // namespace arcslip

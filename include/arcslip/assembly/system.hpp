@@ -1,0 +1,116 @@
+#pragma once
+
+// The two structures of the paper and their interface: what a case file's [system] describes, and the reduced
+// model built from it.
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/structure/contact_modes.hpp"
+
+namespace arcslip {
+
+class SectorPair;
+
+enum class StructureModel { rods, beams, sector };
+
+std::string to_string(StructureModel model);
+
+/// How a structure dissipates: viscous, C_B = (2 zeta_B/gamma)/(2 pi) K_B [paper, footnote 3], or structural
+/// with the stiffness K_B (1 + 2 j zeta_B) at every eta. Both have the loss factor 2 zeta_B at eta = gamma.
+/// Modal, of sectors only: every mode has the damping ratio zeta.
+enum class DampingKind { viscous, structural, modal };
+
+std::string to_string(DampingKind kind);
+
+/// [system] of a case file, nondimensional throughout.
+struct SystemParameters {
+  StructureModel model = StructureModel::beams;
+  Index wave_number = 1;           ///< n >= 1
+  Index elements = 30;             ///< N > 2n
+  double mass_ratio = 1;           ///< M* = m_B/m_D > 0
+  double frequency_ratio = 1;      ///< gamma = sqrt(K*/M*) > 0
+  double interface_stiffness = 1;  ///< K_FD = k_F/k_D > 0
+  double base_damping = 1e-4;      ///< zeta_B, negative where the base is excited by its own motion
+  double damper_damping = 1e-4;    ///< zeta_D
+  double force = 1;                ///< F = f_0/k_B > 0
+  double preload = 1;              ///< P = mu p_0/k_B > 0
+
+  DampingKind base_damping_kind = DampingKind::viscous;
+  bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
+  double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
+  double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
+  std::vector<int> harmonics = {1};  ///< h in which friction is balanced, odd and ascending from 1
+
+  /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
+  /// contact, and no ratio, cubic stiffness or fixed damper counts.
+  std::shared_ptr<const SectorPair> sectors = {};
+  std::vector<SectorContact> contacts = {};  ///< one or several
+  double eta_low = 0;                        ///< window of eta in which the modes give the response
+  double eta_high = 0;
+
+  double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
+};
+
+/// 1, 3, ..., `highest`.
+std::vector<int> odd_up_to(int highest);
+
+/// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
+double shear_interface_stiffness(double slenderness, double poisson_ratio);
+
+/// The same estimate for either model: k_F = G w_D L/(h_D/2) over k_D = E w_D h_D/L of rods is
+/// (L/h_D)^2/(1 + nu).
+double shear_interface_stiffness(StructureModel model, double slenderness, double poisson_ratio);
+
+/// ln S with its derivatives.
+struct LogThreshold {
+  double value;       ///< ln S
+  double by_eta;      ///< d ln S/deta
+  double by_preload;  ///< d ln S/dP
+};
+
+/// Base, damper and interface at one contact point, as the response equation needs them.
+struct FrictionSystem {
+  ModalModel base;           ///< with the travelling load
+  ModalModel damper;         ///< without load
+  double contact_stiffness;  ///< k = K_FD/N [paper (7)]
+  double slip_per_preload;   ///< S/P = K*/K_FD [paper (13)]
+
+  Loss base_loss_per_zeta = {};  ///< the base's loss over zeta_B
+  double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
+  double preload_growth = 0;     ///< P_2
+  Loss base_loss_fixed = {};     ///< the rest of the base's loss
+  std::vector<ContactOutput> outputs = {};
+
+  /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0, by so much that a double holds S^2, of which
+  /// energies are multiples.
+  bool is_loaded(double eta, double preload) const {
+    constexpr double smallest = 1.5e-154;
+    return preload > 0 && slip_threshold(eta, preload) >= smallest;
+  }
+
+  /// S = (P + P_2 eta^2) K*/K_FD.
+  double slip_threshold(double eta, double preload) const {
+    return (preload + preload_growth * eta * eta) * slip_per_preload;
+  }
+
+  /// For a contact that is loaded.
+  LogThreshold log_threshold(double eta, double preload) const {
+    const double by_preload = 1 / (preload + preload_growth * eta * eta);
+    return {std::log(slip_threshold(eta, preload)), 2 * preload_growth * eta * by_preload, by_preload};
+  }
+};
+
+/// Damping factors beta of C = (beta/2 pi) K: 2 zeta_B/gamma and 2 zeta_D [paper, footnote 3].
+double base_damping_factor(const SystemParameters& parameters);
+double damper_damping_factor(const SystemParameters& parameters);
+
+/// Loss of the base over zeta_B: 2/gamma viscous or 2 structural.
+Loss base_loss_per_zeta(const SystemParameters& parameters);
+
+/// The whole model; its cost does not depend on N.
+FrictionSystem build_system(const SystemParameters& parameters);
+
+}  // namespace arcslip

@@ -1,0 +1,111 @@
+#pragma once
+
+// Case files: TOML 1.0, read and checked whole before anything runs.
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arcslip/assembly/physical_scale.hpp"
+#include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/keys/input_error.hpp"
+#include "arcslip/problems/library/library.hpp"
+
+namespace arcslip {
+
+/// A curve of special points in two parameters.
+struct CurveRequest {
+  continuation::PointType type;      ///< of the special points
+  std::string active;                ///< the first parameter, in which they are looked for at first
+  continuation::CurveWindow window;  ///< its range
+  double from = 0;                   ///< the end of the range at which the search begins
+  double to = 0;                     ///< the other end
+  double seed = 0;                   ///< value of the second parameter at which they are looked for
+};
+
+/// What is asked of a system with friction: its response to the force, the damper's to a base that moves as
+/// if alone, self-excited vibration, or a mode of vibration over its amplitude.
+enum class Response { forced, one_way, limit_cycle, nonlinear_mode };
+
+/// The problem that a branch belongs to: one of the library's, or a system with friction.
+struct ProblemRequest {
+  const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
+  problems::LibraryModel::Values settings;        ///< the library model's
+  SystemParameters system;
+  std::optional<Geometry> geometry;  ///< where the system is given in SI units
+  Response response = Response::forced;
+  double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
+
+  /// Where harmonics are added while tracing: the largest one left out, relative to R.
+  std::optional<double> harmonics_tolerance;
+
+  bool stability = false;  ///< whether its points come with their Floquet exponents
+
+  bool is_limit_cycle() const { return response == Response::limit_cycle; }
+  bool is_mode() const { return response == Response::nonlinear_mode; }
+  bool is_free() const { return is_limit_cycle() || is_mode(); }  ///< whether eta is an unknown
+};
+
+/// One branch that a case asks for. With `switching` or for a curve several may come of it.
+struct CaseBranch {
+  nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
+  ProblemRequest problem;
+  continuation::TraceOptions options;
+  std::optional<double> start;  ///< value of the parameter from which the branch is traced both ways
+  bool all_solutions = false;   ///< one for each solution at `start` that deflated Newton finds
+  bool switching = false;       ///< follow the branches that branch points and corners lead to
+  std::optional<CurveRequest> curve;
+};
+
+/// What a case file asks for, branch by branch.
+struct CasePlan {
+  std::string title;
+  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
+  std::size_t count = 0;            ///< of branches
+  std::function<CaseBranch(std::size_t)> branch;
+};
+
+struct Case {
+  std::string title;
+  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
+  std::vector<CaseBranch> branches;
+};
+
+class TomlDocument;
+
+/// A case file, read once, with `--set` arguments "section.key=value" applied on top.
+class CaseFile {
+ public:
+  /// Throws InputError.
+  explicit CaseFile(const std::string& path, const std::vector<std::string>& settings = {});
+
+  const std::string& path() const;
+  bool has(const std::string& section) const;
+
+  /// Does what a section asks for; what that throws becomes an InputError that names file and section.
+  void named(const std::string& section, const std::function<void()>& work) const;
+
+  const std::shared_ptr<const TomlDocument>& document() const { return document_; }
+
+ private:
+  std::shared_ptr<const TomlDocument> document_;
+};
+
+/// Checks the whole file. Throws InputError.
+CasePlan plan_case(const CaseFile& file);
+
+/// The same with all branches at hand.
+Case read_case(const std::string& path, const std::vector<std::string>& settings = {});
+
+/// What a case file may hold at its top, and whether one does. Throws InputError where it cannot be read.
+std::vector<std::string> case_sections();
+bool has_section(const std::string& path, const std::string& name,
+                 const std::vector<std::string>& settings = {});
+
+/// "preload = 0.1" for the values of a branch; several are joined by commas, none gives "".
+std::string describe(const nlohmann::ordered_json& values);
+
+}  // namespace arcslip

@@ -1,0 +1,66 @@
+#pragma once
+
+// What a case asks for, done: problems built, branches and curves traced.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arcslip/cases/case_file.hpp"
+#include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/problems/proof/certificate.hpp"
+
+namespace arcslip {
+
+/// A problem with a guess of one of its solutions.
+struct Subject {
+  std::shared_ptr<const continuation::Problem> problem;
+  continuation::Guess guess;
+  std::string failure;                                     ///< why there is no guess, or empty
+  continuation::Stop stop = continuation::Stop::no_start;  ///< what ended the search for it
+};
+
+/// The observables of which `extrema_of` may ask for the extrema.
+std::vector<std::string> tracked_observables(const ProblemRequest& request);
+
+/// The value of a parameter that is not continued.
+double fixed_value(const ProblemRequest& problem, const std::string& parameter);
+
+/// The branch over a curve's first parameter on which its first points are looked for.
+CaseBranch seed_branch(const CaseBranch& request);
+
+/// Builds the problem and leaves it, for what that may throw: no system fits what was asked for.
+void try_to_build(const ProblemRequest& request);
+
+/// Builds the problem, with a guess where `parameter` has this value and all else is as requested;
+/// max_seconds and go_on of the limits may end the search for it.
+Subject build(const ProblemRequest& request, const std::string& parameter, double value,
+              const continuation::TraceOptions& limits = {});
+
+/// A branch, or a curve of special points, with the problem that it solves.
+struct TracedBranch {
+  std::shared_ptr<const CaseBranch> request;
+  std::shared_ptr<const continuation::Problem> base;
+  std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
+  continuation::Branch branch;
+  double seconds = 0;
+  std::optional<problems::Certificate> certificate = {};  ///< where one was asked for
+
+  const continuation::Problem& problem() const {
+    return curve ? static_cast<const continuation::Problem&>(*curve) : *base;
+  }
+};
+
+/// Traces what is asked for: one branch, or several where branches are switched or several curves are found.
+/// Never throws for a branch that fails: its `stop` tells.
+std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer = {});
+
+/// Why no branch of this request can be certified, or empty.
+std::string why_not_certifiable(const CaseBranch& request);
+
+/// Proves a traced branch that can be certified, and stores the certificate in it.
+void certify(TracedBranch& traced);
+
+}  // namespace arcslip

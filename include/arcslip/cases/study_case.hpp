@@ -1,0 +1,40 @@
+#pragma once
+
+// Case files of preload studies: [system], [geometry], [study], [study.uncertain] and [continuation].
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "arcslip/cases/case_file.hpp"
+#include "arcslip/problems/ridges/uncertainty.hpp"
+
+namespace arcslip {
+
+/// One system of a study.
+struct StudyDesign {
+  nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
+  SystemParameters system;
+  std::optional<Geometry> geometry;  ///< where the system is given in SI units
+};
+
+/// A study of `count` designs, which are made when asked for, from several threads: there may be millions.
+struct StudyCase {
+  std::string title;
+  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
+  std::vector<std::string> keys;    ///< of for_each, in the order of the columns of optimum.csv
+  problems::PreloadRange range;
+  continuation::TraceOptions options;
+  bool sweep = true;                               ///< whether sweep.csv is wanted beside optimum.csv
+  std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does
+  bool is_physical = false;                        ///< whether its designs are given in SI units
+  std::size_t count = 1;
+  std::function<StudyDesign(std::size_t)> design;
+};
+
+/// Checks the whole file, with all of its designs. Throws InputError.
+StudyCase read_study(const CaseFile& file);
+StudyCase read_study(const std::string& path, const std::vector<std::string>& settings = {});
+
+}  // namespace arcslip

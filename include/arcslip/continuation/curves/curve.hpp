@@ -1,0 +1,38 @@
+#pragma once
+
+// Curves of special points in two parameters: folds, branch points, Hopf points, extrema, borders.
+
+#include <memory>
+#include <string>
+
+#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// The extended problem whose solutions are special points of one kind, and one of them as a guess.
+struct CurveStart {
+  std::unique_ptr<ExtendedProblem> problem;
+  BasePoint point;
+};
+
+/// The curve through a special point of a branch: of folds, branch points, Hopf points, of extrema of
+/// `observable` (a peak or a trough), or of points on a border (a switch). `active` is the branch's
+/// parameter. Throws std::invalid_argument for a point of another type.
+CurveStart curve_through(const Problem& base, const std::string& active, const BranchPoint& point,
+                         const std::string& observable = {});
+
+/// Locates the special point next to `start` at its other parameters, and traces the curve through it both
+/// ways while `options.parameter` stays between `from` and `to` and the active parameter within the window.
+/// The points are those of the extended problem: `problem.split` turns them into points of the base. Among
+/// them are the curve's turning points in `options.parameter` (`fold`), cusps, Bogdanov-Takens, zero-Hopf and
+/// double Hopf points; `options.extrema_of` may name the active parameter, for the turning points in it. A
+/// curve of Hopf points ends at a Bogdanov-Takens point.
+Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
+                   const CurveWindow& window = {}, const Observer& observer = {});
+
+/// Goes on with a curve as `resume` of trace.hpp does with a branch, within the window that it had.
+Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
+              const Observer& observer = {});
+
+}  // namespace arcslip::continuation

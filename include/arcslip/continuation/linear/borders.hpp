@@ -1,0 +1,48 @@
+#pragma once
+
+// What the choice of borders has in common.
+
+#include <cmath>
+
+#include "arcslip/continuation/problem/linearization.hpp"
+
+namespace arcslip::continuation {
+
+/// A vector without symmetry, of unit length, as a first border: it must not be orthogonal to a null vector.
+inline Vector spread(Index size, int which) {
+  Vector v(size);
+  for (Index i = 0; i < size; ++i) v(i) = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i) + which);
+  return v.normalized();
+}
+
+/// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at
+/// the folds of a single unknown, 1, which is large for F.
+inline double column_size(const Linearization& at, const Vector& scale) {
+  Vector sums(scale.size());
+  at.multiply_absolute(scale, sums);
+  const double size = sums.lpNorm<Eigen::Infinity>();
+  return size > 1e-3 ? size : 1;
+}
+
+/// Takes the eigenvalue that is nearest to `away` out of the list.
+inline void remove_nearest(ComplexVector& values, Complex away) {
+  Index nearest = 0;
+  (values.array() - away).abs().minCoeff(&nearest);
+  std::swap(values(nearest), values(values.size() - 1));
+  values = ComplexVector(values.head(values.size() - 1));
+}
+
+/// Takes an eigenvalue out that is known to be zero. Next to a second one rounding may have made a pair of
+/// the two: then the other one is their sum, which is as exact as the trace.
+inline void remove_zero(ComplexVector& values) {
+  Index nearest = 0;
+  values.array().abs().minCoeff(&nearest);
+  const Complex zero = values(nearest);
+  std::swap(values(nearest), values(values.size() - 1));
+  values = ComplexVector(values.head(values.size() - 1));
+  if (zero.imag() == 0 || values.size() == 0) return;
+  (values.array() - std::conj(zero)).abs().minCoeff(&nearest);
+  values(nearest) = 2 * zero.real();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,39 @@
+#pragma once
+
+// Dense bordered systems, by LU with partial pivoting.
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "arcslip/continuation/linear/bordered_solver.hpp"
+
+namespace arcslip::continuation {
+
+/// Up to 100 rows, where blocks do not pay, columns are eliminated one by one; beyond, Eigen's blocked
+/// factorisation takes over. Nothing is allocated after construction.
+class DenseBorderedSolver final : public BorderedSolver {
+ public:
+  DenseBorderedSolver(Index size, Index borders);
+
+  using BorderedSolver::set_jacobian;
+  void set_jacobian(const Matrix& jacobian, const Vector& column_scale) override;
+  double factor() override;
+  void multiply_determinant(LogProduct& product) const override;
+  void solve(Vector& right_hand_side) override;
+  void solve_transposed(Vector& right_hand_side) override;
+
+ private:
+  bool small() const { return matrix_.rows() <= 100; }
+  void set_borders();
+  double factor_small();
+  void eliminate(Index j);  // the columns before j from column j
+
+  Matrix matrix_;
+  Matrix factors_;             // small: unit lower and upper triangle in one
+  std::vector<Index> pivots_;  // small: row exchanged with row i
+  Eigen::PartialPivLU<Matrix> lu_;
+  Vector solution_;
+  std::vector<char> seen_;  // of a permutation
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,46 @@
+#pragma once
+
+// Solutions of F(u, p) = 0 at fixed parameters: Newton's method, and all solutions by deflation.
+
+#include <cstdint>
+#include <vector>
+
+#include "arcslip/continuation/path/corrector.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::continuation {
+
+struct Solution {
+  Correction outcome = Correction::cannot_evaluate;
+  Vector unknowns;
+  double residual = 0;  ///< largest entry of F
+  int iterations = 0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-10;  ///< on the largest entry of F; iterations go on to rounding
+  int max_iterations = 30;
+  double max_correction = 0;  ///< longest correction in the problem's scale, 0 for no limit
+};
+
+/// Newton's method from a guess, with the full exact Jacobian.
+Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options = {});
+
+struct SolveAllOptions {
+  double tolerance = 1e-10;
+  Vector lower;      ///< n, a box in which starts are taken beside the given guesses; empty: none
+  Vector upper;      ///< n
+  int starts = 100;  ///< how many are taken in the box, in each regime
+  std::uint64_t seed = 1;
+  double distinct = 1e-6;            ///< solutions nearer than this, in the problem's scale, are the same
+  std::function<bool()> go_on = {};  ///< asked before each start; false ends the search
+};
+
+/// All solutions at the guesses' parameters that deflated Newton finds [Farrell, Birkisson & Funke 2015] from
+/// the guesses, from each solution found, and from points spread over the box: each start is used until no
+/// further solution comes of it. In the order found; the same for the same input. A solution counts only
+/// within its regime. All guesses must share their parameters.
+std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
+                             const SolveAllOptions& options = {});
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,22 @@
+#pragma once
+
+// A branch as a polyline that is drawn as the curve is: between its points some more, where the curve bends.
+
+#include <functional>
+#include <vector>
+
+#include "arcslip/continuation/path/branch.hpp"
+
+namespace arcslip::continuation {
+
+/// What is drawn of a point; valid until the next call.
+using Drawn = std::function<const std::vector<double>&(const BranchPoint&)>;
+
+/// The points of a branch and, between these, regular points of the interpolated branch, so many that
+/// straight lines are nowhere further from it than two thousandths of the width and height between
+/// neighbouring points. That holds for every quantity that is drawn over the parameter, on linear and on
+/// logarithmic axes, but between points that are nearer than 1e-5 of the branch's width or height.
+/// `parameter` is the position of the continuation parameter among the problem's.
+std::vector<BranchPoint> polyline(const Branch& branch, Index parameter, const Drawn& drawn);
+
+}  // namespace arcslip::continuation

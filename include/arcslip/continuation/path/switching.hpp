@@ -1,0 +1,30 @@
+#pragma once
+
+// From one branch to the others that it meets.
+
+#include <vector>
+
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::continuation {
+
+/// The ways that leave a special point of a branch, other than the branch's own: at a branch point both ways
+/// along the other branch, at a switch all further pieces that meet on its borders. Guesses with a direction,
+/// as `trace` takes them; none where nothing leaves.
+std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point);
+
+struct FollowOptions {
+  std::size_t max_branches = 50;  ///< all of them together
+};
+
+/// A branch and all that can be reached from it through branch points and corners, each way once, in the
+/// order in which they are met. The first one is traced as `trace` does it.
+std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
+                                    const FollowOptions& follow = {}, const Observer& observer = {});
+
+/// The branches through solutions at one value of the parameter, as `solve_all` finds them, both ways, each
+/// branch once however many of the solutions it holds. Each gets a `user` point at the value.
+std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,
+                                  const TraceOptions& options, const Observer& observer = {});
+
+}  // namespace arcslip::continuation

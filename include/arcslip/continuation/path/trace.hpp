@@ -1,0 +1,117 @@
+#pragma once
+
+// Pseudo-arclength continuation of F(u, p) = 0 in one parameter, through regimes with located borders.
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// A stored point as a guess, to restart from: `forward` goes on as the branch did.
+Guess restart(const BranchPoint& point, bool forward = true);
+
+/// A function whose zeros along the branch become `event` points.
+struct UserEvent {
+  std::string name;
+  std::function<double(const Vector& u, const Vector& p, int regime)> function;
+};
+
+/// Ends the branch at the count-th special point of a type; of an `event`, of those with this label.
+struct StopAfter {
+  PointType type;
+  long count = 1;
+  std::string label;
+};
+
+struct TraceOptions {
+  std::string parameter;                ///< the continuation parameter, by name
+  double from = 0;                      ///< its first value; the guess's is replaced by it
+  double to = 1;                        ///< its last value, on which the branch ends exactly
+  std::vector<double> stop_at;          ///< values to put a `user` point on, in any order
+  std::vector<std::string> extrema_of;  ///< observables whose extrema become `peak` and `trough` points
+  std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
+  std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
+  /// On the largest entry of F and on the correction that is left, in the problem's scale. Of a problem whose
+  /// F is in units in which its terms are above 1e3, relative to these.
+  double tolerance = 1e-10;
+  double max_step = 0.1;     ///< largest step, in scaled arclength
+  double min_step = 1e-10;   ///< smallest step; a branch that asks for less has ended
+  long max_points = 100000;  ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
+  /// Wall clock, of all parts of a branch together, the search for its first point included.
+  double max_seconds = std::numeric_limits<double>::infinity();
+  double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
+  /// Asked before each evaluation of F; false ends the branch as `interrupted`.
+  std::function<bool()> go_on = {};
+};
+
+/// Thrown where a search ended before it had found what it looked for, for want of time or by an interrupt.
+class Unfinished : public std::runtime_error {
+ public:
+  Unfinished(Stop reason, const std::string& explanation) : std::runtime_error(explanation), stop(reason) {}
+  Stop stop;
+};
+
+/// The time that several branches may take together, from now on.
+class TimeBudget {
+ public:
+  explicit TimeBudget(const TraceOptions& options) : options_(options) {}
+
+  /// The options with the time that is left.
+  TraceOptions rest() const;
+  bool is_spent() const { return !(seconds_left() > 0); }
+  /// Whether there is time left and go_on of the options, if there is one, says so.
+  bool goes_on() const { return !is_spent() && (!options_.go_on || options_.go_on()); }
+
+ private:
+  double seconds_left() const;
+
+  TraceOptions options_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+/// Called at each point stored; false ends the branch as `interrupted`.
+using Observer = std::function<bool(const BranchPoint&)>;
+
+/// Traces the branch from `options.from` to `options.to`, or from a guess with a direction until it reaches
+/// one of the two. A branch that cannot be traced to its end holds what was traced and says why. Throws
+/// std::invalid_argument for options that do not fit the problem.
+Branch trace(const Problem& problem, const Guess& guess, const TraceOptions& options,
+             const Observer& observer = {});
+
+/// Traces one way from a guess that may lie anywhere between `from` and `to`, setting out towards `to` or
+/// towards `from`; a guess with a direction goes along it or against it.
+Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to, const TraceOptions& options,
+                     const Observer& observer = {});
+
+/// Both ways: the part that sets out towards `from` comes first, reversed, with negative arclength. A closed
+/// loop is traced once.
+Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,
+                  const Observer& observer = {});
+
+/// Two parts from one start as one branch, the first reversed.
+Branch join(Branch first, Branch second);
+
+/// A branch of two parts, `ahead` of the start and `back` from it, which begins with `guess`.
+Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Branch()>& back,
+                   const Guess& guess);
+
+/// What is left of such a branch: `go_on` goes on with a part, `begin_back` begins the one back.
+Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(const Progress&)>& go_on,
+                    const std::function<Branch(const Guess&)>& begin_back);
+
+/// Goes on from a checkpoint as if the branch had never been left; the points are those that were to follow:
+/// of a branch traced both ways those at either end, of which those with negative arclength belong before the
+/// points that there were. Throws std::invalid_argument that names what differs where problem and options are
+/// not those of the checkpoint. Range, limits and tolerances may differ.
+Branch resume(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
+              const Observer& observer = {});
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,103 @@
+#pragma once
+
+// The loop that traces a branch: steps, events, targets, limits.
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/events/events.hpp"
+#include "arcslip/continuation/path/targets.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::continuation {
+
+constexpr double same_value =
+    1e-10;  ///< of the parameter, in its scale: as well as special points are located
+
+/// Half a sentence that says why a correction ended.
+std::string_view reason(Correction correction);
+
+class Tracer {
+ public:
+  Tracer(const Problem& problem, const TraceOptions& options, const Observer& observer);
+
+  /// `forward` is the wanted sign of the parameter's change.
+  Branch run(const Guess& guess, double forward);
+
+  /// Throws std::invalid_argument that names what differs from the branch that is to be gone on with.
+  void require_same(const BranchIdentity& then) const;
+
+  /// Goes on from where another tracer was, of the same problem with the same options.
+  Branch run(const Progress& progress);
+
+ private:
+  template <class Begin>
+  Branch finished(const Begin& begin);
+  void go_on();
+  void start(const Guess& guess, double forward);
+  Vector raw_tangent() const;
+  void look_at_derivatives(const Vector& u, const Vector& p, int regime);
+  bool is_time_to_look(PointType type);
+  BranchIdentity identity() const;
+  void require_same(const Progress& progress) const;
+  Correction start_singular(const Guess& guess, double forward);
+  bool out_of_time() const;
+  void watch_clock() const;
+  void halt(Stop reason);
+  void check_limits();
+  void step();
+  bool try_step();
+  void take_where_it_starts();
+  bool try_landing();
+  const Target* next_target(double reach, double direction) const;
+  bool only_approaches(const Target& target) const;
+  void rest_before(const Target& target);
+  bool find_events();
+  bool leaves_range() const;
+  void take();
+  void take_events(const Signs& before);
+  void take_targets_around(bool turns);
+  void take_event(const Event& event, const Signs& before);
+  int real_crossings(const Signs& before) const;
+  void take_target(const Target& target);
+  void cross(int border, bool several);
+  bool turn_back();
+  bool on_several_borders() const;
+  Correction leave(int border, bool several);
+  void corner_events(const Signs& before);
+  bool passes_target(const CurvePoint& point, double tolerance) const;
+  double value() const { return stepper_.here().parameters(parameter_); }
+  double parameter_scale() const { return stepper_.here().scale(stepper_.here().scale.size() - 1); }
+  double start_scale() const { return state_.start.scale(state_.start.scale.size() - 1); }
+  double length() const { return state_.distance * stepper_.slope_length(state_.hold); }
+  void use(Hold hold);
+  void store(PointType type, const std::string& label = {}, const Vector& arrival = {});
+  void stop(Stop reason, std::string explanation);
+  std::string place() const;
+
+  const Problem& problem_;
+  const TraceOptions& options_;
+  const Observer& observer_;
+  Index parameter_;
+  Corrector corrector_;
+  Stepper stepper_;
+  Watch watch_;
+  Targets targets_;
+  Progress state_;  // what changes along the branch, except for the point itself
+  const Target* landing_ = nullptr;
+  bool landing_failed_ = false;  // from here
+  std::optional<double> closing_;
+  std::vector<Event> events_;
+  std::vector<int> seen_in_regime_;  // regular points so far
+  bool singular_seen_ = false;
+  bool stopped_ = false;
+  bool interrupted_ = false;
+  bool satisfied_ = false;
+  bool storing_ = false;  // when the state is not one to go on from
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  Branch branch_;
+};
+
+}  // namespace arcslip::continuation

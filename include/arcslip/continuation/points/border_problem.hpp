@@ -1,0 +1,25 @@
+#pragma once
+
+// Points on a border as an extended problem.
+
+#include "arcslip/continuation/points/extended_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Points on a border of a regime; its turning points are the folds of this curve.
+class BorderProblem : public ExtendedProblem {
+ public:
+  BorderProblem(const Problem& base, Index active, int border);
+
+  int border_count(int regime) const override { return base().border_count(regime) - 1; }
+  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override;
+
+ protected:
+  bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
+
+ private:
+  int border_;
+  mutable Gradient slope_;
+};
+
+}  // namespace arcslip::continuation

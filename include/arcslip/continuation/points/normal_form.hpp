@@ -1,0 +1,54 @@
+#pragma once
+
+// Folds, branch points and Hopf points solved for by Newton's method on their extended problems, and the
+// coefficients of their normal forms.
+
+#include <array>
+#include <optional>
+
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/points/branch_point_problem.hpp"
+#include "arcslip/continuation/points/fold_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Solves an extended problem at fixed other parameters from a guess of the point: null where it does not
+/// converge. `residual` of the result is the largest entry of F and of the conditions.
+struct LocatedPoint {
+  BasePoint point;
+  double residual = 0;
+  int iterations = 0;
+};
+std::optional<LocatedPoint> locate(ExtendedProblem& problem, const BasePoint& guess,
+                                   double tolerance = 1e-10);
+
+/// A fold, p_a = p_a* + quadratic x^2 + ..., with x along v; degenerate (a cusp) where quadratic vanishes.
+struct FoldForm {
+  Vector right;          ///< v, n: null vector of dF/du, |v/scale| = 1
+  Vector left;           ///< w, n: w^T dF/du = 0
+  double quadratic = 0;  ///< c, in units of p_a
+};
+std::optional<FoldForm> fold_form(const Problem& problem, Index parameter, const Guess& fold);
+
+enum class BranchPointKind {
+  transcritical,  ///< both branches have a slope in the parameter
+  pitchfork,      ///< one of them turns there
+  isolated,       ///< no branch leaves the point: the centre of a vanishing closed branch
+  degenerate      ///< the second-order terms do not tell
+};
+
+std::string_view to_string(BranchPointKind kind);
+
+/// A simple branch point. The branches' directions d solve psi^T F_zz d d = 0 on the null space of F_z, z =
+/// (u, p_a).
+struct BranchPointForm {
+  BranchPointKind kind = BranchPointKind::degenerate;
+  std::array<Vector, 2> directions;  ///< n + 1 each, |d/scale| = 1; the pitchfork's turning branch second
+  std::array<double, 2> slopes{};    ///< of p_a over distance along u, dp_a/|du/scale|; 0 where it turns
+  double cubic = 0;      ///< pitchfork: c in p_a = p_a* + c x^2 of the turning branch, x along u; else nan
+  long evaluations = 0;  ///< that it took
+};
+std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
+                                                 const Guess& branch_point);
+
+}  // namespace arcslip::continuation

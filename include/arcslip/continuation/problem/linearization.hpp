@@ -1,0 +1,48 @@
+#pragma once
+
+// F and its derivatives at one point, whether the problem is dense or sparse.
+
+#include "arcslip/continuation/linear/bordered_solver.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Nothing is allocated after construction, but for the pattern of a sparse Jacobian at the first evaluation.
+/// The problem must outlive it.
+class Linearization {
+ public:
+  explicit Linearization(const Problem& problem);
+
+  /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
+  bool evaluate(const Vector& u, const Vector& p, int regime);
+
+  long evaluations() const { return evaluations_; }  ///< so far
+
+  const Vector& residual() const { return residual_; }                      ///< F, n
+  const Matrix& parameter_jacobian() const { return parameter_jacobian_; }  ///< n x number of parameters
+
+  /// dF/du, n x n: one is set, the other empty.
+  bool sparse() const { return sparse_; }
+  const Matrix& jacobian() const { return jacobian_; }
+  const SparseMatrix& sparse_jacobian() const { return sparse_jacobian_; }
+
+  /// All of length n, with `x` not `out`.
+  void multiply(const Vector& x, Vector& out) const;             ///< out = dF/du x
+  void multiply_transposed(const Vector& x, Vector& out) const;  ///< out = (dF/du)^T x
+  void multiply_absolute(const Vector& x, Vector& out) const;    ///< out = |dF/du| |x|, by entries
+
+  /// Sets the solver's J = dF/du diag(column_scale); of the scale, the first n entries count. Throws
+  /// std::logic_error if only one of the two is sparse.
+  void fill(BorderedSolver& solver, const Vector& column_scale) const;
+
+ private:
+  const Problem& problem_;
+  bool sparse_;
+  long evaluations_ = 0;
+  Vector residual_;
+  Matrix parameter_jacobian_;
+  Matrix jacobian_;
+  SparseMatrix sparse_jacobian_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,118 @@
+#pragma once
+
+// The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within
+// each of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
+
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/points/point_type.hpp"
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+/// What `Problem::evaluate` is asked for; a null is not wanted. Every target comes with its size.
+struct Evaluation {
+  Vector* residual = nullptr;               ///< F, n, scaled by the problem so that 1 is large
+  Matrix* jacobian = nullptr;               ///< dF/du, n x n, of a problem that is not sparse
+  Matrix* parameter_jacobian = nullptr;     ///< dF/dp, n x (number of parameters)
+  SparseMatrix* sparse_jacobian = nullptr;  ///< dF/du of a sparse problem, compressed, always of one pattern
+};
+
+/// A scalar function of (u, p) with its exact gradient.
+struct Gradient {
+  Vector unknowns;    ///< n
+  Vector parameters;  ///< number of parameters
+};
+
+/// An observable of which the tracer may find the extrema.
+struct Observable {
+  std::string name;
+  bool has_gradient = false;
+  double scale = 0;  ///< changes are measured in its value, or in this where that is smaller
+};
+
+/// Only the first three have to be written. All are called from several threads and must not change the
+/// problem.
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  /// n, the number of unknowns and of equations.
+  virtual Index size() const = 0;
+
+  virtual std::vector<std::string> parameter_names() const = 0;
+
+  /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
+  /// the step.
+  virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
+
+  /// Second derivatives of F along one direction, contracted from the left,
+  ///
+  ///   w^T d/dh [dF/du  dF/dp](u + h du, p + h dp)  at h = 0,
+  ///
+  /// n entries for the unknowns, then one for each parameter. False where the problem does not give them:
+  /// then differences of `evaluate` take their place, at the price of six evaluations or more.
+  virtual bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
+                      const Vector& dp, Vector& out) const;
+
+  /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
+  virtual bool sparse() const { return false; }
+
+  /// Counts how often F was scaled anew, which changes its values and leaves its zeros.
+  virtual long revision() const { return 0; }
+
+  /// Whether F is the right-hand side of u' = F(u, p), so that eigenvalues of dF/du tell stability and pairs
+  /// of them that cross the imaginary axis are Hopf points.
+  virtual bool is_equilibrium() const { return false; }
+
+  /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
+  /// takes those of a dense equilibrium's Jacobian; a periodic solution has the rates of hill.hpp.
+  virtual bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const;
+
+  /// What a pair of these that crosses the imaginary axis is called.
+  virtual PointType pair_crossing() const { return PointType::hopf; }
+
+  /// What a real one that crosses zero is called; regular where it has no name of its own, as at folds and
+  /// branch points, which are found without eigenvalues.
+  virtual PointType real_crossing() const { return PointType::regular; }
+
+  /// Functions along a branch whose zeros are special points: the types of these points, and the functions'
+  /// values, in the same order.
+  virtual std::vector<PointType> test_types() const { return {}; }
+  virtual void test(const Vector& u, const Vector& p, int regime, Vector& values) const;
+
+  /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
+  /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
+  virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
+
+  virtual std::vector<std::string> regime_names() const { return {"smooth"}; }
+  virtual int border_count(int regime) const;
+
+  /// Value of a border function, negative inside `regime`, and its gradient where that is not null.
+  virtual double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const;
+
+  /// The regime that a branch enters across this border; -1 where the branch ends on it.
+  virtual int regime_beyond(int regime, int border) const;
+
+  /// What is written beside each point, besides u and p.
+  virtual std::vector<Observable> observables() const { return {}; }
+
+  /// All of them, in the order of `observables()`.
+  virtual void observe(const Vector& u, const Vector& p, int regime, Vector& values) const;
+
+  /// The value of one with has_gradient, and its gradient on the branch.
+  virtual double observe(const Vector& u, const Vector& p, int regime, Index which, Gradient& gradient) const;
+
+  /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any
+  /// step. The tracer puts a point on each and refines towards it.
+  virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
+};
+
+/// The names of a problem's observables, in their order.
+std::vector<std::string> observable_names(const Problem& problem);
+
+/// Position of a name in `names`; throws std::invalid_argument that lists what there is.
+Index index_of(const std::vector<std::string>& names, const std::string& name);
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,70 @@
+#pragma once
+
+// The settled loop of a Jenkins element, a unit spring in series with a slider that yields at S, driven by a
+// motion r(theta) of odd harmonics whose amplitude is above S:
+//
+//   f(theta) = s S + r(theta) - r(begin)   on an arc of stick that begins where the motion turns back, with
+//                                          the force s S of the slip before it
+//   f(theta) = s S                         on the arc of slip that follows
+//
+// With the arcs known, the harmonics of the force are closed integrals over those of stick, for f' = r' there
+// and 0 elsewhere:
+//
+//   f_h = (2/(jh pi)) sum_arcs int r'(theta) e^{-jh theta} dtheta.
+//
+// The force is continuous, so that moving ends of arcs do not count in its derivative:
+//
+//   delta f_h = (2/pi) sum_arcs int (delta r(theta) - delta r(begin)) e^{-jh theta} dtheta
+//             = sum_l G_hl delta r_l + Q_hl conj(delta r_l).
+//
+// With one harmonic f_1 = phi(R/S) r_1 of contact.hpp.
+
+#include "arcslip/motion/odd_motion.hpp"
+
+namespace arcslip {
+
+class HysteresisLoop {
+ public:
+  /// The loop settles within half a period from the motion's maximum, where the force is S. Just below the
+  /// amplitude S, where a corrector may step before it is sent back, it is continued by
+  /// f = r -+ (amplitude - S). `motion` must outlive the loop and not be zero.
+  HysteresisLoop(const OddMotion& motion, double slip_threshold);
+
+  OddMotion::Maximum maximum() const { return {begin_, amplitude_}; }  ///< of the motion
+
+  /// f_h, in the units of r.
+  void force(HarmonicVector& harmonics) const;
+
+  /// G and Q. The derivative in S follows by homogeneity: df_h/dS = (f_h - (G r + Q conj(r))_h)/S.
+  void derivative(ComplexMatrix& linear, ComplexMatrix& conjugate) const;
+
+  /// Energy lost per cycle over k: 2 S times the distance slipped in half a period.
+  double energy() const { return 2 * slip_threshold_ * slipped_; }
+
+  int slips() const { return slips_; }  ///< arcs of slip in half a period
+
+  /// An arc of stick, in theta.
+  struct Arc {
+    double begin;
+    double width;
+  };
+
+  /// Those of half a period.
+  std::span<const Arc> stick() const { return {stick_.data(), sticks_}; }
+
+ private:
+  void march();
+  double way_to_slip(double from, double longest, double room) const;
+
+  const OddMotion& motion_;
+  double slip_threshold_;
+  double amplitude_ = 0;
+  double begin_ = 0;     // angle of the maximum
+  double mismatch_ = 0;  // f half a period later, plus S: 0 but for the continuation
+  double slipped_ = 0;
+  int slips_ = 0;
+  std::array<Arc, std::size_t{2} * most_harmonics> stick_;
+  std::size_t sticks_ = 0;
+};
+
+}  // namespace arcslip

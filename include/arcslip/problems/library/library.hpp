@@ -1,0 +1,45 @@
+#pragma once
+
+// The problems with published answers, by the names that case files give them: [system] model = "bratu".
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::problems {
+
+/// A key of [system] that a model understands: a parameter of the problem, or a size.
+struct Setting {
+  std::string name;
+  double value;  ///< the default
+  double low;    ///< smallest value allowed
+  double high;   ///< largest
+  bool is_integer = false;
+  std::string meaning;
+};
+
+/// A problem that can be built by name. Every parameter of the problem is a setting of the same name.
+struct LibraryModel {
+  using Values = std::vector<double>;  ///< one for each setting, in their order
+  std::string name;
+  std::string title;  ///< one line
+  std::vector<Setting> settings;
+  std::function<std::unique_ptr<continuation::Problem>(const Values&)> build;
+  /// A guess of a solution at the values' parameters, good where the case file's branch is meant to start.
+  std::function<continuation::Guess(const continuation::Problem&, const Values&)> guess;
+};
+
+/// All of them, in alphabetical order.
+const std::vector<LibraryModel>& library();
+
+/// The defaults of a model's settings.
+LibraryModel::Values defaults(const LibraryModel& model);
+
+/// The one of this name, or null.
+const LibraryModel* find_model(const std::string& name);
+
+}  // namespace arcslip::problems

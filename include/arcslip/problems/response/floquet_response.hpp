@@ -1,0 +1,79 @@
+#pragma once
+
+// Forced response that knows its stability: the exponents of all disturbances (ring_disturbances.hpp) are the
+// eigenvalues that the engine counts along the branch. A pair crosses the imaginary axis where a vibration
+// with a second frequency branches off, and a real one zero at a fold; but where the response that branches
+// off repeats itself otherwise than this one, node by node or half period by half period, it is a point where
+// this symmetry breaks. No multiplier passes -1: that of a period is the square of that of half a period,
+// which the response does twice with turned signs, and so would need a pair at +-j.
+//
+// At a fold the balance of harmonics is singular. Exponents taken exactly vanish there but for what the
+// harmonics leave out; so that they change their number where the branch turns, the sign of the determinant
+// decides on that of the one nearest to zero.
+
+#include <memory>
+
+#include "arcslip/assembly/system.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/time/ring_disturbances.hpp"
+
+namespace arcslip::problems {
+
+class FloquetResponse : public HarmonicResponse {
+ public:
+  /// Observables beside those of HarmonicResponse, at their end: `growth`, the largest |mu| of a period;
+  /// `growth_error`, how far it is, by the response in the harmonics of `finer`, from what all harmonics
+  /// give, NaN without it and where there is no such response; `worst_wave`, of Worst;
+  /// `stable`, 1 or 0 where the error leaves no doubt, else NaN. Throws std::invalid_argument as
+  /// HarmonicResponse and RingDisturbances do.
+  FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
+                  std::shared_ptr<const FloquetResponse> finer = nullptr);
+
+  /// sigma, lambda = 2 pi sigma, of all cells of waves in which something may grow.
+  bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
+
+  continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
+
+  std::vector<continuation::PointType> test_types() const override;
+  void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+
+  std::vector<continuation::Observable> observables() const override;
+  using HarmonicResponse::observe;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+
+  /// Those of all cells.
+  std::vector<RingDisturbances::Disturbance> disturbances(const Vector& u, const Vector& p, int regime) const;
+
+  /// The largest |mu| of a period, and the wave that this disturbance mostly is.
+  struct Worst {
+    double growth;
+    Index wave;
+  };
+  Worst worst(const Vector& u, const Vector& p, int regime) const;
+
+  /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has
+  /// it there in the harmonics of `finer`; none without them, and where no such place is found.
+  std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const;
+
+  /// The highest of those harmonics; 0 without them.
+  int finer_highest() const { return finer_ ? finer_->system().orders.back() : 0; }
+
+ private:
+  std::vector<StickPattern> patterns(const Vector& u, const Vector& p, int regime) const;
+  RingDisturbances::Disturbances found(const Vector& u, const Vector& p, int regime,
+                                       std::span<const StickPattern> contacts, bool active) const;
+  struct Last;
+  const Last& last(const Vector& u, const Vector& p, int regime) const;
+  double growth_error(const Vector& u, const Vector& p, int regime, double growth) const;
+
+  RingDisturbances disturbances_;
+  std::shared_ptr<const FloquetResponse> finer_;
+};
+
+/// The numbers of waves, 0 .. N/2, under which it and the response by which it tells its error are disturbed.
+std::set<Index> disturbed_waves(const SystemParameters& parameters);
+
+/// The response of `parameters`, and that in more harmonics by which it tells its error. Throws SectorError.
+std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters);
+
+}  // namespace arcslip::problems

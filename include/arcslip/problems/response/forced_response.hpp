@@ -1,0 +1,50 @@
+#pragma once
+
+// Forced response of base and damper in one contact dof and one harmonic [paper (31) for rods]:
+//
+//   R |1 + k phi(R/S) c(eta)| = |y_0(eta)|,   c = c_B + c_D,   S = (P + P_2 eta^2) K*/K_FD
+//
+// solved as a relative error in rho = ln R, which is well scaled over all decades:
+//
+//   g(rho, eta, P) = rho + ln|1 + k phi c| - ln|y_0| = 0
+//
+// Unknown: rho. Parameters: eta, P. Regimes: stick (R <= S, phi = 1) and slip, with the border ln(R/S) = 0.
+// With r = -y_0/(1 + k phi c) the motions are y = -r (1 + k phi c_D) and u = -r k phi c_D.
+//
+// Where Im c <= 0, as in any passive system, dg/drho > 0 at every R, whatever S is: the response at given
+// (eta, P) is unique, and no branch in eta or P can fold or turn at a corner. A preload that grows with eta
+// changes S alone and keeps it so. With negative damping of the base Im c > 0 occurs, and folds with it.
+
+#include "arcslip/problems/response/contact_problem.hpp"
+
+namespace arcslip::problems {
+
+class ForcedResponse : public ContactProblem {
+ public:
+  using ContactProblem::ContactProblem;
+
+  Index size() const override { return 1; }
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
+
+  /// Those of every contact problem, then the amplitudes of the system's outputs.
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  /// Y alone has a gradient.
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 continuation::Gradient& gradient) const override;
+
+  /// r, whose modulus the unknown has.
+  Complex motion(const Vector& u, const Vector& p, int regime) const {
+    return motion(state(u(0), p, regime));
+  }
+
+  /// The solution at (eta, P), of several the one with the smallest R: stick if it holds, else the slipping
+  /// one by bracketing. Throws std::invalid_argument where the response has no value.
+  continuation::Guess guess(double eta_value, double preload_value) const;
+
+ private:
+  static Complex motion(const State& at);
+};
+
+}  // namespace arcslip::problems

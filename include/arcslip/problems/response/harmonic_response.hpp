@@ -1,0 +1,111 @@
+#pragma once
+
+// Forced response of base and damper in m contact dofs of a sector and several odd harmonics. Each contact
+// has a spring k_i and its own slider, which yields at S_i; its force k_i f(r_i) follows exactly from the
+// motion r_i(t) by HysteresisLoop:
+//
+//   r_h + C_h(eta) K f_h(r) = -y_0 delta_h1,   C_h = C_B + C_D at (h eta, h a),   K = diag(k_i).
+//
+// Solved is f_h + (1 + C_h K)^{-1} (r_h - f_h + y_0 delta_h1) = 0 relative to |r| and to sqrt(1 + |(1 + C_h
+// K)^{-1}|^2): where the contacts stick, the error of r itself, however much larger C_h K is for their common
+// motion than for their differences. Then u_h = -C_D,h K f_h, y_h = u_h - r_h.
+//
+// Unknowns: Re r_1, Im r_1, Re r_3, ... of the first contact, then of the next. Parameters: eta, P. Regimes:
+// which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i, for which
+// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
+// less, is no border: the engine crosses such a corner as it finds it.
+
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/elements/contact_force.hpp"
+#include "arcslip/problems/response/slip_regimes.hpp"
+
+namespace arcslip::problems {
+
+class HarmonicResponse : public continuation::Problem {
+ public:
+  enum Parameter : Index { eta, preload };
+  /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
+  /// is the energy of all, over k S^2; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
+  /// dissipated_contact_2 of each further contact; the amplitudes of the outputs; then, of the first contact,
+  /// the greatest values in time R_peak, Y_peak, U_peak and the amplitudes R_h3, Y_h3, U_h3, R_h5, ...
+  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
+
+  /// Throws std::invalid_argument where base, damper and contacts differ in number.
+  explicit HarmonicResponse(HarmonicSystem system);
+
+  Index size() const override { return 2 * contacts() * harmonics(); }
+  std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
+
+  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
+  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
+  double border(const Vector& u, const Vector& p, int regime, int border,
+                continuation::Gradient* gradient) const override;
+  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+
+  /// Of them Y has a gradient.
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 continuation::Gradient& gradient) const override;
+
+  /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
+  std::vector<double> landmarks(Index parameter, double from, double to) const override;
+
+  /// The solution at (eta, P) on the branch that begins where all contacts stick, under a high preload.
+  /// Throws std::invalid_argument where that cannot be traced, Unfinished where max_seconds or go_on of the
+  /// limits end it.
+  continuation::Guess guess(double eta_value, double preload_value,
+                            const continuation::TraceOptions& limits = {}) const;
+
+  Index contacts() const { return std::ssize(system_.contacts); }
+  Index harmonics() const { return std::ssize(system_.orders); }
+  const HarmonicSystem& system() const { return system_; }
+
+  /// r_h of a contact, of the unknowns.
+  HarmonicVector motion(const Vector& u, Index contact) const;
+
+  /// S of a contact.
+  double slip_threshold(Index contact, const Vector& p) const;
+
+  /// What friction does to the base; the damper feels the opposite.
+  struct Friction {
+    std::vector<ContactVector> forces;  ///< of each harmonic, the force on the base's contacts
+    double energy;                      ///< lost per cycle in all contacts
+  };
+  Friction friction(const Vector& u, const Vector& p, int regime) const;
+
+ private:
+  struct Forces;
+  static Forces& last_forces();
+
+  /// Of each contact; valid until the thread's next call, whose work space it is.
+  const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
+                                          bool derivatives) const;
+
+  /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (r - f + y_0)) but for |r|.
+  struct Order {
+    Index which;
+    ContactReceptance joint;               // 1 + C_h K in place of C_h, and y_0, 0 above the first
+    ContactMatrix inverse;                 // (1 + C_h K)^{-1}
+    double weight;                         // 1/sqrt(1 + |inverse|^2)
+    ContactVector f, gap, held, residual;  // work space
+  };
+  void set_order(Index which, double eta_value, int regime, Order& order) const;
+  struct Rows;
+  void fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+                  Rows& rows, Matrix* parameter_jacobian) const;
+  void fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u, int regime,
+                     Matrix& jacobian) const;
+
+  OddMotion::Maximum maximum(const Vector& u, Index contact) const;
+  double load(const Vector& p) const;  // P + P_2 eta^2
+
+  HarmonicSystem system_;
+};
+
+}  // namespace arcslip::problems

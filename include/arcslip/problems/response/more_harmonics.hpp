@@ -1,0 +1,20 @@
+#pragma once
+
+// A response solved anew in other harmonics, which tells how far those that it has suffice.
+
+#include <optional>
+
+#include "arcslip/problems/response/harmonic_response.hpp"
+
+namespace arcslip::problems {
+
+/// The same motion in the harmonics of another problem, those that are new being zero.
+continuation::Guess carried(const HarmonicResponse& from, const continuation::Guess& at,
+                            const HarmonicResponse& to);
+
+/// The response of `to` at the same parameters to which Newton's method comes from there, in the regime in
+/// which it finds its contacts; none where it comes to none.
+std::optional<continuation::Guess> solved_in(const HarmonicResponse& to, const HarmonicResponse& from,
+                                             const continuation::Guess& at);
+
+}  // namespace arcslip::problems

@@ -1,0 +1,93 @@
+#pragma once
+
+// A travelling-wave mode of base, damper and sliding contacts, without excitation [extended periodic motion:
+// M. Krack, Nonlinear modal analysis of nonconservative systems, Comput. Struct. 154 (2015) 59]. Damping
+// proportional to mass, -2 zeta w* M on both structures, replaces what is lost and keeps the motion periodic:
+//
+//   r_h + C_h(eta, zeta) K f_h(r) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h.
+//
+// solved relative to |r| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. eta is then
+// the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first harmonic,
+// whose phase is 0. Where zeta = 0 the motion needs no help: a limit cycle.
+//
+// Unknowns: eta, zeta, then Re and Im of all harmonics of all contacts but that one, in the order of
+// HarmonicResponse. Parameters: R, P. Regimes and borders are those of HarmonicResponse.
+//
+// Where other modes are far, the forced response near the mode follows from it: with the mode's motion in
+// the structures' modal coordinates, q = a psi, |psi| = 1, and the load l,
+//
+//   a |eta^2 - W^2 + 2 j zeta eta W| = F |psi^H l|,   which peaks at the force F = 2 zeta eta^2 a/|psi^H l|.
+
+#include <array>
+#include <optional>
+
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/elements/contact_force.hpp"
+#include "arcslip/problems/response/slip_regimes.hpp"
+
+namespace arcslip::problems {
+
+class NonlinearMode : public continuation::Problem {
+ public:
+  enum Parameter : Index { amplitude, preload };
+  enum Unknown : Index { frequency, damping };
+  /// Observables in this order; `force` is that whose response, synthesised from the mode, peaks here, in
+  /// units of the system's own.
+  enum Quantity : Index { eta, zeta, S, R_over_S, Y, U, dissipated, force };
+
+  /// Throws std::invalid_argument where base, damper and contacts differ in number.
+  explicit NonlinearMode(HarmonicSystem system);
+
+  Index size() const override { return 2 * contacts() * harmonics(); }
+  std::vector<std::string> parameter_names() const override { return {"R", "P"}; }
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
+
+  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
+  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
+  double border(const Vector& u, const Vector& p, int regime, int border,
+                continuation::Gradient* gradient) const override;
+  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+
+  /// Of them eta and zeta have gradients.
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 continuation::Gradient& gradient) const override;
+
+  /// A guess of the mode whose frequency in stick is nearest to `eta_value`, at this R and P; R must be so
+  /// small that all contacts stick. Throws std::invalid_argument where it is not.
+  continuation::Guess guess(double eta_value, double R_value, double preload_value) const;
+
+  /// The excitation frequencies at which the response to `force` times the load, synthesised from the mode at
+  /// this point, has its amplitude; none above the peak.
+  std::optional<std::array<double, 2>> flanks(const Vector& u, const Vector& p, int regime,
+                                              double force) const;
+
+  Index contacts() const { return std::ssize(system_.contacts); }
+  Index harmonics() const { return std::ssize(system_.orders); }
+  const HarmonicSystem& system() const { return system_; }
+
+ private:
+  struct Order;
+  struct Modal {
+    double amplitude;  // a
+    double load;       // |psi^H l|
+  };
+  Order order(Index which, const Vector& u, int regime) const;
+  HarmonicVector motion(const Vector& u, const Vector& p, Index contact) const;
+  double load(const Vector& u, const Vector& p) const;
+  double threshold(Index contact, const Vector& u, const Vector& p) const;
+  const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
+                                          bool derivatives) const;
+  Modal modal(const Vector& u, const Vector& p, int regime) const;
+  void fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction, const Vector& u,
+                const Vector& p, const continuation::Evaluation& out) const;
+
+  HarmonicSystem system_;
+};
+
+}  // namespace arcslip::problems

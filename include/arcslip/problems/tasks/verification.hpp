@@ -1,0 +1,60 @@
+#pragma once
+
+// Points of a branch solved anew, with more harmonics and, where the ring can be assembled, by integrating
+// all its nodes in time, so that a branch says itself how far it can be trusted.
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "arcslip/assembly/system.hpp"
+#include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/time/ring_motion.hpp"
+
+namespace arcslip::problems {
+
+/// Invariants of a response that its equations do not hold by themselves, but where they are solved.
+struct BalanceErrors {
+  double power = 0;         ///< of PowerBalance
+  double cancellation = 0;  ///< of PowerBalance
+  double motion = 0;        ///< motion_error
+};
+
+/// The largest at the points of a branch, which is one of HarmonicResponse, or of ForcedResponse, with the
+/// system of `parameters` in `orders`. None where `go_on`, asked before each point, says no.
+std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
+                                            const std::vector<int>& orders,
+                                            const continuation::Branch& branch,
+                                            const std::function<bool()>& go_on = {});
+
+/// What the first contact does in a response, harmonic by harmonic: what the ring in time is begun with.
+std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem,
+                                               const continuation::Guess& at);
+
+/// NaN where a method has no result.
+struct Verification {
+  std::size_t point;   ///< of the branch
+  double Y;            ///< first harmonic, as traced
+  double power_error;  ///< of PowerBalance
+  int highest;         ///< harmonic of the second solution
+  double Y_harmonics;  ///< of the second solution
+  double Y_time;       ///< by time integration
+  double growth;       ///< of the worst disturbance in a period, |mu|: stable below 1; by time integration
+};
+
+struct VerifyOptions {
+  std::size_t samples = 10;       ///< regular points, spread over the branch, besides the special ones
+  std::size_t most_special = 30;  ///< special points, the first ones; only these are integrated in time
+  bool in_time = true;            ///< whether to integrate in time, some seconds for a point of 30 nodes
+
+  /// Called before each point with its number among those chosen and how many these are; false ends it.
+  std::function<bool(std::size_t, std::size_t)> progress = {};
+  std::function<void(const Verification&)> found = {};  ///< called with each result as soon as it is there
+};
+
+/// Solves special points of such a branch, and some others, anew.
+std::vector<Verification> verify(const SystemParameters& parameters, const std::vector<int>& orders,
+                                 const continuation::Branch& branch, const VerifyOptions& options = {});
+
+}  // namespace arcslip::problems

@@ -1,0 +1,71 @@
+#pragma once
+
+// Response of a finite-element sector under a travelling wave at its contact dofs and outputs:
+//
+//   Z(eta) = K (1 + j (beta eta + delta)) + j w* (C + 2 pi mu M) - w*^2 M,   w* = 2 pi eta
+//   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
+//   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
+//
+// E has a unit column for each contact. One symbolic analysis serves the sparse LU factorisations of Z
+// at every eta.
+
+#include <memory>
+
+#include "arcslip/sectors/sector_reduction.hpp"
+#include "arcslip/structure/modal_model.hpp"
+
+namespace arcslip {
+
+class ComplexFactors;
+
+/// Response of m contacts and p outputs at a given eta.
+struct SectorResponse {
+  ComplexMatrix compliance;  ///< c, m x m: motion of the contact of the row per force on that of the column
+  ComplexMatrix compliance_eta;     ///< dc/deta
+  ComplexVector free;               ///< y_0, m: the response without contact
+  ComplexVector free_eta;           ///< dy_0/deta
+  ComplexMatrix output_compliance;  ///< p x m: motion of the outputs per force on a contact
+  ComplexVector output_free;        ///< p: motion of the outputs without contact
+  ComplexMatrix damping;  ///< X^H Im Z X, m+1 x m+1, X = [X_r, Z^{-1} F]: by pi what damping takes a cycle
+  ComplexVector load_motion;  ///< m+1: X^T F*, the motion F^H d that the load does work on
+};
+
+class SectorSolver {
+ public:
+  /// `sector` is checked, `forward` is e^{-ja}. `loss` is that of damping proportional to stiffness and mass,
+  /// beside the sector's own C; modal damping is no part of Z. Throws SectorError where the reduced mass is
+  /// not positive definite.
+  SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss);
+  ~SectorSolver();
+  SectorSolver(const SectorSolver&) = delete;
+  SectorSolver& operator=(const SectorSolver&) = delete;
+
+  /// The response at eta, valid until the next call. Throws std::domain_error where Z is singular.
+  const SectorResponse& at(double eta);
+
+  const SectorReduction& reduction() const { return reduction_; }
+
+  Index contacts() const { return std::ssize(contacts_); }
+  Index outputs() const { return std::ssize(outputs_); }
+  int factorisations() const;  ///< since the start, all with one symbolic analysis
+
+ private:
+  void assemble(double eta);
+  void set_right_hand_sides();
+  void collect();
+  void collect_works(double eta);
+
+  SectorReduction reduction_;
+  Loss loss_;
+  std::vector<Index> contacts_;            // reduced dofs
+  std::vector<Index> outputs_;             // dofs of the sector
+  ComplexSparseMatrix dynamic_stiffness_;  // Z
+  ComplexSparseMatrix slope_;              // dZ/deta
+  ComplexMatrix right_;                    // X_r and Z^{-1} F
+  ComplexMatrix left_;                     // X_l
+  ComplexMatrix product_;                  // Z' or Im Z times `right_`
+  SectorResponse response_;
+  std::unique_ptr<ComplexFactors> factors_;
+};
+
+}  // namespace arcslip

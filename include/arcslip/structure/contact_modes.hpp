@@ -1,0 +1,138 @@
+#pragma once
+
+// A structure seen at several contact dofs, as a sum over its modes v_k:
+//
+//   C(eta) = E^T Z^{-1} E = sum_k s_k s_k^H/d_k,   y_0(eta) = E^T Z^{-1} F = sum_k s_k l_k/d_k,
+//   s_k = E^T v_k/(2 pi),   l_k = v_k^H F/(2 pi),   d_k as in ModalModel
+//
+// E has a unit column for each contact. ModalModel is this for one contact.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "arcslip/structure/modal_model.hpp"
+
+namespace arcslip {
+
+/// Of a sector, one of them perhaps an output; vectors and matrices of contacts live on the stack.
+inline constexpr int most_contacts = 13;
+using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
+using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
+
+/// Inverts in place, by elimination with partial pivoting: calls would cost more than arithmetic.
+void invert(ContactMatrix& a);
+
+/// Response at m contacts for a given eta, with its derivatives in eta.
+struct ContactReceptance {
+  ContactMatrix compliance;  ///< C, m x m: motion of the contact of the row per force on that of the column
+  ContactMatrix compliance_eta;  ///< dC/deta
+  ContactVector free;            ///< y_0, m: the response without contact
+  ContactVector free_eta;        ///< dy_0/deta
+
+  void set_zero(Index contacts);
+};
+
+/// Compliance of m contacts where there is more damping proportional to mass, with its derivatives.
+struct DampedReceptance {
+  ContactMatrix compliance;
+  ContactMatrix compliance_eta;
+  ContactMatrix compliance_mass;  ///< dC/dmu
+};
+
+/// Work of a cycle at eta: of the load, what the damping takes, and that of load and contact forces whatever
+/// the phase between them and the motions they act on.
+struct CycleWork {
+  double load = 0;
+  double damping = 0;  ///< negative where it feeds energy in
+  double magnitude = 0;
+};
+
+/// A structure's response at eta, and its work under given forces on its contacts, found in whatever way; may
+/// be called from several threads.
+using Receptance = std::function<ContactReceptance(double eta)>;
+using ReceptanceWork = std::function<CycleWork(double eta, const ContactVector& forces)>;
+
+struct ContactMode {
+  double frequency;     ///< eta_k
+  ContactVector shape;  ///< s_k, m
+  Complex load;         ///< l_k
+};
+
+class ContactModes {
+ public:
+  /// All shapes have `contacts` entries. Throws std::invalid_argument where they do not, or for more contacts
+  /// than `most_contacts`.
+  ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss);
+
+  /// The same structure with its response by `receptance`, whatever its damping: the modes, undamped, serve
+  /// for its resonances alone.
+  /// Without `work` of its own, none may be asked for.
+  ContactModes solved_by(Receptance receptance, ReceptanceWork work = {}) const;
+
+  /// O(m^2) operations for each mode, or what `receptance` costs.
+  ContactReceptance at(double eta) const;
+
+  /// Adds what `at` gives to `sum`, of this size.
+  void add(double eta, ContactReceptance& sum) const;
+
+  /// pi Im(F^H d)* and pi d^H Im Z d of the motion d under load and forces; the magnitude is the sum of those
+  /// of all modes, or where it is solved otherwise of load and contacts, |F^H d| and |f_i y_i|.
+  CycleWork work(double eta, const ContactVector& forces) const;
+
+  /// The compliance where mu of the loss is larger by `mass`.
+  DampedReceptance damped(double eta, double mass) const;
+
+  Index contacts() const { return contacts_; }
+  const std::vector<ContactMode>& modes() const { return modes_; }
+  const Loss& loss() const { return loss_; }
+  bool is_solved() const {
+    return receptance_ != nullptr;
+  }  ///< whether its response is not that of the modes
+
+ private:
+  Index contacts_;
+  std::vector<ContactMode> modes_;
+  Loss loss_;
+  Receptance receptance_;  // in place of the sum, if there is one
+  ReceptanceWork receptance_work_;
+};
+
+/// One contact dof of each sector.
+struct SectorContact {
+  double stiffness = 1;         ///< k > 0
+  double slip_per_preload = 1;  ///< S/P > 0
+};
+
+/// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
+/// others.
+struct ContactOutput {
+  std::string name;
+  ContactModes modes;
+  double force_sign;  ///< of the contacts' forces: 1 on the base, -1 on the damper
+
+  /// Under the load and the forces k phi r of all contacts.
+  double amplitude(double eta, const ContactVector& forces) const;
+};
+
+/// Base, damper and the interface between their contacts.
+struct ContactSystem {
+  ContactModes base;    ///< with the travelling load
+  ContactModes damper;  ///< without load
+  std::vector<SectorContact> contacts;
+  std::vector<ContactOutput> outputs = {};
+};
+
+struct JoinedMode {
+  double frequency;        ///< eta_k
+  double damping;          ///< damping ratio, to the first order in the losses
+  ContactVector relative;  ///< relative displacements of the contacts, of any size
+};
+
+/// The undamped modes of `structures` joined at their contacts through springs, of stiffness `springs` (m);
+/// of one structure, joined to ground. Relative to the first structure the others move backwards. In
+/// ascending order.
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs);
+
+}  // namespace arcslip

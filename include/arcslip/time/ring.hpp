@@ -1,0 +1,49 @@
+#pragma once
+
+// The complete ring of N nodes, base and damper, with a Jenkins element between them at each node. Nothing is
+// taken from the travelling wave but the load. With q the displacements of all nodes, b_i the difference
+// u_i - y_i of contact i and g_i its friction force,
+//
+//   M q'' + C q' + K q + sum_i b_i g_i = Re(F e^{jw*t}),   w* = 2 pi eta,   C = (beta/2 pi) K of each
+//   structure g_i = k (r_i - x_i) in stick, +-k S in slip,           r_i = b_i^T q,   x_i the place of the
+//   slider
+//
+// where node i carries the load of node 1 times e^{-ja(i-1)}. It is held in the undamped modes of the two
+// uncoupled structures, q = Phi p, which leave every matrix but that of the contacts diagonal:
+//
+//   p'' + D p' + W p + B^T g = Re(L e^{jw*t}),   r = B p
+//
+// Where the damper is free, base and damper can move together as one rigid body. No force of this model does
+// it: that coordinate stays at rest and is left out.
+
+#include "arcslip/assembly/system.hpp"
+
+namespace arcslip {
+
+/// Modal form of the ring; D coordinates, N contacts. Time is nondimensional: one period is 1/eta.
+struct Ring {
+  Vector stiffness;    ///< D: diagonal of W, squares of the circular frequencies 2 pi eta_k
+  Vector damping;      ///< D: diagonal of D
+  ComplexVector load;  ///< D: L
+  Matrix base;         ///< N x D: contact dofs y = base p
+  Matrix damper;       ///< N x D: contact dofs u = damper p
+  Matrix relative;     ///< N x D: B = damper - base
+  Matrix turn;         ///< D x D, orthogonal: the motion in which each node does what the next one did
+
+  Index wave_number;
+  double contact_stiffness;  ///< k = K_FD/N
+  double slip_per_preload;   ///< S/P
+  double preload_growth;     ///< P_2
+
+  Index nodes() const { return relative.rows(); }
+  Index coordinates() const { return relative.cols(); }
+
+  /// A bound on the moduli of the eigenvalues of the ring, whichever contacts stick.
+  double fastest_rate() const;
+};
+
+/// Assembles the ring. Throws std::invalid_argument for sectors, for damping that is not viscous and for a
+/// cubic stiffness.
+Ring build_ring(const SystemParameters& parameters);
+
+}  // namespace arcslip

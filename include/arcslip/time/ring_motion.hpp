@@ -1,0 +1,119 @@
+#pragma once
+
+// Motion of a ring in time, event by event. While no contact changes between stick and slip the ring is
+// linear with constant coefficients and harmonic load, and its Taylor series in time
+//
+//   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - B^T g_m
+//
+// is summed to rounding, over steps of a few units of the fastest rate of the ring. So every displacement is
+// a polynomial in a step, of which the first crossing is found without sampling: |r - x| = S ends stick,
+// r' = 0 ends slip. It needs no decomposition for each pattern of sticking contacts, of which a transient has
+// hundreds, and has no exception where the damped modes are defective.
+
+#include <set>
+#include <vector>
+
+#include "arcslip/time/ring.hpp"
+
+namespace arcslip {
+
+/// All that the future depends on.
+struct RingState {
+  double time = 0;
+  Vector position;        ///< D
+  Vector velocity;        ///< D
+  Vector slider;          ///< N: x, which is r -+ S in slip
+  std::vector<int> slip;  ///< N: 0 in stick, else the sign of the slip
+};
+
+/// One step: coefficients in powers of (t - start)/scale, valid for start <= t <= start + length.
+struct RingSegment {
+  double start = 0;
+  double scale = 1;
+  double length = 0;
+  Matrix position;  ///< D x (order + 1)
+  Matrix relative;  ///< N x (order + 1): r
+
+  /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
+  static Vector value(const Matrix& series, double ratio);
+  Vector rate(const Matrix& series, double ratio) const;
+};
+
+/// What follows a motion.
+class RingObserver {
+ public:
+  virtual ~RingObserver() = default;
+
+  /// A step, with the contact states of `state`, the state at its start.
+  virtual void follow(const RingSegment& segment, const RingState& state) = 0;
+
+  /// A contact of `state` has just changed, at state.time.
+  virtual void change(Index /*contact*/, const RingState& /*state*/) {}
+};
+
+/// What a motion has cost.
+struct RingCount {
+  long steps = 0;                        ///< Taylor series summed
+  long events = 0;                       ///< changes between stick and slip, each contact counted
+  std::set<std::vector<bool>> patterns;  ///< of sticking contacts, the least of each one's rotations
+};
+
+/// One harmonic of the relative displacement and the friction force of node 1, phasors.
+struct ContactHarmonic {
+  int order;
+  Complex relative;  ///< r_h
+  Complex force;     ///< of the force on the base, k phi r for one harmonic
+};
+
+/// Equation of motion of `ring` at one eta and preload.
+class RingMotion {
+ public:
+  /// Throws std::invalid_argument unless eta > 0 and the contact is loaded.
+  RingMotion(const Ring& ring, double eta, double preload);
+
+  /// Everything at zero, at t = 0, in stick.
+  RingState at_rest() const;
+
+  /// The state at t = 0 of the travelling wave in which node 1 has these harmonics.
+  RingState travelling(const std::vector<ContactHarmonic>& harmonics) const;
+
+  /// Takes the state on by `duration`. Throws std::runtime_error where contacts switch without end.
+  void advance(RingState& state, double duration, RingObserver* observer = nullptr);
+
+  /// Elastic energy, also of the contacts, and kinetic energy.
+  double energy(const RingState& state) const;
+
+  const Ring& ring() const { return ring_; }
+  double frequency() const { return frequency_; }  ///< w* = 2 pi eta
+  double period() const { return period_; }
+  double slip_threshold() const { return threshold_; }  ///< S
+  const RingCount& count() const { return count_; }
+
+ private:
+  struct Crossing {
+    Index contact;
+    double ratio;  ///< of the segment's scale
+  };
+
+  void expand(const RingState& state, double length);
+  std::vector<Crossing> first_crossings(const RingState& state) const;
+  void change(Index contact, RingState& state) const;
+  void note(const RingState& state);
+
+  Ring ring_;
+  double frequency_;
+  double period_;
+  double threshold_;
+  double rate_;
+  double longest_step_;
+  RingSegment segment_;
+  RingCount count_;
+};
+
+/// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
+Index series_order(double reach);
+
+/// Rows of B of the contacts that stick.
+Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip);
+
+}  // namespace arcslip

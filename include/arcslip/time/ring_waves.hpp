@@ -1,0 +1,70 @@
+#pragma once
+
+// Base and damper as disturbances of l = 0, 1, ..., N - 1 waves round the ring meet them: oscillators
+//
+//   p'' + damping p' + frequency^2 p = -shape^H F,   relative motion of the contacts = sum shape p
+//
+// in time in units of 1/(2 pi), F the forces on the base's contacts of the node whose phase is 0. Waves of l
+// and N - l lengths are each other's conjugates.
+
+#include <functional>
+#include <vector>
+
+#include "arcslip/structure/contact_modes.hpp"
+
+namespace arcslip {
+
+struct SystemParameters;
+
+struct Oscillator {
+  double frequency;
+  double damping;
+  ContactVector shape;
+};
+
+/// The oscillators of both structures under one wave, rigid ones at the end. Left out is what moves the
+/// contacts by less than rounding at rates far above `slowest`, as the second modes of short elements do.
+/// Rigid motions of the same damping act on the contacts by sum s s^H alone: combinations of them that move
+/// no contact, as base and damper together, would add a defective exponent and are left out. `real`: of a
+/// wave that is its own conjugate, whose shapes are real but for their phases. Throws std::invalid_argument
+/// where damping is structural, of which there is no motion in time, or where the response is not a sum over
+/// modes.
+std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes& damper, double slowest,
+                                    bool real);
+
+/// The lowest frequency but 0 of both; infinite without any.
+double slowest_rate(const ContactModes& base, const ContactModes& damper);
+
+class RingWaves {
+ public:
+  struct Structures {
+    ContactModes base;
+    ContactModes damper;
+  };
+  using Build = std::function<Structures(Index wave)>;
+
+  /// Of a response that travels with n = `wave_number` waves round N = `nodes` nodes; `build` gives the
+  /// structures under 0, ..., N/2 waves.
+  RingWaves(Index wave_number, Index nodes, Build build);
+
+  Index wave_number() const { return wave_number_; }
+  Index nodes() const { return nodes_; }
+
+  /// l between 0 and N - 1 for any whole number.
+  Index within(Index wave) const;
+
+  /// Under l waves, any whole number.
+  Structures structures(Index wave) const;
+  std::vector<Oscillator> at(Index wave) const;
+
+ private:
+  Index wave_number_;
+  Index nodes_;
+  Build build_;
+};
+
+/// Those of a system of rods, beams or sectors; of sectors with the modes that serve up to `highest` times
+/// the window of eta. `at` throws SectorError.
+RingWaves ring_waves(const SystemParameters& parameters, int highest);
+
+}  // namespace arcslip

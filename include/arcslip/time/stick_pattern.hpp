@@ -1,0 +1,23 @@
+#pragma once
+
+// When a contact sticks: all that small disturbances of a response see of it.
+
+#include <span>
+#include <vector>
+
+#include "arcslip/elements/hysteresis_loop.hpp"
+
+namespace arcslip {
+
+struct StickPattern {
+  bool slips = false;  ///< else it sticks all the time
+  /// Of stick, in half a period; one at least where it slips. Between two there is slip: a gap of 1e-9 at
+  /// least, for sliders rest over no longer a time than one arc lasts.
+  std::vector<HysteresisLoop::Arc> arcs;
+};
+
+/// Of a contact whose motion has these harmonics.
+StickPattern stick_pattern(std::span<const int> orders, const HarmonicVector& motion, double slip_threshold,
+                           bool slips);
+
+}  // namespace arcslip

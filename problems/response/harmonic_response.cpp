@@ -1,0 +1,390 @@
+#include "arcslip/problems/response/harmonic_response.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/problems/response/contact_problem.hpp"
+#include "arcslip/problems/response/slip_regimes.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Puts values of the contacts into the rows of one of n harmonics.
+template <class Column>
+void store(const ContactVector& values, Index which, Index n, Column&& column) {
+  for (Index i = 0; i < values.size(); ++i) {
+    column(2 * (i * n + which)) = values(i).real();
+    column(2 * (i * n + which) + 1) = values(i).imag();
+  }
+}
+
+}  // namespace
+
+HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
+
+/// Forces of all contacts with what they were found for: work space of a thread.
+struct HarmonicResponse::Forces {
+  std::vector<int> orders;
+  Vector unknowns;
+  int regime = 0;
+  std::vector<ContactForce> of_contacts;
+};
+
+HarmonicResponse::Forces& HarmonicResponse::last_forces() {
+  thread_local Forces last;
+  return last;
+}
+
+HarmonicVector HarmonicResponse::motion(const Vector& u, Index contact) const {
+  HarmonicVector r(harmonics());
+  for (Index a = 0; a < harmonics(); ++a) {
+    const Index place = 2 * (contact * harmonics() + a);
+    r(a) = {u(place), u(place + 1)};
+  }
+  return r;
+}
+
+double HarmonicResponse::load(const Vector& p) const {
+  return p(preload) + system_.preload_growth * p(eta) * p(eta);
+}
+
+double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
+  return system_.contacts[at(contact)].slip_per_preload * load(p);
+}
+
+const std::vector<ContactForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
+                                                          bool derivatives) const {
+  Forces& last = last_forces();
+  last.orders = system_.orders;
+  last.unknowns = u;
+  last.regime = regime;
+  last.of_contacts.resize(at(contacts()));
+  for (Index i = 0; i < contacts(); ++i) {
+    last.of_contacts[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness,
+                                slip_threshold(i, p), slips(regime, i), derivatives);
+  }
+  return last.of_contacts;
+}
+
+/// max |r| of a contact: known where the forces were last found, as at each point that a corrector ends on.
+OddMotion::Maximum HarmonicResponse::maximum(const Vector& u, Index contact) const {
+  const Forces& last = last_forces();
+  if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u)
+    return last.of_contacts[at(contact)].maximum;
+  const HarmonicVector r = motion(u, contact);
+  return OddMotion(system_.orders, r).maximum();
+}
+
+HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vector& p, int regime) const {
+  const std::vector<ContactForce>& of_contacts = forces(u, p, regime, false);
+  Friction sum{std::vector<ContactVector>(at(harmonics()), ContactVector(contacts())), 0};
+  for (Index i = 0; i < contacts(); ++i) {
+    for (Index a = 0; a < harmonics(); ++a) sum.forces[at(a)](i) = of_contacts[at(i)].harmonics(a);
+    sum.energy +=
+        of_contacts[at(i)].energy * system_.contacts[at(i)].stiffness * std::pow(slip_threshold(i, p), 2);
+  }
+  return sum;
+}
+
+void HarmonicResponse::set_order(Index which, double eta_value, int regime, Order& order) const {
+  const Index m = contacts();
+  const double h = system_.orders[at(which)];
+  ContactReceptance& joint = order.joint;
+  order.which = which;
+  joint.set_zero(m);
+  system_.base[at(which)].add(h * eta_value, joint);
+  system_.damper[at(which)].add(h * eta_value, joint);
+  if (regime == 0 && which > 0) {  // r_h = 0, also where C_h has an undamped resonance
+    joint.compliance.setZero();
+    joint.compliance_eta.setZero();
+  }
+  for (Index j = 0; j < m; ++j) {
+    joint.compliance.col(j) *= system_.contacts[at(j)].stiffness;
+    joint.compliance_eta.col(j) *= h * system_.contacts[at(j)].stiffness;
+  }
+  joint.compliance.diagonal().array() += 1.0;
+  joint.free_eta *= h;
+  order.inverse = joint.compliance;
+  invert(order.inverse);
+  order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
+}
+
+/// Work space of a thread: F and what its derivatives by the unknowns consist of.
+struct HarmonicResponse::Rows {
+  Order order;
+  Vector residual;
+  Vector weight;      // of each order, over |r|
+  ComplexMatrix own;  // derivative by f: orders x pairs of contacts, that of the column first
+  ComplexVector sum;  // of f by Re r_h and Im r_h
+  ComplexVector difference;
+};
+
+bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
+                                const continuation::Evaluation& out) const {
+  if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
+  for (Index i = 0; i < contacts(); ++i) {
+    if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
+  }
+  const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
+  const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
+  thread_local Rows rows;
+  rows.residual.resize(size());
+  rows.weight.resize(harmonics());
+  rows.own.resize(harmonics(), contacts() * contacts());
+  for (Index a = 0; a < harmonics(); ++a) {
+    set_order(a, p(eta), regime, rows.order);
+    fill_order(rows.order, friction, u, p, rows, out.parameter_jacobian);
+  }
+  if (out.residual != nullptr) *out.residual = rows.residual;
+  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
+  return true;
+}
+
+/// The rows of one harmonic but for their derivatives by the unknowns.
+void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u,
+                                  const Vector& p, Rows& rows, Matrix* parameter_jacobian) const {
+  const Index m = contacts();
+  const Index which = order.which;
+  for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
+  for (Index j = 0; j < m; ++j) {
+    const Index row = 2 * (j * harmonics() + which);
+    order.f(j) = friction[at(j)].harmonics(which) / system_.contacts[at(j)].stiffness;
+    order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + order.joint.free(j);
+  }
+  order.held.noalias() = order.inverse * order.gap;
+  order.gap.noalias() -= order.joint.compliance * order.held;
+  order.held.noalias() += order.inverse * order.gap;  // as exact as by factors
+  const double weight = order.weight / u.norm();
+  order.residual = weight * (order.f + order.held);
+  store(order.residual, which, harmonics(), rows.residual);
+  rows.weight(which) = weight;
+  for (Index j = 0; j < m; ++j) {
+    for (Index i = 0; i < m; ++i)
+      rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
+  }
+  if (parameter_jacobian == nullptr) return;
+
+  ContactVector& column = order.gap;
+  Complex slope = 0;  // of the weight's logarithm, over its square
+  for (Index j = 0; j < m; ++j) {
+    order.f.noalias() = order.joint.compliance_eta * order.inverse.col(j);
+    column.noalias() = order.inverse * order.f;
+    slope += order.inverse.col(j).dot(column);
+  }
+  for (Index j = 0; j < m; ++j)
+    order.f(j) = friction[at(j)].by_log_threshold(which) / system_.contacts[at(j)].stiffness;
+  column = order.f;
+  column.noalias() -= order.inverse * order.f;  // by ln S
+  column *= weight / load(p);
+  store(column, which, harmonics(), parameter_jacobian->col(preload));
+  order.f = order.joint.free_eta;
+  order.f.noalias() -= order.joint.compliance_eta * order.held;
+  column *= 2 * system_.preload_growth * p(eta);
+  column += (order.weight * order.weight * slope.real()) * order.residual;
+  column.noalias() += weight * (order.inverse * order.f);
+  store(column, which, harmonics(), parameter_jacobian->col(eta));
+}
+
+/// Column by column, in which the harmonics of a contact's rows follow one another.
+void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u,
+                                     int regime, Matrix& jacobian) const {
+  const Index n = harmonics();
+  const Index m = contacts();
+  jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();
+  for (Index column = 0; column < m * n; ++column) {
+    const Index from = column / n;
+    const Index order = column % n;
+    jacobian(2 * column, 2 * column) += rows.weight(order);
+    jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
+    if (!slips(regime, from)) continue;  // f = r
+    const double per_k = 1 / system_.contacts[at(from)].stiffness;
+    rows.sum = (friction[at(from)].linear.col(order) + friction[at(from)].conjugate.col(order)) * per_k;
+    rows.difference =
+        (friction[at(from)].linear.col(order) - friction[at(from)].conjugate.col(order)) * Complex(0, per_k);
+    rows.sum(order) -= 1;
+    rows.difference(order) -= Complex(0, 1);
+    for (Index i = 0; i < m; ++i) {
+      const auto part = [&](Index real_column) {
+        return Eigen::Map<Eigen::ArrayXcd>(
+            reinterpret_cast<Complex*>(jacobian.col(real_column).data() + 2 * i * n), n);
+      };
+      const auto own = rows.own.col(from * m + i).array();
+      part(2 * column) += own * rows.sum.array();
+      part(2 * column + 1) += own * rows.difference.array();
+    }
+  }
+}
+
+void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+  unknowns.setConstant(u.norm());
+  parameters = p;
+}
+
+double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
+                                continuation::Gradient* gradient) const {
+  const SlipBorder at_border =
+      slip_border(system_.orders, maximum(u, border), slip_threshold(border, p), slips(regime, border));
+  if (gradient != nullptr) {
+    gradient->unknowns.setZero();
+    for (Index a = 0; a < harmonics(); ++a) {
+      const Index place = 2 * (border * harmonics() + a);
+      gradient->unknowns(place) = at_border.by_motion(a).real();
+      gradient->unknowns(place + 1) = at_border.by_motion(a).imag();
+    }
+    const double by_load = at_border.by_log_threshold / load(p);
+    gradient->parameters << 2 * system_.preload_growth * p(eta) * by_load, by_load;
+  }
+  return at_border.value;
+}
+
+std::vector<continuation::Observable> HarmonicResponse::observables() const {
+  std::vector<continuation::Observable> all = {{"R"},    {"S"},     {"R_over_S"}, {"Y", true},   {"U"},
+                                               {"beta"}, {"alpha"}, {"psi"},      {"dissipated"}};
+  for (Index i = 1; i < contacts(); ++i) {
+    for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
+      all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
+  }
+  for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
+  if (harmonics() == 1) return all;
+  for (const char* name : {"R_peak", "Y_peak", "U_peak"}) all.push_back({name});
+  for (Index a = 1; a < harmonics(); ++a) {
+    for (const char* name : {"R", "Y", "U"})
+      all.push_back({fmt::format("{}_h{}", name, system_.orders[at(a)])});
+  }
+  return all;
+}
+
+void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  const Index m = contacts();
+  const Index n = harmonics();
+  const std::vector<ContactForce>& friction = forces(u, p, regime, false);
+  values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs) + (n > 1 ? 3 * n : 0));
+  Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
+  HarmonicVector base(n);  // of the first contact
+  HarmonicVector damper(n);
+  ContactVector f(m);
+  const HarmonicVector first = motion(u, 0);
+  for (Index a = 0; a < n; ++a) {
+    for (Index j = 0; j < m; ++j) f(j) = friction[at(j)].harmonics(a);
+    const ContactVector moved = -(system_.damper[at(a)].at(system_.orders[at(a)] * p(eta)).compliance * f);
+    damper(a) = moved(0);
+    base(a) = moved(0) - first(a);
+    if (a > 0) {
+      for (const Complex value : {first(a), base(a), damper(a)}) values(place++) = std::abs(value);
+      continue;
+    }
+    for (Index i = 0; i < m; ++i) {
+      const Complex r = motion(u, i)(0);
+      const double amplitude = std::abs(r);
+      const double ratio = amplitude / slip_threshold(i, p);
+      const double energy = friction[at(i)].energy;
+      if (i > 0) {
+        values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)),
+            energy;
+      } else {
+        values.head<9>() << amplitude, slip_threshold(0, p), ratio, std::abs(base(0)), std::abs(damper(0)),
+            lag(base(0)), lag(damper(0)), lag(r), energy;
+      }
+    }
+    for (std::size_t i = 0; i < system_.outputs.size(); ++i)
+      values(9 + 5 * (m - 1) + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), f);
+  }
+  if (n == 1) return;
+  const auto peak = [&](const HarmonicVector& motion) {
+    return OddMotion(system_.orders, motion).maximum().value;
+  };
+  values.segment<3>(9 + 5 * (m - 1) + std::ssize(system_.outputs)) << peak(first), peak(base), peak(damper);
+}
+
+double HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
+                                 continuation::Gradient& gradient) const {
+  const std::vector<ContactForce>& friction = forces(u, p, regime, true);
+  const ContactReceptance damper = system_.damper[0].at(p(eta));
+  Complex y = -Complex(u(0), u(1));
+  Complex by_eta = 0;
+  Complex by_log_S = 0;
+  for (Index j = 0; j < contacts(); ++j) {
+    y -= damper.compliance(0, j) * friction[at(j)].harmonics(0);
+    by_eta -= damper.compliance_eta(0, j) * friction[at(j)].harmonics(0);
+    by_log_S -= damper.compliance(0, j) * friction[at(j)].by_log_threshold(0);
+  }
+  const double amplitude = std::abs(y);
+  const Complex direction = std::conj(y) / amplitude;
+  for (Index j = 0; j < contacts(); ++j) {
+    for (Index b = 0; b < harmonics(); ++b) {
+      const Index place = 2 * (j * harmonics() + b);
+      const Complex linear =
+          -damper.compliance(0, j) * friction[at(j)].linear(0, b) - (place == 0 ? 1.0 : 0.0);
+      const Complex conjugate = -damper.compliance(0, j) * friction[at(j)].conjugate(0, b);
+      gradient.unknowns(place) = std::real(direction * (linear + conjugate));
+      gradient.unknowns(place + 1) = -std::imag(direction * (linear - conjugate));
+    }
+  }
+  const double by_load = std::real(direction * by_log_S) / load(p);
+  gradient.parameters << std::real(direction * by_eta) + 2 * system_.preload_growth * p(eta) * by_load,
+      by_load;
+  return amplitude;
+}
+
+std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {
+  if (parameter != eta) return {};
+  Vector springs(contacts());
+  for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[at(i)].stiffness;
+  std::vector<double> values;
+  for (Index a = 0; a < harmonics(); ++a) {
+    const ContactModes* base = &system_.base[at(a)];
+    const ContactModes* damper = &system_.damper[at(a)];
+    std::vector<double> found;
+    for (const JoinedMode& mode : joined_modes({base, damper}, springs)) found.push_back(mode.frequency);
+    for (const JoinedMode& mode : joined_modes({damper}, springs)) found.push_back(mode.frequency);
+    for (const ContactModes* structure : {base, damper}) {
+      for (const ContactMode& mode : structure->modes()) found.push_back(mode.frequency);
+    }
+    for (const double value : found) values.push_back(value / system_.orders[at(a)]);
+  }
+  std::erase_if(values, [&](double value) { return !(value > from && value < to); });
+  return values;
+}
+
+continuation::Guess HarmonicResponse::guess(double eta_value, double preload_value,
+                                            const continuation::TraceOptions& limits) const {
+  continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
+  guess.parameters << eta_value, preload_value;
+  if (!(eta_value > 0 && preload_value > 0 && load(guess.parameters) > 0))
+    throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
+  const ContactReceptance base = system_.base[0].at(eta_value);
+  ContactMatrix stuck = base.compliance + system_.damper[0].at(eta_value).compliance;
+  for (Index j = 0; j < contacts(); ++j) stuck.col(j) *= system_.contacts[at(j)].stiffness;
+  stuck.diagonal().array() += 1;
+  const ContactVector r = -(stuck.partialPivLu().solve(base.free));
+  double holding = 0;  // load over that which lets nothing slip
+  for (Index i = 0; i < contacts(); ++i) {
+    guess.unknowns(2 * i * harmonics()) = r(i).real();
+    guess.unknowns(2 * i * harmonics() + 1) = r(i).imag();
+    holding = std::max(holding, std::abs(r(i)) / slip_threshold(i, guess.parameters));
+  }
+  if (holding <= 1) return guess;
+
+  continuation::TraceOptions options;
+  options.parameter = "P";
+  options.from = 1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
+  options.to = preload_value;
+  options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
+  options.max_seconds = limits.max_seconds;
+  options.go_on = limits.go_on;
+  const continuation::Branch branch = trace(*this, guess, options);
+  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+    throw continuation::Unfinished(branch.stop, "on the way from a high preload: " + branch.explanation);
+  if (!branch.complete())
+    throw std::invalid_argument("HarmonicResponse: no way from a high preload: " + branch.explanation);
+  const continuation::BranchPoint& end = branch.points.back();
+  return {end.unknowns, end.parameters, end.regime};
+}
+
+}  // namespace arcslip::problems

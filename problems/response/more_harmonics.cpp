@@ -1,0 +1,51 @@
+#include "arcslip/problems/response/more_harmonics.hpp"
+
+#include <algorithm>
+
+#include "arcslip/continuation/path/newton.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::Guess;
+
+/// The first border that the solution lies beyond, or -1.
+int crossed_border(const HarmonicResponse& problem, const Guess& at) {
+  constexpr double rounding = 1e-12;
+  for (int border = 0; border < problem.border_count(at.regime); ++border) {
+    if (problem.border(at.unknowns, at.parameters, at.regime, border, nullptr) > rounding) return border;
+  }
+  return -1;
+}
+
+}  // namespace
+
+Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
+  Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
+  for (Index i = 0; i < from.contacts(); ++i) {
+    for (Index a = 0; a < from.harmonics(); ++a) {
+      const std::vector<int>& orders = to.system().orders;
+      const int order = from.system().orders[static_cast<std::size_t>(a)];
+      const auto place = std::lower_bound(orders.begin(), orders.end(), order) - orders.begin();
+      if (place == std::ssize(orders)) continue;
+      guess.unknowns.segment<2>(2 * (i * to.harmonics() + place)) =
+          at.unknowns.segment<2>(2 * (i * from.harmonics() + a));
+    }
+  }
+  return guess;
+}
+
+std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicResponse& from, const Guess& at) {
+  Guess guess = carried(from, at, to);
+  for (Index tries = 0; tries <= to.contacts(); ++tries) {
+    const continuation::Solution near = continuation::solve(to, guess);
+    if (near.outcome != continuation::Correction::converged) return std::nullopt;
+    guess.unknowns = near.unknowns;
+    const int border = crossed_border(to, guess);
+    if (border < 0) return guess;
+    guess.regime = to.regime_beyond(guess.regime, border);
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcslip::problems

@@ -1,0 +1,50 @@
+#include "arcslip/problems/response/power_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::problems {
+
+double PowerBalance::error() const { return std::abs(input - base - damper - friction) / magnitude; }
+
+double PowerBalance::cancellation() const {
+  return magnitude / std::max({std::abs(input), std::abs(base), std::abs(damper), std::abs(friction)});
+}
+
+PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+  const HarmonicSystem& system = problem.system();
+  const double eta = p(HarmonicResponse::eta);
+  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
+  PowerBalance balance{0, 0, 0, friction.energy, std::abs(friction.energy)};
+  for (std::size_t a = 0; a < system.orders.size(); ++a) {
+    const int cycles = system.orders[a];
+    const CycleWork base = system.base[a].work(cycles * eta, friction.forces[a]);
+    const CycleWork damper = system.damper[a].work(cycles * eta, -friction.forces[a]);
+    balance.input += cycles * base.load;
+    balance.base += cycles * base.damping;
+    balance.damper += cycles * damper.damping;
+    balance.magnitude += cycles * (base.magnitude + damper.magnitude);
+  }
+  return balance;
+}
+
+double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+  const HarmonicSystem& system = problem.system();
+  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
+  double gap = 0;
+  double largest = 0;
+  for (std::size_t a = 0; a < system.orders.size(); ++a) {
+    const double frequency = system.orders[a] * p(HarmonicResponse::eta);
+    const ContactReceptance at_base = system.base[a].at(frequency);
+    const ContactVector base = at_base.free + at_base.compliance * friction.forces[a];
+    const ContactVector damper = -(system.damper[a].at(frequency).compliance * friction.forces[a]);
+    for (Index i = 0; i < problem.contacts(); ++i) {
+      const Complex relative = problem.motion(u, i)(static_cast<Index>(a));
+      gap = std::max(gap, std::abs(damper(i) - base(i) - relative));
+      largest = std::max({largest, std::abs(damper(i)), std::abs(base(i)), std::abs(relative)});
+    }
+  }
+  return gap / largest;
+}
+
+}  // namespace arcslip::problems

@@ -1,0 +1,149 @@
+#include "arcslip/problems/ridges/envelope_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace arcslip::problems {
+namespace {
+
+EnvelopeNode node_of(const Peak& peak) {
+  return {std::log(peak.preload), std::log(peak.Y), peak.sensitivity.preload};
+}
+
+/// Where a peak changes its site, the point belongs to the piece below it: the slope above is then that of
+/// the parabola through both values with the other end's slope.
+EnvelopePiece piece_between(const Peak& a, const Peak& b) {
+  EnvelopePiece piece{node_of(a), node_of(b)};
+  if (a.site != b.site)
+    piece.from.slope = 2 * (piece.to.value - piece.from.value) / (piece.to.x - piece.from.x) - piece.to.slope;
+  return piece;
+}
+
+/// What the pieces on both sides of b are wrong by, if that from a to c shows their next derivative: of a
+/// cubic the error is f""(x - a)^2(c - x)^2/24, of a parabola f"'(x - a)(c - x)^2/6.
+double error_beside(const Peak& a, const Peak& b, const Peak& c) {
+  const EnvelopePiece wide = piece_between(a, c);
+  const double x = std::log(b.preload);
+  const double below = x - wide.from.x;
+  const double above = wide.to.x - x;
+  const double longer = std::max(below, above);
+  const double share = a.site == b.site ? std::pow(longer * longer / (4 * below * above), 2)
+                                        : 4 * std::pow(longer, 3) / (27 * below * above * above);
+  return share * std::abs(wide.at(x) - std::log(b.Y));
+}
+
+}  // namespace
+
+double EnvelopePiece::at(double x) const {
+  const double h = to.x - from.x;
+  const double t = (x - from.x) / h;
+  const double s = 1 - t;
+  return from.value * s * s * (1 + 2 * t) + to.value * t * t * (1 + 2 * s) +
+         h * s * t * (s * from.slope - t * to.slope);
+}
+
+EnvelopeCurve::EnvelopeCurve(std::vector<EnvelopePiece> pieces)
+    : pieces_(std::move(pieces)), errors_(pieces_.size(), 0) {
+  resolve();
+}
+
+EnvelopeCurve::EnvelopeCurve(const PreloadStudy& study) {
+  if (!study.failure.empty()) throw std::runtime_error(study.failure);
+  for (const PeakBranch& branch : study.branches) add(branch);
+  resolve();
+}
+
+void EnvelopeCurve::add(const PeakBranch& branch) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto is_piece = [&](std::size_t i) {
+    return i + 1 < branch.size() && branch[i].is_global && branch[i + 1].is_global;
+  };
+  double below = unknown;  // by the point below and its neighbours
+  for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
+    const bool goes_on = is_piece(i) && is_piece(i + 1) && branch[i + 1].site == branch[i + 2].site;
+    const double above = goes_on ? error_beside(branch[i], branch[i + 1], branch[i + 2]) : unknown;
+    if (is_piece(i)) {
+      pieces_.push_back(piece_between(branch[i], branch[i + 1]));
+      errors_.push_back(std::fmax(below, above));  // the one that is known
+    }
+    below = above;
+  }
+}
+
+double EnvelopeCurve::error() const {
+  double worst = 0;
+  for (const double error : errors_) worst = std::fmax(worst, error);
+  return worst;
+}
+
+std::vector<double> EnvelopeCurve::places_wanted(double tolerance) const {
+  std::vector<double> preloads;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const auto& [from, to] = pieces_[p];
+    if (errors_[p] <= tolerance) continue;
+    // Without an estimate one point more gives one; else as many as errors that fall with the cube ask for.
+    const double parts = std::isnan(errors_[p]) ? 2 : std::ceil(std::cbrt(errors_[p] / tolerance) + 1);
+    if (std::isnan(errors_[p]) && std::abs(to.value - from.value) <= tolerance) continue;
+    for (int i = 1; i < parts; ++i) preloads.push_back(std::exp(from.x + (to.x - from.x) * i / parts));
+  }
+  return preloads;
+}
+
+/// A peak that is the highest at two neighbouring points need not be so between them, where another one takes
+/// over and gives back: both then have a piece there, and neither crosses the other but at its ends.
+void EnvelopeCurve::resolve() {
+  std::vector<double> ends;
+  for (const EnvelopePiece& piece : pieces_) {
+    if (!(piece.to.x > piece.from.x)) throw std::runtime_error("EnvelopeCurve: a piece without length");
+    ends.push_back(piece.from.x);
+    ends.push_back(piece.to.x);
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  if (ends.empty()) throw std::runtime_error("EnvelopeCurve: no pieces");
+  std::vector<std::size_t> best(ends.size() - 1, pieces_.size());
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const auto first = std::lower_bound(ends.begin(), ends.end(), pieces_[p].from.x) - ends.begin();
+    for (auto i = static_cast<std::size_t>(first); ends[i] < pieces_[p].to.x; ++i) {
+      const double middle = 0.5 * (ends[i] + ends[i + 1]);
+      if (best[i] == pieces_.size() || pieces_[p].at(middle) > pieces_[best[i]].at(middle)) best[i] = p;
+    }
+  }
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    if (best[i] == pieces_.size()) throw std::runtime_error("EnvelopeCurve: a gap between pieces");
+    spans_.push_back({ends[i], ends[i + 1], best[i]});
+  }
+}
+
+double EnvelopeCurve::at(double x) const {
+  const auto span = std::upper_bound(spans_.begin(), spans_.end() - 1, x,
+                                     [](double value, const Span& one) { return value < one.to; });
+  return pieces_[span->piece].at(x);
+}
+
+double EnvelopeCurve::Walk::at(double x) {
+  while (span_ + 1 < curve_.spans_.size() && x >= curve_.spans_[span_].to) ++span_;
+  return curve_.pieces_[curve_.spans_[span_].piece].at(x);
+}
+
+EnvelopeCurve study_envelope(const SystemParameters& system, const PreloadRange& range, double tolerance,
+                             const continuation::TraceOptions& options) {
+  constexpr int most_studies = 5;
+  PreloadRange with_points = range;
+  for (int i = 1;; ++i) {
+    EnvelopeCurve envelope(study_preload(system, with_points, options));
+    const std::vector<double> more = envelope.places_wanted(tolerance);
+    if (more.empty() || i == most_studies) return envelope;
+    with_points.stop_at.insert(with_points.stop_at.end(), more.begin(), more.end());
+  }
+}
+
+std::vector<double> EnvelopeCurve::places() const {
+  std::vector<double> ends = {from()};
+  for (const Span& span : spans_) ends.push_back(span.to);
+  return ends;
+}
+
+}  // namespace arcslip::problems

@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "arcslip/cases/case_file.hpp"
+#include "arcslip/results/results.hpp"
+#include "keys/printable.hpp"
+#include "results/certificate_results.hpp"
+#include "results/output.hpp"
+#include "results/output_folder.hpp"
+#include "results/run_files.hpp"
+#include "results/stability_results.hpp"
+#include "results/verification_results.hpp"
+
+namespace arcslip {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string plural(std::size_t count, const char* what, const char* ending) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : ending);
+}
+
+/// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
+/// as good as any, and of a branch traced both ways both parts must have one.
+std::string complaint(const continuation::Branch& branch) {
+  if (!is_end(branch.stop)) return fmt::format("{}: {}", to_string(branch.stop), branch.explanation);
+  if (branch.first_stop && !is_end(*branch.first_stop))
+    return fmt::format("{}: this ended the part before the start", to_string(*branch.first_stop));
+  return "";
+}
+
+/// Refuses what cannot be verified or what no certificate covers.
+void require_provable(const CaseBranch& branch, const RunOptions& options) {
+  std::string why = options.verify ? why_not_verifiable(branch) : "";
+  if (!why.empty())
+    throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", options.case_path, why));
+  if (options.certify) why = why_not_certifiable(branch);
+  if (why.empty()) return;
+  throw InputError(
+      fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
+                  options.case_path, why));
+}
+
+/// The same before anything runs, of as many branches as are looked at in no time.
+void require_provable(const CasePlan& plan, const RunOptions& options) {
+  constexpr std::size_t some = 10'000;
+  if (!options.verify && !options.certify) return;
+  for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
+}
+
+/// One run of the program.
+class Run {
+ public:
+  explicit Run(const RunOptions& options)
+      : options_(options),
+        file_(options.case_path, options.settings),
+        plan_(plan_case(file_)),
+        title_(plan_.title.empty() ? "" : printable(plan_.title) + "\n\n") {}
+
+  int execute();
+
+ private:
+  void trace_request(std::size_t i, RunFiles& files);
+  void report(const TracedBranch& traced, std::size_t number);
+  std::string described(const TracedBranch& traced, std::size_t number);
+  void certify_branch(TracedBranch& traced, RunFiles& files);
+  void verify_branch(const TracedBranch& traced, RunFiles& files);
+  void show(const std::string& text);
+  void say_interrupted() const;
+
+  const RunOptions& options_;
+  CaseFile file_;
+  CasePlan plan_;
+  std::string title_;  ///< still to be printed
+  Clock::time_point start_ = Clock::now();
+  std::atomic<std::size_t> begun_ = 0;
+  std::atomic<std::size_t> ended_ = 0;
+  std::size_t points_ = 0;
+  bool complete_ = true;
+  std::string unprinted_;  ///< why standard output cannot be written
+};
+
+int Run::execute() {
+  require_provable(plan_, options_);
+  file_.named("system", [&] { try_to_build(plan_.branch(0).problem); });
+  const OutputFolder folder(results_folder(options_.folder, options_.case_path));
+  RunFiles files(folder.path(), plan_, options_.verify);
+  const BeforeTheEnd finish_by_itself({});
+  {
+    const BeforeTheEnd write_what_there_is([&] {
+      files.finish(seconds_since(start_), true);
+      say_interrupted();
+    });
+    try {
+      for (std::size_t i = 0; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
+    } catch (const InputError&) {
+      files.finish(seconds_since(start_), true);
+      throw;
+    }
+  }
+  files.finish(seconds_since(start_), interrupted() && (ended_ < plan_.count || !complete_));
+  show(fmt::format("\n{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
+                   plural(files.count(), "branch", "es"), points_, seconds_since(start_), folder.path()));
+  if (ended_ < plan_.count) say_interrupted();
+  if (!unprinted_.empty()) throw OutputError(unprinted_);
+  return complete_ && ended_ == plan_.count ? status::done : status::incomplete_branch;
+}
+
+void Run::trace_request(std::size_t i, RunFiles& files) {
+  CaseBranch request = plan_.branch(i);
+  require_provable(request, options_);
+  request.options.go_on = [] { return !interrupted(); };
+  begun_ = i + 1;
+  ProgressLine line(!options_.quiet);
+  std::size_t points = 0;
+  const auto watch = [&](const continuation::BranchPoint& point) {
+    if (++points % 256 == 0) {
+      line.show([&] {
+        const continuation::TraceOptions& options = request.options;
+        return fmt::format("branch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}", i + 1,
+                           plan_.count, points, point.arclength, options.parameter, options.from, options.to);
+      });
+    }
+    return !interrupted();
+  };
+  std::vector<TracedBranch> traced;
+  try {
+    file_.named("system", [&] { traced = trace(request, watch); });
+  } catch (const InputError& error) {
+    files.add_failed(request, error.what());
+    complete_ = false;
+    complain(fmt::format("{} (branch {}{}{})", error.what(), files.count() - 1,
+                         request.values.empty() ? "" : ": ", describe(request.values)));
+  }
+  for (TracedBranch& one : traced) {
+    {
+      const Undisturbed writing;
+      files.add(one);
+    }
+    report(one, files.count() - 1);
+    if (options_.certify) certify_branch(one, files);
+    if (options_.verify) verify_branch(one, files);
+  }
+  ended_ = i + 1;
+}
+
+void Run::report(const TracedBranch& traced, std::size_t number) {
+  points_ += traced.branch.points.size();
+  if (!options_.quiet) show(described(traced, number));
+  const std::string why = complaint(traced.branch);
+  if (why.empty()) return;
+  complete_ = false;
+  complain(fmt::format("arcslip: branch {}: {}", number, why));
+}
+
+std::string Run::described(const TracedBranch& traced, std::size_t number) {
+  std::string text = std::exchange(title_, "");
+  const std::string values = describe(traced.request->values);
+  if (!values.empty()) text += fmt::format("{}{}\n", number == 0 ? "" : "\n", values);
+  const ProblemRequest& problem = traced.request->problem;
+  if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
+  text += describe_harmonics(traced) + special_table_header(traced) + special_table(number, traced) +
+          describe_stability(traced);
+  if (traced.branch.stop != continuation::Stop::reached_end)
+    text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);
+  return text;
+}
+
+/// Prints what is proven, on stderr what is not.
+void Run::certify_branch(TracedBranch& traced, RunFiles& files) {
+  certify(traced);
+  files.add_certificate(*traced.certificate);
+  const std::string text = describe_certificate(files.count() - 1, traced);
+  if (traced.certificate->proven()) return show(text);
+  complete_ = false;
+  complain("arcslip: " + text);
+}
+
+void Run::verify_branch(const TracedBranch& traced, RunFiles& files) {
+  const std::size_t number = files.count() - 1;
+  ProgressLine line(!options_.quiet);
+  problems::VerifyOptions options;
+  options.progress = [&](std::size_t point, std::size_t points) {
+    line.show([&] { return fmt::format("verifying branch {}: point {} of {}", number, point + 1, points); });
+    return !interrupted();
+  };
+  options.found = [&](const problems::Verification& point) { files.add(traced, point); };
+  files.begin_verification();
+  const VerifiedBranch verified = verify(number, traced, options);
+  files.end_verification(verified);
+  if (verified.is_complete()) return show(describe_verification(verified));
+  complete_ = false;
+  complain(fmt::format("arcslip: branch {}: not verified: interrupted after {} of {} points", number,
+                       verified.points.size(), verified.chosen));
+}
+
+/// What cannot be printed is said at the end: the results are to be written whatever becomes of the table.
+void Run::show(const std::string& text) {
+  if (options_.quiet || !unprinted_.empty()) return;
+  try {
+    print(text);
+  } catch (const OutputError& error) {
+    unprinted_ = error.what();
+  }
+}
+
+void Run::say_interrupted() const {
+  complain(fmt::format("arcslip: interrupted: {} of {} not begun{}", plan_.count - begun_,
+                       plural(plan_.count, "branch", "es"),
+                       begun_ > ended_ ? ", one not brought to its end" : ""));
+}
+
+}  // namespace
+
+std::string results_folder(const std::string& given, const std::string& case_path) {
+  return !given.empty() ? given : "out/" + std::filesystem::path(case_path).stem().string();
+}
+
+int run_command(const RunOptions& options) {
+  catch_interrupts();
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
+  return Run(options).execute();
+}
+
+}  // namespace arcslip

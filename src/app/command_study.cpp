@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/crew.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "keys/printable.hpp"
+#include "results/output.hpp"
+#include "results/output_folder.hpp"
+#include "results/study_results.hpp"
+
+namespace arcslip {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+/// How far the study is: designs done before and now, of how many.
+std::string progress(std::size_t before, const StudyWork& work, std::size_t count) {
+  const std::size_t done = before + work.computed;
+  std::string text = fmt::format("{} of {} designs", done, count);
+  if (work.computed == 0) return text;
+  return text + fmt::format(", {:.3g} a second, {} left", work.rate(),
+                            duration(static_cast<double>(count - done) / work.rate()));
+}
+
+std::string plural(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The tables beside optimum.csv.
+std::string list_of_files(const StudyCase& study) {
+  std::string files;
+  if (study.sweep) files += "sweep.csv, ";
+  if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  return files;
+}
+
+/// Names each design that failed, with the reason. Returns how many there are.
+std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
+  std::size_t failures = 0;
+  store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
+    ++failures;
+    const std::string values = describe(study.design(design.curve).values);
+    complain(fmt::format("arcslip: design {}{}: {}", design.curve, values.empty() ? "" : " (" + values + ")",
+                         design.failure));
+    return true;
+  });
+  return failures;
+}
+
+/// What a study that is done gives: files, the table, the designs that failed.
+int conclude(const StudyOptions& options, const StudyCase& study, const std::string& folder,
+             StudyStore& store, const StudyWork& work) {
+  write_results(folder, study, store, work);
+  store.tidy();
+  if (!options.quiet) {
+    const std::size_t before = study.count - work.computed;
+    print((study.title.empty() ? "" : printable(study.title) + "\n\n") + study_table(study, store) +
+          fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
+                      plural(study.count, "design"), work.seconds, work.rate(),
+                      before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
+                      list_of_files(study)));
+  }
+  return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
+}
+
+int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, Crew& crew) {
+  const Clock::time_point start = Clock::now();
+  const std::string folder = results_folder(options.folder, options.case_path);
+  const OutputFolder held(folder);
+  StudyStore store(folder, study, options.resume);
+  PendingDesigns pending(store.finished());
+  const std::size_t before = study.count - pending.left();
+  StudyWork work;
+  const auto say_how_far = [&] {
+    complain(fmt::format("arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}",
+                         before + work.computed, study.count, folder));
+  };
+  const BeforeTheEnd finish_by_itself({});
+  {
+    const BeforeTheEnd leave_what_there_is([&] {
+      store.tidy();
+      say_how_far();
+    });
+    ProgressLine line(!options.quiet);
+    crew.compute(
+        study, jobs, pending,
+        [&](const FinishedDesign& design) {
+          const Undisturbed storing;
+          store.add(design.curve, design.values, design.result, design.scatter());
+          ++work.computed;
+        },
+        [&] {
+          work.seconds = seconds_since(start);
+          line.show([&] { return progress(before, work, study.count); });
+          return !interrupted();
+        });
+  }
+  work.seconds = seconds_since(start);
+  if (before + work.computed == study.count) return conclude(options, study, folder, store, work);
+  say_how_far();
+  return status::incomplete_branch;
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options) {
+  Crew crew;
+  catch_interrupts();
+  const BeforeTheEnd say_so([leads = crew.leads()] {
+    if (leads) complain("arcslip: interrupted");
+  });
+  std::optional<StudyCase> study;
+  std::string error;
+  try {
+    const CaseFile file(options.case_path, options.settings);
+    study = read_study(file);
+    file.named("system", [&] { build_system(study->design(0).system); });
+  } catch (const std::exception& wrong) {
+    error = wrong.what();
+  }
+  if (!crew.agree(error)) return status::wrong_input;
+  const std::size_t jobs = options.jobs > 0 ? options.jobs : crew.default_jobs();
+  if (!crew.leads()) {
+    const BeforeTheEnd wait_for_the_leader({});
+    return crew.assist(*study, jobs);
+  }
+  // What went wrong is said before the others leave: their end may end this process as well.
+  const int status = guarded([&] { return lead(options, *study, jobs, crew); });
+  crew.dismiss(status);
+  return status;
+}
+
+}  // namespace arcslip

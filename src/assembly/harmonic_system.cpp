@@ -1,0 +1,81 @@
+#include "arcslip/assembly/harmonic_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/system.hpp"
+#include "arcslip/motion/odd_motion.hpp"
+
+namespace arcslip {
+namespace {
+
+ContactModes one_contact(const ModalModel& model) {
+  std::vector<ContactMode> modes;
+  for (const Mode& mode : model.modes()) {
+    const double shape = std::sqrt(mode.residue);
+    modes.push_back({mode.frequency, ContactVector::Constant(1, shape),
+                     shape > 0 ? mode.load_residue / shape : Complex(0)});
+  }
+  return {1, std::move(modes), model.loss()};
+}
+
+}  // namespace
+
+ContactSystem build_wave(const SystemParameters& parameters) {
+  if (parameters.sectors) return build_contact_system(parameters);
+  const FrictionSystem system = build_system(parameters);
+  return {one_contact(system.base),
+          one_contact(system.damper),
+          {{system.contact_stiffness, system.slip_per_preload}},
+          system.outputs};
+}
+
+void check(const HarmonicSystem& system) {
+  const auto refuse = [](const char* why) {
+    throw std::invalid_argument(std::string("HarmonicSystem: ") + why);
+  };
+  const std::size_t count = system.orders.size();
+  if (count < 1 || count > most_harmonics || system.base.size() != count || system.damper.size() != count)
+    refuse("base and damper must be given in every harmonic");
+  const Index contacts = std::ssize(system.contacts);
+  for (std::size_t a = 0; a < count; ++a) {
+    if (system.base[a].contacts() != contacts || system.damper[a].contacts() != contacts)
+      refuse("base, damper and contacts must be as many");
+  }
+  for (const SectorContact& contact : system.contacts) {
+    if (!(contact.stiffness > 0 && contact.slip_per_preload > 0))
+      refuse("stiffness and slip threshold must be positive");
+  }
+}
+
+HarmonicSystem one_harmonic(ContactSystem system) {
+  return {{1}, {std::move(system.base)}, {std::move(system.damper)}, std::move(system.contacts),
+          0,   std::move(system.outputs)};
+}
+
+HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
+  HarmonicSystem system;
+  for (const int h : parameters.harmonics) {
+    SystemParameters wave = parameters;
+    wave.wave_number = h * parameters.wave_number % parameters.elements;
+    wave.eta_low = h * parameters.eta_low;
+    wave.eta_high = std::max(h, 1) * parameters.eta_high;
+    if (h == 1) {
+      system = one_harmonic(build_wave(parameters));
+      continue;
+    }
+    wave.force = 0;
+    ContactSystem of_order = build_wave(wave);
+    system.orders.push_back(h);
+    system.base.push_back(std::move(of_order.base));
+    system.damper.push_back(std::move(of_order.damper));
+    system.contacts = std::move(of_order.contacts);
+  }
+  system.preload_growth = parameters.preload_growth;
+  return system;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,375 @@
+#include "arcslip/cases/case_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <tuple>
+
+#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/cases/runs.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+#include "cases/continuation_section.hpp"
+#include "cases/for_each.hpp"
+#include "cases/sector_section.hpp"
+#include "cases/system_section.hpp"
+#include "keys/toml_reader.hpp"
+
+namespace arcslip {
+
+std::vector<std::string> case_sections() {
+  return {"title", "system", "geometry", "branch", "study", "continuation"};
+}
+
+namespace {
+
+using continuation::PointType;
+using nlohmann::ordered_json;
+using problems::LibraryModel;
+
+const std::vector<std::string> branch_keys = {
+    "parameter", "parameters", "from",   "to",       "eta",      "start",      "all_solutions",
+    "switching", "curve",      "window", "response", "for_each", "extrema_of", "stability"};
+const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
+
+const LibraryModel* read_model(const TomlDocument& document) {
+  const TomlSection section(document, "system");
+  if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
+  return problems::find_model(section.text("model", model_names()));
+}
+
+/// The parameters that may be continued.
+std::vector<std::string> parameters_of(const LibraryModel* model, Response response) {
+  if (model != nullptr) return model->build(problems::defaults(*model))->parameter_names();
+  if (response == Response::nonlinear_mode) return {"R"};
+  return {response == Response::limit_cycle ? "zeta_B" : "eta", "P"};
+}
+
+Response read_response(const TomlSection& section) {
+  const std::string name = section.text("response", {"forced", "one_way", "limit_cycle", "nonlinear_mode"});
+  if (name == "one_way") return Response::one_way;
+  if (name == "nonlinear_mode") return Response::nonlinear_mode;
+  return name == "forced" ? Response::forced : Response::limit_cycle;
+}
+
+/// Reads [branch] but for what `for_each` may change.
+class BranchSection {
+ public:
+  BranchSection(const TomlDocument& document, const TomlSection& section, const LibraryModel* model)
+      : document_(document), section_(section), model_(model) {}
+
+  CaseBranch read(const continuation::TraceOptions& options) {
+    CaseBranch branch;
+    branch.options = options;
+    if (section_.has("response")) {
+      if (model_ != nullptr) section_.fail("response", "only for systems with friction");
+      branch.problem.response = read_response(section_);
+    }
+    names_ = parameters_of(model_, branch.problem.response);
+    if (section_.has("curve")) {
+      read_curve(branch);
+    } else {
+      for (const char* key : {"parameters", "window"}) {
+        if (section_.has(key)) section_.fail(key, "only beside curve");
+      }
+      branch.options.parameter = section_.text("parameter", names_);
+    }
+    read_range(branch);
+    read_extrema(branch);
+    branch.problem.stability = section_.boolean("stability", false);
+    return branch;
+  }
+
+ private:
+  void read_curve(CaseBranch& branch) {
+    for (const char* key : {"parameter", "start", "all_solutions", "switching"}) {
+      if (section_.has(key)) section_.fail(key, "not beside curve, which has parameters and a window");
+    }
+    CurveRequest curve{};
+    curve.type = *continuation::point_type(section_.text("curve", curves));
+    const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names_, "\", \""));
+    const std::vector<std::string> pair = section_.texts("parameters", names_, expected);
+    if (pair.size() != 2 || pair[0] == pair[1]) section_.mismatch("parameters", expected);
+    curve.active = pair[0];
+    branch.options.parameter = pair[1];
+    section_.require("window", "two different numbers, the range of " + curve.active);
+    const std::vector<double> window = section_.numbers("window", parameter_rule(model_, curve.active));
+    if (window.size() != 2 || window[0] == window[1])
+      section_.mismatch("window", "two different numbers, the range of " + curve.active);
+    curve.from = window[0];
+    curve.to = window[1];
+    curve.window = {std::min(curve.from, curve.to), std::max(curve.from, curve.to)};
+    branch.curve = curve;
+  }
+
+  void read_range(CaseBranch& branch) {
+    continuation::TraceOptions& options = branch.options;
+    const NumberRule rule = parameter_rule(model_, options.parameter);
+    options.from = section_.number("from", rule);
+    options.to = section_.number("to", rule);
+    if (options.from == options.to) section_.mismatch("to", "a number that differs from branch.from");
+    const NumberRule in_range =
+        within(std::min(options.from, options.to), std::max(options.from, options.to));
+    options.stop_at = TomlSection(document_, "continuation").numbers("stop_at", in_range);
+    if (section_.has("start")) branch.start = section_.number("start", in_range);
+    branch.switching = section_.boolean("switching", false);
+    branch.all_solutions = section_.boolean("all_solutions", false);
+    if (branch.all_solutions)
+      section_.require("start", "the value of the parameter to find all solutions at");
+    if (branch.start && branch.switching)
+      section_.fail("start", "not beside switching, which follows the branch that begins at branch.from");
+  }
+
+  void read_extrema(CaseBranch& branch) {
+    if (section_.has("extrema_of")) {
+      branch.options.extrema_of = section_.texts("extrema_of", {}, "an array of observables");
+    } else if (model_ == nullptr && !branch.problem.is_limit_cycle()) {
+      branch.options.extrema_of = {branch.problem.is_mode() ? "zeta" : "Y"};
+    }
+    if (!branch.curve) return;
+    const char* expected = "the one observable whose extrema the curve is made of";
+    const bool ridge = branch.curve->type == PointType::peak || branch.curve->type == PointType::trough;
+    if (!ridge && section_.has("extrema_of"))
+      section_.fail("extrema_of", "only beside curves of peaks or troughs");
+    if (ridge && branch.options.extrema_of.empty()) section_.require("extrema_of", expected);
+    if (ridge && branch.options.extrema_of.size() != 1) section_.mismatch("extrema_of", expected);
+  }
+
+  const TomlDocument& document_;
+  const TomlSection& section_;
+  const LibraryModel* model_;
+  std::vector<std::string> names_;
+};
+
+/// What may differ from branch to branch.
+std::vector<std::string> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
+  std::vector<std::string> keys = listed_keys(document, model);
+  if (model == nullptr) keys.emplace_back("eta");
+  return keys;
+}
+
+/// The input as it is understood, defaults included, without what belongs to [study].
+ordered_json resolve(const TomlDocument& document, const CaseBranch& first) {
+  ordered_json resolved = to_json(document.root());
+  resolved.erase("study");
+  resolve_system(first.problem, resolved["system"]);
+  resolve_continuation(first.options, resolved["continuation"]);
+  return resolved;
+}
+
+/// Refuses observables that the problem does not have.
+void check_extrema(const TomlSection& branch, const CaseBranch& first) {
+  if (!branch.has("extrema_of")) return;
+  const std::vector<std::string> names = tracked_observables(first.problem);
+  if (names.empty()) branch.fail("extrema_of", "this model has no observables with extrema to look for");
+  branch.texts("extrema_of", names, fmt::format("names among \"{}\"", fmt::join(names, "\", \"")));
+}
+
+/// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
+void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseBranch& common,
+                 const std::string& parameter) {
+  if (common.problem.is_limit_cycle() && (branch.has("eta") || for_each.sets("eta"))) {
+    branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
+  }
+  for (const char* key : {"preload", "preload_per_length"}) {
+    if (parameter == "P" && for_each.sets(key))
+      branch.fail("for_each", fmt::format("{} cannot be listed where P is the continuation parameter", key));
+  }
+  if (parameter == "eta" && (branch.has("eta") || for_each.sets("eta"))) {
+    branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
+  }
+}
+
+/// Whether stiffness is complex, which has no motion in time.
+bool is_structural(const SystemParameters& system) {
+  if (!system.sectors) return system.base_damping_kind == DampingKind::structural;
+  const SectorPart* damper = system.sectors->damper();
+  return system.sectors->base().loss(system.base_damping).structural != 0 ||
+         (damper != nullptr && damper->loss(system.damper_damping).structural != 0);
+}
+
+/// Refuses sectors that disturbances cannot run through.
+void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
+  if (!system.sectors) return;
+  for (const Index wave : problems::disturbed_waves(system)) {
+    try {
+      system.sectors->check({wave, system.elements});
+    } catch (const SectorError& error) {
+      section.fail("stability", fmt::format("disturbances of {} waves: {}", wave, error.what()));
+    }
+  }
+}
+
+/// Refuses stability of what has no exponents.
+void check_stability(const TomlSection& section, const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  const SystemParameters& system = problem.system;
+  if (!problem.stability) return;
+  if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
+  if (branch.curve) section.fail("stability", "not beside curve");
+  if (problem.response != Response::forced || system.cubic_stiffness != 0)
+    section.fail("stability", "only for the forced response without cubic springs");
+  if (is_structural(system))
+    section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
+  if (system.sectors && system.sectors->path() == SectorPath::full)
+    section.fail("stability", R"(needs the modes of path = "reduced")");
+  check_disturbed_waves(section, system);
+}
+
+/// The value of the second parameter at which the first points of a curve are looked for.
+void find_seed(const TomlSection& section, CaseBranch& branch) {
+  const continuation::TraceOptions& options = branch.options;
+  branch.curve->seed = fixed_value(branch.problem, options.parameter);
+  const auto [low, high] = std::minmax({options.from, options.to});
+  if (branch.curve->seed >= low && branch.curve->seed <= high) return;
+  section.fail("from", fmt::format("the curve is looked for at {} = {:g}, which is not between {:g} and {:g}",
+                                   options.parameter, branch.curve->seed, low, high));
+}
+
+/// The eta that the branches pass; 0 where they are unknown beforehand.
+std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
+                                    const CaseBranch& common, const std::string& parameter) {
+  if (common.problem.is_free()) return {0, 0};
+  if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
+  if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
+  for (const std::size_t i : for_each.samples()) {
+    const ForEachSet set = for_each.at(i);
+    const double eta = TomlSection(document, "branch", &set.replacements).number("eta", positive());
+    range = {std::min(range.first, eta), std::max(range.second, eta)};
+  }
+  return range;
+}
+
+/// What the branches are made from.
+class BranchSource {
+ public:
+  explicit BranchSource(std::shared_ptr<const TomlDocument> document);
+
+  std::size_t count() const { return for_each_->count(); }
+  CaseBranch branch(std::size_t index) const;
+  void check_replaced() const;
+
+  /// The first branch, after a look at all of them. Each key's rule is an interval, so that of very many
+  /// branches some tell; what another one may still be ends the run when it is met.
+  CaseBranch checked() const;
+
+ private:
+  std::shared_ptr<const TomlDocument> document_;
+  TomlSection section_;
+  const LibraryModel* model_;
+  CaseBranch common_;      ///< what is the same in all branches
+  std::string parameter_;  ///< of a curve, that of the branch on which its first points are looked for
+  std::optional<ForEach> for_each_;
+  SystemUse use_{};
+};
+
+BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
+    : document_(std::move(document)), section_(*document_, "branch") {
+  TomlSection(*document_, "").allow_only(case_sections());
+  if (section_.table() == nullptr) document_->fail(nullptr, "branch", "missing; expected a section [branch]");
+  section_.allow_only(branch_keys);
+  model_ = read_model(*document_);
+  common_ = BranchSection(*document_, section_, model_).read(read_continuation(*document_));
+  parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
+  for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
+  if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
+  if (model_ != nullptr && section_.has("eta")) section_.fail("eta", "only for systems with friction");
+  check_keys(*document_, model_);
+  use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
+  use_.balanced = common_.problem.response == Response::forced || common_.problem.is_mode();
+  if (use_.sectors)
+    std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
+}
+
+CaseBranch BranchSource::branch(std::size_t index) const {
+  auto [values, replacements, made] = for_each_->at(index);
+  CaseBranch branch = common_;
+  branch.values = std::move(values);
+  read_system(*document_, replacements, use_, branch.problem);
+  const TomlSection system(*document_, "system", &replacements);
+  if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
+    system.fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
+  if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
+    system.fail("harmonics", "\"auto\" is only for the forced response");
+  if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())
+    branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
+  if (branch.curve) find_seed(section_, branch);
+  check_stability(section_, branch);
+  return branch;
+}
+
+/// Refuses values that `for_each` takes the place of as it would without it.
+void BranchSource::check_replaced() const {
+  if (for_each_->keys().empty()) return;
+  const ForEachSet lacking = for_each_->lacking();
+  ProblemRequest problem = common_.problem;
+  read_system(*document_, lacking.replacements, use_, problem);
+  if (section_.has("eta")) section_.number("eta", positive());
+}
+
+CaseBranch BranchSource::checked() const {
+  for (const std::size_t index : for_each_->samples()) branch(index);
+  CaseBranch first = branch(0);
+  check_extrema(section_, first);
+  check_replaced();
+  return first;
+}
+
+}  // namespace
+
+CaseFile::CaseFile(const std::string& path, const std::vector<std::string>& settings)
+    : document_(std::make_shared<const TomlDocument>(path, settings)) {}
+
+const std::string& CaseFile::path() const { return document_->path(); }
+
+bool CaseFile::has(const std::string& section) const { return document_->root().contains(section); }
+
+void CaseFile::named(const std::string& section, const std::function<void()>& work) const {
+  const auto fail = [&](const std::string& why) {
+    document_->fail(document_->root().get(section), section, why);
+  };
+  try {
+    work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail("there is not enough memory for what it asks for");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+bool has_section(const std::string& path, const std::string& name, const std::vector<std::string>& settings) {
+  return CaseFile(path, settings).has(name);
+}
+
+CasePlan plan_case(const CaseFile& file) {
+  const auto source = std::make_shared<const BranchSource>(file.document());
+  const TomlSection root(*file.document(), "");
+  CasePlan plan;
+  plan.title = root.has("title") ? root.text("title", {}) : "";
+  plan.count = source->count();
+  plan.branch = [source](std::size_t index) { return source->branch(index); };
+  plan.resolved = resolve(*file.document(), source->checked());
+  return plan;
+}
+
+Case read_case(const std::string& path, const std::vector<std::string>& settings) {
+  CasePlan plan = plan_case(CaseFile(path, settings));
+  Case result{std::move(plan.title), std::move(plan.resolved), {}};
+  for (std::size_t i = 0; i < plan.count; ++i) result.branches.push_back(plan.branch(i));
+  return result;
+}
+
+std::string describe(const ordered_json& values) {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : values.items()) {
+    parts.push_back(fmt::format("{} = {}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace arcslip

@@ -1,0 +1,375 @@
+#include "arcslip/cases/runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <type_traits>
+
+#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/switching.hpp"
+#include "arcslip/problems/response/cubic_response.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/response/limit_cycle.hpp"
+#include "arcslip/problems/response/nonlinear_mode.hpp"
+#include "arcslip/problems/response/one_way_response.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::BasePoint;
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::PointType;
+using continuation::TimeBudget;
+using Clock = std::chrono::steady_clock;
+
+/// Guesses throw std::invalid_argument where there is no solution.
+template <class Guess>
+Subject guessed(std::shared_ptr<const continuation::Problem> problem, Guess guess) {
+  Subject subject{std::move(problem), {}, {}};
+  try {
+    subject.guess = guess();
+  } catch (const std::invalid_argument& error) {
+    subject.failure = error.what();
+  } catch (const continuation::Unfinished& error) {
+    subject.failure = error.what();
+    subject.stop = error.stop;
+  }
+  return subject;
+}
+
+Subject build_library(const ProblemRequest& request, const std::string& parameter, double value) {
+  problems::LibraryModel::Values settings = request.settings;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (request.model->settings[i].name == parameter) settings[i] = value;
+  }
+  const std::shared_ptr<const continuation::Problem> problem = request.model->build(settings);
+  return guessed(problem, [&] { return request.model->guess(*problem, settings); });
+}
+
+/// The problem of a system with friction: of the type, which has the system's contacts and harmonics.
+template <class Type>
+std::shared_ptr<Type> build_problem(const SystemParameters& system) {
+  if constexpr (std::is_same_v<Type, problems::FloquetResponse>) {
+    return problems::build_floquet_response(system);
+  } else if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
+    return std::make_shared<Type>(build_harmonic_system(system));
+  } else {
+    return std::make_shared<Type>(build_system(system));
+  }
+}
+
+/// Calls `use` with the type of the problem of a system with friction.
+template <class Use>
+auto with_type(const ProblemRequest& request, const Use& use) {
+  if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
+  if (request.stability) return use(std::type_identity<problems::FloquetResponse>{});
+  if (needs_contact_system(request.system) || request.system.harmonics.size() > 1 ||
+      request.harmonics_tolerance)
+    return use(std::type_identity<problems::HarmonicResponse>{});
+  if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
+  if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
+  if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
+  return use(std::type_identity<problems::ForcedResponse>{});
+}
+
+Subject build_friction(const ProblemRequest& request, const std::string& parameter, double value,
+                       const continuation::TraceOptions& limits) {
+  const auto value_of = [&](const std::string& name) {
+    return name == parameter ? value : fixed_value(request, name);
+  };
+  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
+    const auto problem = build_problem<Type>(request.system);
+    return guessed(problem, [&] {
+      if constexpr (std::is_same_v<Type, problems::NonlinearMode>) {
+        return problem->guess(request.eta, value, value_of("P"));
+      } else if constexpr (std::is_base_of_v<problems::HarmonicResponse, Type>) {
+        return problem->guess(value_of("eta"), value_of("P"), limits);
+      } else {
+        return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
+      }
+    });
+  });
+}
+
+using Request = std::shared_ptr<const CaseBranch>;
+
+TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
+  TracedBranch none{request, subject.problem, nullptr, {}, 0};
+  none.branch.stop = subject.stop;
+  none.branch.explanation = why;
+  return none;
+}
+
+/// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
+std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time) {
+  constexpr Index small = 50;
+  constexpr double wide = 10;  // of the problem's scale
+  const continuation::Guess& guess = subject.guess;
+  continuation::SolveAllOptions options;
+  options.go_on = [&] { return time.goes_on(); };
+  if (guess.unknowns.size() <= small) {
+    Vector scale(guess.unknowns.size());
+    Vector parameter_scale(guess.parameters.size());
+    subject.problem->scale(guess.unknowns, guess.parameters, scale, parameter_scale);
+    options.lower = guess.unknowns - wide * scale;
+    options.upper = guess.unknowns + wide * scale;
+  }
+  return continuation::solve_all(*subject.problem, {guess}, options);
+}
+
+std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
+                                         const TimeBudget& time, const continuation::Observer& observer) {
+  const continuation::Problem& problem = *subject.problem;
+  std::vector<Branch> branches;
+  if (request->switching) {
+    branches = continuation::trace_connected(problem, subject.guess, time.rest(), {}, observer);
+  } else if (request->all_solutions) {
+    branches = continuation::trace_through(problem, solutions_around(subject, time), time.rest(), observer);
+  } else if (request->start) {
+    branches.push_back(continuation::trace_both(problem, subject.guess, time.rest(), observer));
+  } else {
+    branches.push_back(continuation::trace(problem, subject.guess, time.rest(), observer));
+  }
+  std::vector<TracedBranch> traced;
+  traced.reserve(branches.size());
+  for (Branch& branch : branches) traced.push_back({request, subject.problem, nullptr, std::move(branch), 0});
+  return traced;
+}
+
+/// Whether a curve passes the special point of its base.
+bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
+  const Index parameter = continuation::index_of(traced.base->parameter_names(), second);
+  const auto same = [](const Vector& a, const Vector& b) {
+    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
+  };
+  return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
+    const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
+    return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
+               1e-12 * std::abs(seed.parameters(parameter)) &&
+           same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
+  });
+}
+
+/// Whether a `user` point is one that was asked for.
+bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
+  const continuation::TraceOptions& options = curve.request->options;
+  const double value =
+      point.parameters(continuation::index_of(curve.curve->parameter_names(), options.parameter));
+  return std::count(options.stop_at.begin(), options.stop_at.end(), value) > 0;
+}
+
+/// The special points on the branch over the first parameter, then the curve through each, but once.
+std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject, const TimeBudget& time,
+                                       const continuation::Observer& observer) {
+  const CurveRequest& asked = *request->curve;
+  continuation::TraceOptions seeking = seed_branch(*request).options;
+  seeking.max_seconds = time.rest().max_seconds;
+  const Branch seeds = continuation::trace(*subject.problem, subject.guess, seeking);
+
+  continuation::TraceOptions options = request->options;
+  const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
+  const bool ridge = asked.type == PointType::peak || asked.type == PointType::trough;
+  options.extrema_of = {ridge ? observable : asked.active};  // one of the two, or rows would be ambiguous
+  options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
+  std::vector<TracedBranch> curves;
+  for (const BranchPoint& seed : seeds.points) {
+    if (seed.type != asked.type) continue;
+    const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
+    if (std::any_of(curves.begin(), curves.end(), known)) continue;
+    continuation::CurveStart start =
+        continuation::curve_through(*subject.problem, asked.active, seed, observable);
+    const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
+    const Clock::time_point begun = Clock::now();
+    options.max_seconds = time.rest().max_seconds;
+    Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
+    const std::chrono::duration<double> seconds = Clock::now() - begun;
+    const bool interrupted = branch.stop == continuation::Stop::interrupted;
+    curves.push_back({request, subject.problem, curve, std::move(branch), seconds.count()});
+    if (interrupted || time.is_spent()) break;
+  }
+  for (TracedBranch& curve : curves) {
+    for (BranchPoint& point : curve.branch.points) {
+      if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;
+    }
+  }
+  if (!curves.empty()) return curves;
+  Subject none = subject;
+  if (!seeds.complete()) none.stop = seeds.stop;
+  return {unstarted(request, none,
+                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
+                                asked.active, asked.from, asked.to, options.parameter, asked.seed,
+                                seeds.complete() ? "" : ": " + seeds.explanation))};
+}
+
+std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& request) {
+  if (request.model != nullptr) return request.model->build(request.settings);
+  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
+    return std::shared_ptr<const continuation::Problem>(build_problem<Type>(request.system));
+  });
+}
+
+}  // namespace
+
+void try_to_build(const ProblemRequest& request) { problem_of(request); }
+
+std::vector<std::string> tracked_observables(const ProblemRequest& request) {
+  std::vector<std::string> names;
+  for (const continuation::Observable& observable : problem_of(request)->observables()) {
+    if (observable.has_gradient) names.push_back(observable.name);
+  }
+  return names;
+}
+
+double fixed_value(const ProblemRequest& problem, const std::string& parameter) {
+  if (problem.model == nullptr) {
+    return parameter == "P"     ? problem.system.preload
+           : parameter == "eta" ? problem.eta
+                                : problem.system.base_damping;
+  }
+  for (std::size_t i = 0; i < problem.settings.size(); ++i) {
+    if (problem.model->settings[i].name == parameter) return problem.settings[i];
+  }
+  return 0;
+}
+
+Subject build(const ProblemRequest& request, const std::string& parameter, double value,
+              const continuation::TraceOptions& limits) {
+  return request.model != nullptr ? build_library(request, parameter, value)
+                                  : build_friction(request, parameter, value, limits);
+}
+
+CaseBranch seed_branch(const CaseBranch& request) {
+  CaseBranch seeds = request;
+  seeds.options.parameter = request.curve->active;
+  seeds.options.from = request.curve->from;
+  seeds.options.to = request.curve->to;
+  seeds.options.stop_at.clear();
+  seeds.options.stop_after.clear();
+  seeds.curve.reset();
+  return seeds;
+}
+
+namespace {
+
+std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& time,
+                                      const continuation::Observer& observer) {
+  const Clock::time_point begun = Clock::now();
+  const CaseBranch first = request->curve ? seed_branch(*request) : *request;
+  const Subject subject =
+      build(first.problem, first.options.parameter, first.start.value_or(first.options.from), time.rest());
+  if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
+  if (request->curve) return trace_curves(request, subject, time, observer);
+  std::vector<TracedBranch> traced = trace_branches(request, subject, time, observer);
+  if (traced.empty()) {
+    const CaseBranch& asked = *request;
+    return {unstarted(request, subject,
+                      fmt::format("no solution was found at {} = {:.10g}, be it by deflation",
+                                  asked.options.parameter, asked.start.value_or(asked.options.from)))};
+  }
+  const std::chrono::duration<double> seconds = Clock::now() - begun;
+  for (TracedBranch& branch : traced) branch.seconds = seconds.count() / static_cast<double>(traced.size());
+  return traced;
+}
+
+/// The harmonics that `problem` leaves out although their force would move a contact by more than `tolerance`
+/// times R at some point of the branch. Looked for up to about twice its highest one.
+std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance,
+                                const TimeBudget& time) {
+  const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
+  SystemParameters wide = system;
+  wide.harmonics = odd_up_to(highest);
+  const problems::HarmonicResponse problem(build_harmonic_system(wide));
+  const Index contacts = problem.contacts();
+  const auto known = static_cast<Index>(system.harmonics.size());
+  Vector padded(problem.size());
+  Vector residual(problem.size());
+  Vector largest = Vector::Zero(problem.harmonics());
+  for (const BranchPoint& point : branch.points) {
+    if (!time.goes_on()) return {};
+    padded.setZero();
+    for (Index i = 0; i < contacts; ++i) {
+      for (Index a = 0; a < known; ++a) {
+        const Index order = system.harmonics[static_cast<std::size_t>(a)] / 2;
+        padded.segment<2>(2 * (i * problem.harmonics() + order)) =
+            point.unknowns.segment<2>(2 * (i * known + a));
+      }
+    }
+    if (!problem.evaluate(padded, point.parameters, point.regime, {&residual})) continue;
+    for (Index row = 0; row < residual.size(); ++row) {
+      double& size = largest(row / 2 % problem.harmonics());
+      size = std::max(size, std::abs(residual(row)));
+    }
+  }
+  std::vector<int> missing;
+  for (const int h : wide.harmonics) {
+    if (largest(h / 2) > tolerance &&
+        !std::binary_search(system.harmonics.begin(), system.harmonics.end(), h))
+      missing.push_back(h);
+  }
+  return missing;
+}
+
+/// The branch with as many harmonics as its own points ask for.
+std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudget& time,
+                                         const continuation::Observer& observer) {
+  const auto widened = std::make_shared<CaseBranch>(*request);
+  std::vector<int>& orders = widened->problem.system.harmonics;
+  while (true) {
+    std::vector<TracedBranch> traced = trace_given(widened, time, observer);
+    std::vector<int> missing;
+    for (TracedBranch& one : traced) {
+      one.request = request;
+      if (!one.branch.complete() || one.curve) continue;
+      const std::vector<int> more =
+          missing_orders(widened->problem.system, one.branch, *request->problem.harmonics_tolerance, time);
+      missing.insert(missing.end(), more.begin(), more.end());
+      if (time.goes_on()) continue;
+      one.branch.stop = time.is_spent() ? continuation::Stop::time_limit : continuation::Stop::interrupted;
+      one.branch.explanation = "ended before it was known whether its harmonics suffice";
+    }
+    if (!time.goes_on() || missing.empty()) return traced;
+    orders.insert(orders.end(), missing.begin(), missing.end());
+    std::sort(orders.begin(), orders.end());
+    orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+  }
+}
+
+}  // namespace
+
+std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
+  const auto kept = std::make_shared<const CaseBranch>(request);
+  const TimeBudget time(request.options);
+  return request.problem.harmonics_tolerance ? trace_balanced(kept, time, observer)
+                                             : trace_given(kept, time, observer);
+}
+
+std::string why_not_certifiable(const CaseBranch& request) {
+  const ProblemRequest& problem = request.problem;
+  if (problem.model != nullptr) return fmt::format("the model {}", problem.model->name);
+  if (request.curve) return fmt::format("a curve of {} points", to_string(request.curve->type));
+  if (problem.is_limit_cycle()) return "limit cycles";
+  if (problem.response == Response::one_way) return "a one-way response";
+  if (problem.is_mode()) return "nonlinear modes";
+  if (problem.stability) return "branches with stability";
+  if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance) return "several harmonics";
+  if (needs_contact_system(problem.system)) return "several contacts or the full path of a sector";
+  if (problem.system.cubic_stiffness != 0) return "cubic springs";
+  return "";
+}
+
+void certify(TracedBranch& traced) {
+  const continuation::TraceOptions& options = traced.request->options;
+  const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
+  const auto parameter =
+      options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
+  traced.certificate = problems::certify(problem, traced.branch, parameter,
+                                         {options.tolerance, options.max_step, options.go_on});
+}
+
+}  // namespace arcslip

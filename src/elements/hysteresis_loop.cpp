@@ -1,0 +1,135 @@
+#include "arcslip/elements/hysteresis_loop.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "motion/bracketed_newton.hpp"
+
+namespace arcslip {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr Complex j{0, 1};
+
+/// I_m = int e^{jm theta} dtheta over an arc for m >= 0, to the rounding of each however short the arc is;
+/// I_{-m} is its conjugate.
+class ArcIntegrals {
+ public:
+  ArcIntegrals(double begin, double width, int highest) {
+    const double half = 0.5 * width;
+    const Complex turn = std::polar(1.0, begin + half);
+    Complex power = 1;
+    values_[0] = 2 * half;
+    for (int m = 1; m <= highest; ++m) {
+      power *= turn;
+      values_[static_cast<std::size_t>(m)] = power * (2 * std::sin(m * half) / m);
+    }
+  }
+
+  Complex operator[](int m) const {
+    return m < 0 ? std::conj(values_[static_cast<std::size_t>(-m)]) : values_[static_cast<std::size_t>(m)];
+  }
+
+ private:
+  std::array<Complex, std::size_t{4} * most_harmonics> values_;
+};
+
+}  // namespace
+
+HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
+    : motion_(motion), slip_threshold_(slip_threshold) {
+  march();
+}
+
+/// How far beyond a turning point the motion has changed by `room`.
+double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
+  const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
+  return bracketed_newton(
+      [&](double step) {
+        return std::pair(motion_.change(from, step) - room, motion_.slopes(from + step).first);
+      },
+      guess < longest ? guess : 0.5 * longest, 0.0, longest, room > 0);
+}
+
+void HysteresisLoop::march() {
+  const Angles found = motion_.turning_points();
+  int first = 0;
+  for (int i = 0; i < found.count; ++i) {
+    const double here = std::abs(motion_.value(found[i]));
+    if (here > amplitude_) std::tie(amplitude_, first) = std::pair(here, i);
+  }
+  const double lead = motion_.value(found[first]) > 0 ? 0 : pi;  // shifts the largest to a maximum
+  const auto turn = [&](int i) {
+    const int place = first + i;
+    return place < found.count ? found[place] + lead : found[place - found.count] + pi + lead;
+  };
+  begin_ = turn(0);
+
+  double force = slip_threshold_;
+  double anchor = begin_;
+  bool sticking = true;
+  for (int i = 0; i < found.count; ++i) {
+    const double longest = turn(i + 1) - turn(i);
+    const double change = motion_.change(turn(i), longest);
+    const double sign = change > 0 ? 1 : -1;
+    const double room = sign * slip_threshold_ - force;
+    sticking = std::abs(change) <= std::abs(room);
+    if (sticking) {
+      force += change;
+      continue;
+    }
+    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room)};
+    slipped_ += std::abs(change) - std::abs(room);
+    ++slips_;
+    force = sign * slip_threshold_;
+    anchor = turn(i + 1);
+  }
+  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi - anchor};
+  mismatch_ = force + slip_threshold_;
+}
+
+void HysteresisLoop::force(HarmonicVector& harmonics) const {
+  const std::span<const int> orders = motion_.orders();
+  const HarmonicVector& r = motion_.coefficients();
+  const Index count = r.size();
+  harmonics.resize(count);
+  for (Index a = 0; a < count; ++a)
+    harmonics(a) = mismatch_ * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * begin_);
+  for (std::size_t arc = 0; arc < sticks_; ++arc) {
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
+    for (Index b = 0; b < count; ++b) {
+      const int l = orders[static_cast<std::size_t>(b)];
+      const Complex velocity = 0.5 * l * j * r(b);
+      for (Index a = 0; a < count; ++a) {
+        const int h = orders[static_cast<std::size_t>(a)];
+        harmonics(a) += velocity * integral[l - h] + std::conj(velocity * integral[l + h]);
+      }
+    }
+  }
+  for (Index a = 0; a < count; ++a) harmonics(a) *= -j * (2 / (pi * orders[static_cast<std::size_t>(a)]));
+}
+
+void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate) const {
+  const std::span<const int> orders = motion_.orders();
+  const Index count = motion_.coefficients().size();
+  linear.setZero(count, count);
+  conjugate.setZero(count, count);
+  for (std::size_t arc = 0; arc < sticks_; ++arc) {
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
+    for (Index b = 0; b < count; ++b) {
+      const int l = orders[static_cast<std::size_t>(b)];
+      const Complex turn = std::polar(1.0, l * stick_[arc].begin);
+      for (Index a = 0; a < count; ++a) {
+        const int h = orders[static_cast<std::size_t>(a)];
+        linear(a, b) += integral[l - h] - turn * integral[-h];
+        conjugate(a, b) += std::conj(integral[l + h] - turn * integral[h]);
+      }
+    }
+  }
+  linear *= 1 / pi;
+  conjugate *= 1 / pi;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,65 @@
+#pragma once
+
+// What a point of a branch is described by: the columns of tables and summaries.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arcslip/cases/runs.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/results/results.hpp"
+
+namespace arcslip {
+
+/// Parameters and observables by name. Of a curve of special points the active parameter is an observable; it
+/// stands among the parameters, in the base's order. What was traced must outlive it.
+class Columns {
+ public:
+  explicit Columns(const TracedBranch& traced, BranchTable::Detail detail = BranchTable::Detail::full);
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// In the order of the names; valid until the next call.
+  const std::vector<double>& values(const continuation::BranchPoint& point);
+
+  /// The place of a name, or -1.
+  Index find(const std::string& name) const;
+
+  /// Those that tables and summaries show of a special point.
+  std::vector<Index> shown() const;
+
+ private:
+  void observe(const continuation::BranchPoint& point);
+  bool is_constant(const std::string& name) const;
+
+  const continuation::Problem& problem_;
+  const problems::FloquetResponse* without_verdict_ = nullptr;
+  const CaseBranch& request_;
+  std::vector<std::string> names_;
+  Index parameters_ = 0;
+  Index moved_ = -1;
+  Vector observed_;
+  std::vector<double> values_;
+};
+
+/// The columns in SI units that a system given in them has besides; none of any other.
+class PhysicalColumns {
+ public:
+  explicit PhysicalColumns(const TracedBranch& traced);
+
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// In the order of the names, from the values of Columns.
+  std::vector<double> values(const std::vector<double>& row) const;
+
+  /// Those that the table shows of a special point.
+  std::vector<std::size_t> shown() const;
+
+ private:
+  std::optional<PhysicalScale> scale_;
+  std::vector<std::size_t> sources_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace arcslip

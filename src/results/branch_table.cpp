@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "arcslip/results/results.hpp"
+#include "results/branch_columns.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::BranchPoint;
+using continuation::PointType;
+
+bool tells_stability(const TracedBranch& traced) {
+  const std::vector<BranchPoint>& points = traced.branch.points;
+  return !traced.curve && !points.empty() && points.front().unstable >= 0;
+}
+
+constexpr std::size_t leading = 4;  // columns: branch, point, type, regime
+constexpr const char* no_stability = ",-1";
+
+}  // namespace
+
+void BranchTable::widen(const TracedBranch& traced) {
+  const Columns columns(traced);
+  for (const std::string& name : columns.names()) {
+    if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+  }
+  stability_ = stability_ || tells_stability(traced);
+  physical_ = PhysicalColumns(traced).names();
+}
+
+std::string BranchTable::header() const {
+  std::string text = "branch,point,type,regime";
+  for (const std::string& name : names_) text += "," + name;
+  if (stability_) text += ",unstable";
+  text += ",arclength,iterations,residual";
+  for (const std::string& name : physical_) text += "," + name;
+  return text + "\n";
+}
+
+std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, Detail detail) const {
+  const int digits = detail == Detail::full ? 17 : 10;
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  const auto number_to = [&](double value) { fmt::format_to(out, ",{:.{}g}", value, digits); };
+  Columns columns(traced, detail);
+  const PhysicalColumns physical(traced);
+  std::vector<Index> places;
+  for (const std::string& name : names_) places.push_back(columns.find(name));
+  const std::vector<std::string> regimes = traced.base->regime_names();
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const BranchPoint& point = traced.branch.points[i];
+    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
+                   regimes[static_cast<std::size_t>(point.regime)]);
+    const std::vector<double>& values = columns.values(point);
+    for (const Index place : places)
+      number_to(place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);
+    if (stability_) fmt::format_to(out, ",{}", point.unstable);
+    number_to(point.arclength);
+    fmt::format_to(out, ",{}", point.iterations);
+    number_to(point.residual);
+    for (const double value : physical.values(values)) number_to(value);
+    fmt::format_to(out, "\n");
+  }
+  return fmt::to_string(text);
+}
+
+std::string BranchTable::widened(std::string_view row, const BranchTable& before) const {
+  const auto place_after = [&](std::size_t columns) {
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < columns; ++i)
+      place = std::min(row.find(',', place + (i > 0 ? 1 : 0)), row.size());
+    return place;
+  };
+  const std::size_t known = place_after(leading + before.names_.size());
+  std::string text(row.substr(0, known));
+  for (std::size_t i = before.names_.size(); i < names_.size(); ++i) text += ",nan";
+  if (stability_ && !before.stability_) text += no_stability;
+  return text.append(row.substr(known));
+}
+
+void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {
+  BranchTable table;
+  for (const TracedBranch& one : traced) table.widen(one);
+  sink(table.header());
+  for (std::size_t number = 0; number < traced.size(); ++number) sink(table.rows(number, traced[number]));
+}
+
+std::string special_table_header(const TracedBranch& traced) {
+  const Columns columns(traced);
+  std::string header = fmt::format("{:>6} {:>6}  {:<12}", "branch", "point", "type");
+  for (const Index i : columns.shown()) {
+    const std::string& name = columns.names()[static_cast<std::size_t>(i)];
+    header += fmt::format(" {:>15}", name == "R_over_S" ? "R/S" : name);
+  }
+  const PhysicalColumns physical(traced);
+  for (const std::size_t i : physical.shown()) header += fmt::format(" {:>15}", physical.names()[i]);
+  return header + "\n";
+}
+
+std::string special_table(std::size_t number, const TracedBranch& traced) {
+  Columns columns(traced);
+  const PhysicalColumns physical(traced);
+  const std::vector<Index> shown = columns.shown();
+  std::string rows;
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const BranchPoint& point = traced.branch.points[i];
+    if (point.type == PointType::regular) continue;
+    const std::vector<double>& values = columns.values(point);
+    rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, to_string(point.type));
+    for (const Index k : shown) rows += fmt::format(" {:>15.9g}", values[static_cast<std::size_t>(k)]);
+    const std::vector<double> in_units = physical.values(values);
+    for (const std::size_t k : physical.shown()) rows += fmt::format(" {:>15.9g}", in_units[k]);
+    rows += "\n";
+  }
+  return rows;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,197 @@
+#include "arcslip/results/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/response/nonlinear_mode.hpp"
+#include "results/branch_columns.hpp"
+#include "results/certificate_results.hpp"
+#include "results/stability_results.hpp"
+#include "results/verification_results.hpp"
+#include "sectors/full_receptance.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::BranchPoint;
+using continuation::PointType;
+using nlohmann::ordered_json;
+
+/// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
+void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
+  if (!problem.geometry) return;
+  const SystemParameters& system = problem.system;
+  const PhysicalScale scale(*problem.geometry, system);
+  ordered_json groups = {{"mass_ratio", system.mass_ratio},
+                         {"frequency_ratio", system.frequency_ratio},
+                         {"interface_stiffness", system.interface_stiffness},
+                         {"force", system.force}};
+  if (problem.geometry->preload_per_length > 0) groups["preload"] = system.preload;
+  summary["groups"] = groups;
+  summary["units"] = {{"frequency_Hz", scale.frequency(1)},
+                      {"displacement_m", scale.displacement(1)},
+                      {"preload_N_per_m", scale.preload_per_length(1)},
+                      {"force_N_per_m", scale.force_per_length(1)},
+                      {"energy_J", scale.energy(1)}};
+}
+
+ordered_json special_points(const TracedBranch& traced) {
+  Columns columns(traced);
+  const PhysicalColumns physical(traced);
+  ordered_json listed = ordered_json::array();
+  for (const BranchPoint& point : traced.branch.points) {
+    if (point.type == PointType::regular) continue;
+    const std::vector<double>& values = columns.values(point);
+    ordered_json special = {{"type", to_string(point.type)}};
+    for (const Index k : columns.shown())
+      special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
+    const std::vector<double> in_units = physical.values(values);
+    for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
+    if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
+    listed.push_back(std::move(special));
+  }
+  return listed;
+}
+
+/// The highest peak of Y; null without one, and for curves, of which it would not be one.
+ordered_json highest_peak(const TracedBranch& traced, const ordered_json& special) {
+  const ordered_json* best = nullptr;
+  for (const ordered_json& point : special) {
+    if (traced.curve || point["type"] != "peak" || !point.contains("Y")) continue;
+    if (best == nullptr || point["Y"] > (*best)["Y"]) best = &point;
+  }
+  if (best == nullptr) return nullptr;
+  return {{"eta", (*best)["eta"]}, {"Y", (*best)["Y"]}, {"R_over_S", (*best)["R_over_S"]}};
+}
+
+bool is_full(const SystemParameters& system) { return system.sectors->path() == SectorPath::full; }
+
+}  // namespace
+
+ordered_json summarize(std::size_t number, const TracedBranch& traced) {
+  const ordered_json special = special_points(traced);
+  const continuation::Work& work = traced.branch.work;
+  ordered_json summary = {{"branch", number},
+                          {"values", traced.request->values},
+                          {"points", traced.branch.points.size()},
+                          {"stop", to_string(traced.branch.stop)},
+                          {"explanation", traced.branch.explanation}};
+  add_geometry(traced.request->problem, summary);
+  if (const SystemParameters& system = traced.request->problem.system; system.sectors)
+    summary[is_full(system) ? "full_solves" : "reduction"] = modes_to_json(system);
+  if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
+  if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
+  if (why_not_verifiable(*traced.request).empty()) {
+    const std::optional<problems::BalanceErrors> errors =
+        problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
+                                 traced.request->options.go_on);
+    summary["power_error"] = errors ? ordered_json(errors->power) : ordered_json(nullptr);
+    summary["power_cancellation"] = errors ? ordered_json(errors->cancellation) : ordered_json(nullptr);
+    summary["motion_error"] = errors ? ordered_json(errors->motion) : ordered_json(nullptr);
+  }
+  summary["special"] = special;
+  summary["peak"] = highest_peak(traced, special);
+  summary["work"] = {{"evaluations", work.evaluations},
+                     {"factorizations", work.factorizations},
+                     {"iterations", work.iterations},
+                     {"rejected_steps", work.rejected_steps}};
+  summary["seconds"] = traced.seconds;
+  if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
+  return summary;
+}
+
+ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds) {
+  ordered_json branches = ordered_json::array();
+  for (std::size_t number = 0; number < traced.size(); ++number)
+    branches.push_back(summarize(number, traced[number]));
+  return {{"arcslip", ARCSLIP_VERSION},
+          {"title", input.title},
+          {"case", input.resolved},
+          {"branches", branches},
+          {"seconds", seconds}};
+}
+
+std::string describe_groups(const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  std::string text = fmt::format("M* = {:.6g}, gamma = {:.6g}, K_FD = {:.6g}, F = {:.6g}", system.mass_ratio,
+                                 system.frequency_ratio, system.interface_stiffness, system.force);
+  if (problem.geometry && problem.geometry->preload_per_length > 0)
+    text += fmt::format(", P = {:.6g}", system.preload);
+  return text;
+}
+
+std::string describe_units(const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  const PhysicalScale scale(problem.geometry.value(), system);
+  const auto n = static_cast<double>(system.wave_number);
+  const double damper = system.model == StructureModel::rods ? n : n * n;
+  return fmt::format(
+      "eta = 1: {:.6g} Hz, P = 1: {:.6g} N/m, Y = 1: {:.6g} m; resonances alone: base {:.6g} Hz, damper "
+      "{:.6g} Hz",
+      scale.frequency(1), scale.preload_per_length(1), scale.displacement(1),
+      scale.frequency(damper * system.frequency_ratio), scale.frequency(damper));
+}
+
+std::string describe_modes(const SystemParameters& system) {
+  std::string text;
+  const ordered_json parts = modes_to_json(system);
+  for (const auto& [name, part] : parts.items()) {
+    if (!text.empty()) text += "\n  ";
+    if (is_full(system)) {
+      text += fmt::format("{}: full path, {} dofs solved for at each eta; {} modes show the resonances", name,
+                          part["dofs"].get<Index>(), part["modes"].get<Index>());
+      continue;
+    }
+    text += fmt::format(
+        "{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
+        "factorisations",
+        name, part["modes"].get<Index>(), part["dofs"].get<Index>(), part["error"].get<double>(),
+        part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
+        part["check_etas"].size(), part["error_eta"].get<double>(), part["factorisations"].get<int>());
+  }
+  return text;
+}
+
+ordered_json modes_to_json(const SystemParameters& system) {
+  ordered_json parts = ordered_json::object();
+  const SectorUse use = sector_use(system);
+  const SectorPair& sectors = *system.sectors;
+  const auto add = [&](const char* name, const SectorModes& modes, const auto& solves) {
+    ordered_json& part = parts[name] = {{"dofs", modes.dofs}, {"modes", modes.frequencies.size()}};
+    if (is_full(system)) {
+      part["factorisations"] = solves()->factorisations();
+      return;
+    }
+    part["error"] = modes.error;
+    part["error_eta"] = modes.error_eta;
+    part["check_etas"] = modes.check_etas;
+    part["factorisations"] = modes.factorisations;
+  };
+  add("base", sectors.base_modes(use, system.base_damping),
+      [&] { return sectors.base_solves(use.wave, system.base_damping); });
+  if (sectors.damper() != nullptr)
+    add("damper", sectors.damper_modes(use, system.damper_damping),
+        [&] { return sectors.damper_solves(use.wave, system.damper_damping); });
+  return parts;
+}
+
+std::vector<int> harmonics_of(const continuation::Problem& problem) {
+  if (const auto* several = dynamic_cast<const problems::HarmonicResponse*>(&problem))
+    return several->system().orders;
+  if (const auto* mode = dynamic_cast<const problems::NonlinearMode*>(&problem)) return mode->system().orders;
+  return {1};
+}
+
+std::string describe_harmonics(const TracedBranch& traced) {
+  const std::vector<int> orders = harmonics_of(*traced.base);
+  if (orders.size() == 1) return "";
+  return fmt::format("{} harmonics, up to {}\n", orders.size(), orders.back());
+}
+
+}  // namespace arcslip

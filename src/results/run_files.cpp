@@ -1,0 +1,120 @@
+#include "results/run_files.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "arcslip/continuation/path/polyline.hpp"
+#include "results/branch_columns.hpp"
+#include "results/certificate_results.hpp"
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json beginning(const CasePlan& plan) {
+  return {{"arcslip", ARCSLIP_VERSION}, {"title", plan.title}, {"case", plan.resolved}};
+}
+
+constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
+
+/// The branch as a polyline that looks like the curve.
+TracedBranch as_drawn(const TracedBranch& traced) {
+  TracedBranch drawn = traced;
+  Columns columns(traced, BranchTable::Detail::drawn);
+  drawn.branch.points = continuation::polyline(
+      traced.branch,
+      continuation::index_of(traced.problem().parameter_names(), traced.request->options.parameter),
+      [&](const continuation::BranchPoint& point) -> const std::vector<double>& {
+        return columns.values(point);
+      });
+  return drawn;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verified)
+    : folder_(folder),
+      branches_(folder + "/branches.csv", BranchTable::Detail::full),
+      curves_(folder + "/curves.csv", BranchTable::Detail::drawn),
+      summary_(folder, beginning(plan)) {
+  if (!verified) return;
+  verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
+  verification_->write(verification_header());
+}
+
+void RunFiles::add(const TracedBranch& traced) {
+  BranchFile::Rows rows = branches_.rows(count_, traced);
+  const bool many = curve_rows_ + traced.branch.points.size() > most_curve_rows;
+  BranchFile::Rows curve = curves_.rows(count_, many ? traced : as_drawn(traced));
+  ordered_json summary = summarize(count_, traced);
+
+  const std::scoped_lock lock(mutex_);
+  if (finished_) return;
+  write_summary();
+  curve_rows_ += curve.count;
+  branches_.add(std::move(rows));
+  curves_.add(std::move(curve));
+  last_ = std::move(summary);
+  ++count_;
+}
+
+void RunFiles::add_failed(const CaseBranch& request, const std::string& why) {
+  const std::scoped_lock lock(mutex_);
+  if (finished_) return;
+  write_summary();
+  last_ = {{"branch", count_},   {"values", request.values},
+           {"points", 0},        {"stop", to_string(continuation::Stop::no_start)},
+           {"explanation", why}, {"special", ordered_json::array()},
+           {"peak", nullptr}};
+  ++count_;
+}
+
+void RunFiles::add_certificate(const problems::Certificate& certificate) {
+  const std::scoped_lock lock(mutex_);
+  last_["certificate"] = certificate_to_json(certificate);
+}
+
+void RunFiles::begin_verification() {
+  const std::scoped_lock lock(mutex_);
+  verifying_ = true;
+}
+
+void RunFiles::add(const TracedBranch& traced, const problems::Verification& point) {
+  const std::scoped_lock lock(mutex_);
+  if (!finished_) verification_->write(verification_row(count_ - 1, traced, point));
+}
+
+void RunFiles::end_verification(const VerifiedBranch& verified) {
+  const std::scoped_lock lock(mutex_);
+  if (finished_) return;
+  if (!verified.is_complete()) verification_->write(interrupted_verification_row(count_ - 1));
+  verifying_ = false;
+}
+
+void RunFiles::write_summary() {
+  if (!last_.is_null()) summary_.add(last_);
+  last_ = nullptr;
+}
+
+void RunFiles::finish(double seconds, bool interrupted) {
+  const std::scoped_lock lock(mutex_);
+  if (finished_) return;
+  finished_ = true;
+  write_summary();
+  summary_.finish({{"seconds", seconds}, {"interrupted", interrupted}});
+  if (verifying_) verification_->write(interrupted_verification_row(count_ - 1));
+  branches_.finish();
+  curves_.finish();  // the later one: pictures are drawn from it
+  summary_.file().sync();
+  if (verification_) verification_->sync();
+  std::error_code ignored;
+  // It belongs to other branches.
+  if (!verification_) std::filesystem::remove(folder_ + "/verify.csv", ignored);
+  branches_.commit();
+  curves_.commit();
+  summary_.file().commit();
+  if (verification_) verification_->commit();
+}
+
+}  // namespace arcslip

@@ -1,0 +1,116 @@
+#include "results/study_extras.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace arcslip {
+namespace {
+
+/// The columns of the table `quantiles`, which are named by per cents: q5.
+std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty) {
+  std::vector<std::string> names;
+  for (const double quantile : uncertainty.quantiles) names.push_back(fmt::format("q{:g}", 100 * quantile));
+  return names;
+}
+
+void append(std::vector<ExtraColumn>& columns, bool wanted, const std::vector<ExtraColumn>& more) {
+  if (wanted) columns.insert(columns.end(), more.begin(), more.end());
+}
+
+std::string insertion(const std::string& table, std::size_t columns) {
+  return fmt::format("INSERT INTO {} VALUES ({})", table,
+                     fmt::join(std::vector<std::string>(columns, "?"), ","));
+}
+
+}  // namespace
+
+StudyExtras::StudyExtras(const StudyCase& study) : study_(study) {}
+
+std::string StudyExtras::tables() const {
+  std::string sql;
+  if (study_.is_physical)
+    sql += "CREATE TABLE units (curve INTEGER PRIMARY KEY, frequency, length, preload, energy);";
+  if (has_robust()) sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error);";
+  if (has_quantiles()) {
+    sql += fmt::format(
+        "CREATE TABLE quantiles (curve, point, P, \"{}\", PRIMARY KEY (curve, point)) WITHOUT ROWID;",
+        fmt::join(quantile_names(*study_.uncertain), "\", \""));
+  }
+  return sql;
+}
+
+void StudyExtras::open(const Database& database) {
+  if (study_.is_physical) insert_units_ = database.prepare(insertion("units", 5));
+  if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 5));
+  if (has_quantiles())
+    insert_quantiles_ = database.prepare(insertion("quantiles", 3 + study_.uncertain->quantiles.size()));
+}
+
+void StudyExtras::close() {
+  insert_units_.reset();
+  insert_robust_.reset();
+  insert_quantiles_.reset();
+}
+
+void StudyExtras::add(std::size_t curve, const problems::UncertainPeaks* uncertain) {
+  const auto key = static_cast<std::int64_t>(curve);
+  if (study_.is_physical) {
+    const StudyDesign design = study_.design(curve);
+    const PhysicalScale scale(design.geometry.value(), design.system);
+    insert_units_->bind(key).bind(scale.frequency(1)).bind(scale.displacement(1));
+    insert_units_->bind(scale.preload_per_length(1)).bind(scale.energy(1)).run();
+  }
+  if (uncertain == nullptr || !uncertain->failure.empty()) return;
+  insert_robust_->bind(key).bind(uncertain->preload).bind(uncertain->Y);
+  insert_robust_->bind(uncertain->Y_nominal).bind(uncertain->error).run();
+  if (!has_quantiles()) return;
+  std::int64_t point = 0;
+  for (const problems::QuantileRow& row : uncertain->rows) {
+    insert_quantiles_->bind(key).bind(point++).bind(row.preload);
+    for (const double Y : row.Y) insert_quantiles_->bind(Y);
+    insert_quantiles_->run();
+  }
+}
+
+std::vector<ExtraColumn> StudyExtras::optimum_columns() const {
+  if (!study_.is_physical) return {};
+  return {{"preload_N_per_m", "d.P_opt*u.preload"},
+          {"preload_low_N_per_m", "d.P_low*u.preload"},
+          {"preload_high_N_per_m", "d.P_high*u.preload"},
+          {"frequency_Hz", "d.eta_opt*u.frequency"},
+          {"Y_m", "d.Y_opt*u.length"},
+          {"Y_nd_max_m", "d.Y_nd_max*u.length"},
+          {"energy_J", "d.energy*u.energy"}};
+}
+
+std::vector<ExtraColumn> StudyExtras::sweep_columns() const {
+  if (!study_.is_physical) return {};
+  return {{"preload_N_per_m", "s.P*u.preload"},
+          {"frequency_Hz", "s.eta_peak*u.frequency"},
+          {"Y_m", "s.Y_max*u.length"}};
+}
+
+std::string StudyExtras::join_units() const {
+  return study_.is_physical ? " LEFT JOIN units u ON u.curve = d.curve" : "";
+}
+
+std::vector<ExtraColumn> StudyExtras::robust_columns() const {
+  std::vector<ExtraColumn> columns = {
+      {"P_q95", "r.P"},     {"Y_q95", "r.Y"},         {"ratio_q95", "r.Y/d.Y_nd_max"},
+      {"P_opt", "d.P_opt"}, {"Y_q95_opt", "r.Y_opt"}, {"ratio_q95_opt", "r.Y_opt/d.Y_nd_max"},
+      {"error", "r.error"}};
+  append(columns, study_.is_physical, {{"preload_N_per_m", "r.P*u.preload"}, {"Y_q95_m", "r.Y*u.length"}});
+  return columns;
+}
+
+std::vector<ExtraColumn> StudyExtras::quantile_columns() const {
+  std::vector<ExtraColumn> columns = {{"curve", "q.curve"}, {"P", "q.P"}};
+  const std::vector<std::string> names = quantile_names(study_.uncertain.value());
+  for (const std::string& name : names) columns.push_back({"Y_" + name, fmt::format("q.\"{}\"", name)});
+  for (const std::string& name : names)
+    columns.push_back({"ratio_" + name, fmt::format("q.\"{}\"/d.Y_nd_max", name)});
+  append(columns, study_.is_physical, {{"preload_N_per_m", "q.P*u.preload"}});
+  return columns;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,129 @@
+#include "results/study_results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "results/atomic_file.hpp"
+#include "results/summary_file.hpp"
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t most_rows = 40;
+
+/// Which designs of a study of many: in 3 of 40 designs (curves 0, 7, 8).
+std::string places(const std::vector<std::size_t>& curves, std::size_t count) {
+  constexpr std::size_t most = 10;
+  if (count == 1) return "";
+  const auto shown = std::span(curves).first(std::min(most, curves.size()));
+  return fmt::format(" in {} of {} designs (curve{} {}{})", curves.size(), count,
+                     curves.size() == 1 ? "" : "s", fmt::join(shown, ", "),
+                     curves.size() > most ? ", ..." : "");
+}
+
+/// What the numbers do not say of themselves, in sentences.
+std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store) {
+  const problems::PreloadRange& range = study.range;
+  std::vector<std::size_t> without_resonance, at_end;
+  store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
+    if (design.kind == "failed") return true;
+    const bool on_edge = design.free_eta == range.eta_low || design.free_eta == range.eta_high;
+    if (on_edge) without_resonance.push_back(design.curve);
+    if (design.kind == "end") at_end.push_back(design.curve);
+    return true;
+  });
+  std::vector<std::string> sentences;
+  if (!without_resonance.empty())
+    sentences.push_back(
+        fmt::format("Without damper Y is highest on an end of the window eta = {:g} to {:g}, not at a "
+                    "resonance in it{}: the ratio compares with that.",
+                    range.eta_low, range.eta_high, places(without_resonance, study.count)));
+  if (!at_end.empty())
+    sentences.push_back(fmt::format(
+        "Y_max is lowest on an end of the range P = {:g} to {:g}{}: beyond it may lie a better preload.",
+        range.from, range.to, places(at_end, study.count)));
+  return sentences;
+}
+
+ordered_json summarize(const StudyCase& study, const StudyStore& store, const StudyWork& work) {
+  ordered_json failed = ordered_json::array();
+  store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
+    failed.push_back({{"curve", design.curve},
+                      {"values", study.design(design.curve).values},
+                      {"failure", design.failure}});
+    return true;
+  });
+  return {{"arcslip", ARCSLIP_VERSION}, {"title", study.title},    {"case", study.resolved},
+          {"designs", study.count},     {"failed", failed},        {"remarks", remarks(study, store)},
+          {"computed", work.computed},  {"seconds", work.seconds}, {"designs_per_second", work.rate()}};
+}
+
+std::size_t width(const std::string& key) { return std::max<std::size_t>(key.size(), 10); }
+
+std::string shown(const ordered_json& value) {
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+void write_results(const std::string& folder, const StudyCase& study, const StudyStore& store,
+                   const StudyWork& work) {
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  const auto write = [&](const char* name, const std::function<void(const Sink&)>& table) {
+    files.push_back(std::make_unique<AtomicFile>(folder + "/" + name));
+    table([&](std::string_view text) { files.back()->write(text); });
+    files.back()->sync();
+  };
+  if (study.sweep) write("sweep.csv", [&](const Sink& sink) { store.write_sweep(sink); });
+  if (store.has_quantiles()) write("quantiles.csv", [&](const Sink& sink) { store.write_quantiles(sink); });
+  if (store.has_robust()) write("robust.csv", [&](const Sink& sink) { store.write_robust(sink); });
+  write("optimum.csv", [&](const Sink& sink) { store.write_optimum(sink); });
+  write("summary.json", [&](const Sink& sink) {
+    ordered_json summary = summarize(study, store, work);
+    if (std::optional<ordered_json> of_run = run_summary(folder)) {
+      (*of_run)["study"] = std::move(summary);
+      summary = std::move(*of_run);
+    }
+    sink(summary.dump(2) + "\n");
+  });
+  for (const auto& file : files) file->commit();
+}
+
+std::string study_table(const StudyCase& study, const StudyStore& store) {
+  std::string text = fmt::format("{:>6}", "curve");
+  for (const std::string& key : study.keys) text += fmt::format(" {:>{}}", key, width(key));
+  text += fmt::format(" {:>13} {:>13} {:>13} {:>13}", "P_opt", "eta_opt", "Y_opt", "ratio_opt");
+  if (store.has_robust()) text += fmt::format(" {:>13} {:>13}", "P_q95", "ratio_q95");
+  if (study.is_physical) text += fmt::format(" {:>15} {:>13}", "preload_N_per_m", "Y_m");
+  text += "  kind\n";
+  std::size_t rows = 0;
+  store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
+    const auto [values, system, geometry] = study.design(design.curve);
+    text += fmt::format("{:>6}", design.curve);
+    for (const auto& [key, value] : values.items()) text += fmt::format(" {:>{}}", shown(value), width(key));
+    text += fmt::format(" {:>13.8g} {:>13.8g} {:>13.8g} {:>13.6g}", design.preload, design.eta, design.Y,
+                        design.ratio);
+    if (store.has_robust())
+      text += fmt::format(" {:>13.6g} {:>13.6g}", design.robust_preload, design.robust_ratio);
+    if (geometry) {
+      const PhysicalScale scale(*geometry, system);
+      text += fmt::format(" {:>15.6g} {:>13.6g}", scale.preload_per_length(design.preload),
+                          scale.displacement(design.Y));
+    }
+    text += fmt::format("  {}\n", design.kind);
+    return ++rows < most_rows;
+  });
+  if (study.count > most_rows) text += fmt::format("... and {} more\n", study.count - most_rows);
+  for (const std::string& sentence : remarks(study, store)) text += "\n" + sentence + "\n";
+  return text;
+}
+
+}  // namespace arcslip

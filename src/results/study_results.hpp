@@ -1,0 +1,28 @@
+#pragma once
+
+// A study's results as files and tables.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "results/study_store.hpp"
+
+namespace arcslip {
+
+/// What a run of the program did.
+struct StudyWork {
+  std::size_t computed = 0;  ///< designs
+  double seconds = 0;
+
+  double rate() const { return seconds > 0 ? static_cast<double>(computed) / seconds : 0; }
+};
+
+/// Writes optimum.csv, sweep.csv, robust.csv and quantiles.csv as asked for, and summary.json. Throws
+/// OutputError.
+void write_results(const std::string& folder, const StudyCase& study, const StudyStore& store,
+                   const StudyWork& work);
+
+/// One row for each design up to a few dozen.
+std::string study_table(const StudyCase& study, const StudyStore& store);
+
+}  // namespace arcslip

@@ -1,0 +1,95 @@
+#include "results/verification_results.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace arcslip {
+namespace {
+
+using problems::Verification;
+
+double eta_of(const VerifiedBranch& branch, const Verification& point) {
+  return branch.traced->branch.points[point.point].parameters(0);
+}
+
+/// The largest difference of Y that `other` tells, where it does, and at which eta.
+std::string largest(const VerifiedBranch& branch, double Verification::*other) {
+  double most = -1;
+  double eta = 0;
+  for (const Verification& point : branch.points) {
+    const double difference = std::abs(point.*other / point.Y - 1);
+    if (difference > most) {
+      most = difference;
+      eta = eta_of(branch, point);
+    }
+  }
+  return most < 0 ? "without result" : fmt::format("{:.2g} at eta = {:.9g}", most, eta);
+}
+
+}  // namespace
+
+std::string why_not_verifiable(const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  if (problem.model != nullptr) return "a model of the library";
+  if (problem.is_limit_cycle()) return "limit cycles";
+  if (problem.is_mode()) return "nonlinear modes";
+  if (problem.response == Response::one_way) return "one-way responses";
+  if (problem.system.cubic_stiffness != 0) return "cubic springs";
+  return branch.curve ? "curves" : "";
+}
+
+VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options) {
+  VerifiedBranch verified{number, &traced, {}, 0};
+  if (traced.branch.points.empty()) return verified;
+  const auto progress = std::move(options.progress);
+  options.progress = [&](std::size_t point, std::size_t chosen) {
+    verified.chosen = chosen;
+    return progress(point, chosen);
+  };
+  verified.points =
+      problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch, options);
+  return verified;
+}
+
+std::string verification_header() {
+  return "branch,point,type,eta,P,Y,power_error,harmonics,Y_harmonics,difference_harmonics,Y_time,"
+         "difference_time,growth\n";
+}
+
+std::string verification_row(std::size_t number, const TracedBranch& traced, const Verification& point) {
+  const continuation::BranchPoint& at = traced.branch.points[point.point];
+  return fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g},{:.10g}\n",
+                     number, point.point, to_string(at.type), at.parameters(0), at.parameters(1), point.Y,
+                     point.power_error, point.highest, point.Y_harmonics, point.Y_harmonics / point.Y - 1,
+                     point.Y_time, point.Y_time / point.Y - 1, point.growth);
+}
+
+std::string interrupted_verification_row(std::size_t number) {
+  return fmt::format("{},nan,interrupted,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan\n", number);
+}
+
+std::string describe_verification(const VerifiedBranch& branch) {
+  if (branch.points.empty()) return fmt::format("branch {}: no point to verify\n", branch.number);
+  double power = 0;
+  long timed = 0;
+  double growth = 0;
+  for (const Verification& point : branch.points) {
+    power = std::max(power, point.power_error);
+    if (std::isnan(point.Y_time)) continue;
+    ++timed;
+    growth = std::max(growth, point.growth);
+  }
+  std::string text = fmt::format(
+      "branch {}: {} points solved anew; power in and out differ by {:.1e}; Y with harmonics up to {} "
+      "differs by {}",
+      branch.number, branch.points.size(), power, branch.points.front().highest,
+      largest(branch, &Verification::Y_harmonics));
+  if (timed > 0) {
+    text += fmt::format("; {} integrated in time: by {}; disturbances grow by at most {:.6g} a period", timed,
+                        largest(branch, &Verification::Y_time), growth);
+  }
+  return text + "\n";
+}
+
+}  // namespace arcslip

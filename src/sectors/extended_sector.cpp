@@ -1,0 +1,81 @@
+#include "sectors/extended_sector.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace arcslip {
+namespace {
+
+ExtendedSector::NumberVector product(const SparseMatrix& matrix, const ExtendedSector::NumberVector& v) {
+  ExtendedSector::NumberVector image = ExtendedSector::NumberVector::Zero(v.size());
+  for (Index j = 0; j < matrix.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      image(entry.row()) += static_cast<ExtendedSector::Real>(entry.value()) * v(j);
+  }
+  return image;
+}
+
+}  // namespace
+
+ExtendedSector::ExtendedSector(const FiniteSector& sector, const SectorWave& wave)
+    : sector_(sector), map_(sector_map(sector)) {
+  const Real a =
+      2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) / static_cast<Real>(wave.sectors);
+  forward_ = {std::cos(a), -std::sin(a)};
+  load_ = fold(sector.load.cast<Number>());
+}
+
+ExtendedSector::NumberVector ExtendedSector::unfold(const NumberVector& reduced) const {
+  NumberVector unfolded(sector_.mass.rows());
+  for (Index dof = 0; dof < unfolded.size(); ++dof) {
+    const auto i = static_cast<std::size_t>(dof);
+    const Number value = reduced(map_.reduced[i]);
+    unfolded(dof) = map_.is_right[i] ? forward_ * value : value;
+  }
+  return unfolded;
+}
+
+ExtendedSector::NumberVector ExtendedSector::fold(const NumberVector& of_sector) const {
+  NumberVector folded = NumberVector::Zero(map_.size);
+  for (Index dof = 0; dof < of_sector.size(); ++dof) {
+    const auto i = static_cast<std::size_t>(dof);
+    folded(map_.reduced[i]) += map_.is_right[i] ? std::conj(forward_) * of_sector(dof) : of_sector(dof);
+  }
+  return folded;
+}
+
+ExtendedSector::NumberVector ExtendedSector::mass_times(const NumberVector& unfolded) const {
+  return fold(product(sector_.mass, unfolded));
+}
+
+ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector& unfolded) const {
+  return fold(product(sector_.stiffness, unfolded));
+}
+
+ExtendedSector::Real ExtendedSector::stiffness_terms(const NumberVector& unfolded) const {
+  const SparseMatrix& matrix = sector_.stiffness;
+  Real sum = 0;
+  for (Index j = 0; j < matrix.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      sum += std::abs(unfolded(entry.row())) * static_cast<Real>(std::abs(entry.value())) *
+             std::abs(unfolded(j));
+  }
+  return sum;
+}
+
+Index ExtendedSector::reduced_contact(Index contact) const {
+  return map_.reduced[static_cast<std::size_t>(sector_.contacts[static_cast<std::size_t>(contact)])];
+}
+
+ExtendedSector::NumberVector ExtendedSector::observed(const NumberVector& reduced) const {
+  NumberVector values(contacts() + outputs());
+  for (Index i = 0; i < contacts(); ++i) values(i) = reduced(reduced_contact(i));
+  for (Index i = 0; i < outputs(); ++i) {
+    const auto dof = static_cast<std::size_t>(sector_.outputs[static_cast<std::size_t>(i)]);
+    const Number value = reduced(map_.reduced[dof]);
+    values(contacts() + i) = map_.is_right[dof] ? forward_ * value : value;
+  }
+  return values;
+}
+
+}  // namespace arcslip

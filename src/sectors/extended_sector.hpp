@@ -1,0 +1,48 @@
+#pragma once
+
+// A sector under a travelling wave in long double, without forming K(a), whose entries cancel:
+//
+//   A(a) v = T^H (A (T v)),   A the sector's own matrix
+
+#include "arcslip/sectors/finite_sector.hpp"
+#include "arcslip/sectors/sector_modes.hpp"
+
+namespace arcslip {
+
+class ExtendedSector {
+ public:
+  using Real = long double;
+  using Number = std::complex<Real>;
+  using NumberVector = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+  using NumberMatrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// `sector` must outlive this.
+  ExtendedSector(const FiniteSector& sector, const SectorWave& wave);
+
+  NumberVector unfold(const NumberVector& reduced) const;  ///< T v
+  NumberVector fold(const NumberVector& of_sector) const;  ///< T^H f
+
+  /// A(a) v of M and K, from T v.
+  NumberVector mass_times(const NumberVector& unfolded) const;
+  NumberVector stiffness_times(const NumberVector& unfolded) const;
+
+  /// |v|^T |K| |v| of the sector's own entries, from T v: what cancels in v^H K(a) v.
+  Real stiffness_terms(const NumberVector& unfolded) const;
+
+  const NumberVector& load() const { return load_; }  ///< T^H F
+  Index size() const { return map_.size; }
+  Index contacts() const { return std::ssize(sector_.contacts); }
+  /// Reduced dof of a contact.
+  Index reduced_contact(Index contact) const;
+  Index outputs() const { return std::ssize(sector_.outputs); }
+  /// The contacts and then the outputs of a reduced vector.
+  NumberVector observed(const NumberVector& reduced) const;
+
+ private:
+  const FiniteSector& sector_;
+  SectorMap map_;
+  Number forward_;
+  NumberVector load_;
+};
+
+}  // namespace arcslip

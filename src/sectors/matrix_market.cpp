@@ -1,0 +1,294 @@
+#include "arcslip/sectors/matrix_market.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+namespace arcslip {
+namespace {
+
+constexpr std::int64_t shortest_entry = 6;  // "1 1 0" and the end of its line
+constexpr std::int64_t largest_index = std::numeric_limits<SparseMatrix::StorageIndex>::max();
+constexpr std::string_view blanks = " \t\r\v\f";
+
+/// Whether a word may be a number, from its characters.
+bool is_like_a_number(std::string_view word) {
+  return word.find_first_not_of("0123456789+-.,;:eEdD") == word.npos || word == "nan" || word == "inf";
+}
+
+/// A piece of a text as an error quotes it: on one line, and not too long.
+std::string quoted(std::string_view piece) {
+  constexpr std::size_t longest = 40;
+  std::string text(piece.substr(0, longest));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return fmt::format("'{}{}'", text, piece.size() > longest ? "..." : "");
+}
+
+/// The lines of a text, without those that are blank or comments.
+class Lines {
+ public:
+  Lines(std::string_view text, const std::string& file, std::string_view comment)
+      : rest_(text), file_(file), comment_(comment) {}
+
+  /// The next line as it stands. False at the end.
+  bool advance() {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++number_;
+    return true;
+  }
+
+  /// The next line with a word in it, up to a comment. False at the end.
+  bool advance_to_words() {
+    while (advance()) {
+      line_ = line_.substr(0, line_.find_first_of(comment_));
+      if (line_.find_first_not_of(blanks) != line_.npos) return true;
+    }
+    return false;
+  }
+
+  /// The next word of the line, which is taken from it; empty at its end.
+  std::string_view word() {
+    line_.remove_prefix(std::min(line_.find_first_not_of(blanks), line_.size()));
+    const std::string_view word = line_.substr(0, line_.find_first_of(blanks));
+    line_.remove_prefix(word.size());
+    return word;
+  }
+
+  /// From now on the text is known to be in its format.
+  void trust() { trusted_ = true; }
+
+  /// What an error says of a word: a file that is none of ours, whose name somebody else gave, may hold what
+  /// is not for the reader of the message.
+  std::string given(std::string_view word) const {
+    if (word.empty()) return "the end of the line";
+    return trusted_ || is_like_a_number(word) ? quoted(word) : "a word that is no number";
+  }
+
+  std::string_view line() const { return line_; }
+  std::int64_t bytes_left() const { return static_cast<std::int64_t>(rest_.size()); }
+
+  [[noreturn]] void fail(const std::string& expected, const std::string& given) const {
+    throw MatrixTextError(fmt::format("{}:{}: expected {}, got {}", file_, std::max<std::int64_t>(number_, 1),
+                                      expected, given));
+  }
+
+ private:
+  std::string_view rest_;
+  std::string_view line_;
+  const std::string& file_;
+  std::string_view comment_;
+  std::int64_t number_ = 0;
+  bool trusted_ = false;
+};
+
+/// from_chars takes no sign +.
+std::string_view without_plus(std::string_view word) {
+  return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
+}
+
+template <class Describe>
+std::int64_t integer(Lines& lines, std::int64_t low, std::int64_t high, const Describe& expected) {
+  const std::string_view word = lines.word();
+  const std::string_view digits = without_plus(word);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || value < low || value > high) {
+    lines.fail(expected(), lines.given(word));
+  }
+  return value;
+}
+
+/// Fortran's exponent letter d is taken too.
+std::optional<double> finite_number(std::string_view word) {
+  std::string_view digits = without_plus(word);
+  std::array<char, 64> copy{};
+  const std::size_t letter = digits.find_first_of("dD");
+  if (letter != digits.npos && digits.size() <= copy.size()) {
+    std::copy(digits.begin(), digits.end(), copy.begin());
+    copy[letter] = 'e';
+    digits = {copy.data(), digits.size()};
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
+void end_of_line(Lines& lines, std::string_view after) {
+  const std::string_view word = lines.word();
+  if (!word.empty()) lines.fail(fmt::format("the end of the line after {}", after), lines.given(word));
+}
+
+MatrixSymmetry read_banner(Lines& lines) {
+  const auto require = [&](std::string_view name, const std::vector<std::string_view>& choices) {
+    const std::string_view word = lines.word();
+    std::string lower(word.substr(0, 20));
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const auto found = std::find(choices.begin(), choices.end(), lower);
+    if (found == choices.end() || lower.size() != word.size()) {
+      lines.fail(fmt::format("{} {}", name, fmt::join(choices, " or ")), lines.given(word));
+    }
+    return *found;
+  };
+  if (!lines.advance()) lines.fail("a line that begins with %%MatrixMarket", "an empty file");
+  require("a Matrix Market file, which begins with", {"%%matrixmarket"});
+  lines.trust();
+  require("the object", {"matrix"});
+  require("the format", {"coordinate"});
+  require("values that are", {"real", "integer"});
+  const std::string_view symmetry = require("a matrix that is", {"general", "symmetric"});
+  end_of_line(lines, "the banner");
+  return symmetry == "symmetric" ? MatrixSymmetry::symmetric : MatrixSymmetry::general;
+}
+
+struct Sizes {
+  std::int64_t rows;
+  std::int64_t entries;
+};
+
+Sizes read_sizes(Lines& lines, MatrixSymmetry symmetry) {
+  if (!lines.advance_to_words())
+    lines.fail("the numbers of rows, columns and entries", "the end of the file");
+  const auto size = [&](const char* name, std::int64_t low) {
+    return integer(lines, low, largest_index,
+                   [&] { return fmt::format("a number of {} from {} to {}", name, low, largest_index); });
+  };
+  const std::int64_t rows = size("rows", 1);
+  const std::int64_t columns = size("columns", 1);
+  const std::int64_t entries = size("entries", 0);
+  end_of_line(lines, "the sizes");
+  if (rows != columns) lines.fail("a square matrix", fmt::format("{} rows and {} columns", rows, columns));
+  const std::int64_t possible = (lines.bytes_left() + 1) / shortest_entry;
+  if (entries > possible) {
+    lines.fail(fmt::format("at most the {} entries that the rest of the file has room for", possible),
+               std::to_string(entries));
+  }
+  if (symmetry == MatrixSymmetry::symmetric && entries > largest_index / 2) {
+    lines.fail(fmt::format("at most {} entries of a symmetric matrix", largest_index / 2),
+               std::to_string(entries));
+  }
+  if (rows > entries + most_empty_rows) {
+    lines.fail(fmt::format("at most {} rows for {} entries", entries + most_empty_rows, entries),
+               std::to_string(rows));
+  }
+  return {rows, entries};
+}
+
+using Triplet = Eigen::Triplet<double, SparseMatrix::StorageIndex>;
+
+void read_entry(Lines& lines, std::int64_t rows, MatrixSymmetry symmetry, std::vector<Triplet>& entries) {
+  const auto index = [&](const char* name) {
+    const std::int64_t value =
+        integer(lines, 1, rows, [&] { return fmt::format("a {} from 1 to {}", name, rows); });
+    return static_cast<SparseMatrix::StorageIndex>(value - 1);
+  };
+  const auto row = index("row");
+  const auto column = index("column");
+  const std::string_view word = lines.word();
+  const std::optional<double> value = finite_number(word);
+  if (!value) lines.fail("a finite number", lines.given(word));
+  end_of_line(lines, "the value");
+  if (symmetry == MatrixSymmetry::symmetric && column > row) {
+    lines.fail("the lower triangle of a symmetric matrix",
+               fmt::format("row {}, column {}", row + 1, column + 1));
+  }
+  entries.emplace_back(row, column, *value);
+}
+
+}  // namespace
+
+void check_banner(std::string_view beginning, const std::string& file) {
+  Lines lines(beginning, file, "%");
+  read_banner(lines);
+}
+
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file) {
+  Lines lines(text, file, "%");
+  const MatrixSymmetry symmetry = read_banner(lines);
+  const Sizes sizes = read_sizes(lines, symmetry);
+  std::vector<Triplet> entries;
+  entries.reserve(static_cast<std::size_t>(sizes.entries));
+  while (lines.advance_to_words()) {
+    if (std::ssize(entries) == sizes.entries) {
+      lines.fail(fmt::format("no more than the {} entries of the sizes", sizes.entries),
+                 quoted(lines.line()));
+    }
+    read_entry(lines, sizes.rows, symmetry, entries);
+  }
+  if (std::ssize(entries) < sizes.entries) {
+    lines.fail(fmt::format("{} entries", sizes.entries), fmt::format("{}", entries.size()));
+  }
+  SparseMatrix matrix(sizes.rows, sizes.rows);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  if (symmetry == MatrixSymmetry::symmetric) {
+    entries = std::vector<Triplet>();
+    matrix = SparseMatrix(matrix.selfadjointView<Eigen::Lower>());
+  }
+  for (Index k = 0; k < matrix.nonZeros(); ++k) {
+    if (!std::isfinite(matrix.valuePtr()[k]))
+      lines.fail("entries given twice to have a finite sum", "infinity");
+  }
+  return matrix;
+}
+
+std::vector<Index> read_dofs(std::string_view text, const std::string& file, Index size) {
+  Lines lines(text, file, "%#");
+  std::vector<Index> dofs;
+  while (lines.advance_to_words()) {
+    while (lines.line().find_first_not_of(blanks) != std::string_view::npos) {
+      dofs.push_back(integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); }) - 1);
+    }
+  }
+  return dofs;
+}
+
+ComplexVector read_load(std::string_view text, const std::string& file, Index size) {
+  Lines lines(text, file, "%#");
+  ComplexVector load = ComplexVector::Zero(size);
+  while (lines.advance_to_words()) {
+    const std::int64_t dof = integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); });
+    const auto number = [&](std::string_view word) {
+      const std::optional<double> value = finite_number(word);
+      if (!value) lines.fail("a finite number", lines.given(word));
+      return *value;
+    };
+    const double real = number(lines.word());
+    const std::string_view more = lines.word();
+    load(dof - 1) += Complex(real, more.empty() ? 0 : number(more));
+    end_of_line(lines, "the force");
+  }
+  return load;
+}
+
+std::string write_matrix_market(const SparseMatrix& matrix, MatrixSymmetry symmetry) {
+  const bool lower_only = symmetry == MatrixSymmetry::symmetric;
+  if (lower_only && (SparseMatrix(matrix.transpose()) - matrix).norm() != 0) {
+    throw std::invalid_argument("write_matrix_market: the matrix is not symmetric");
+  }
+  fmt::memory_buffer entries;
+  Index count = 0;
+  for (Index j = 0; j < matrix.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+      if (lower_only && entry.row() < j) continue;
+      fmt::format_to(std::back_inserter(entries), "{} {} {:.17g}\n", entry.row() + 1, j + 1, entry.value());
+      ++count;
+    }
+  }
+  return fmt::format("%%MatrixMarket matrix coordinate real {}\n{} {} {}\n{}",
+                     lower_only ? "symmetric" : "general", matrix.rows(), matrix.cols(), count,
+                     fmt::to_string(entries));
+}
+
+}  // namespace arcslip

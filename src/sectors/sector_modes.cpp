@@ -1,0 +1,227 @@
+#include "arcslip/sectors/sector_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "arcslip/sectors/sector_reduction.hpp"
+#include "sectors/krylov_space.hpp"
+#include "sectors/refined_solve.hpp"
+#include "sectors/ritz_space.hpp"
+
+namespace arcslip {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double worst_error = 1e-6;  // beyond which modes and matrices are not the same sector
+
+/// Motions of contacts and outputs (rows) under a unit force on each of `contacts` contacts and under the
+/// load (columns), as the matrices have them: with what stiffness their rounding gives to free motions.
+ComplexMatrix response(const SectorModes& found, Index contacts, const Loss& loss, double eta) {
+  ComplexMatrix drive(static_cast<Index>(found.frequencies.size()), contacts + 1);  // of each mode
+  drive << found.shapes.topRows(contacts).adjoint(), found.loads;
+  for (Index k = 0; k < drive.rows(); ++k) {
+    const auto mode = static_cast<std::size_t>(k);
+    Complex d = ModalDenominator(eta, found.frequencies[mode], loss).value;
+    if (mode < found.free_squares.size()) d += Complex(1, loss.at(eta)) * found.free_squares[mode];
+    drive.row(k) /= d;
+  }
+  return found.shapes * drive;
+}
+
+/// Largest relative difference; off the diagonal of the compliance motions are measured by the largest of
+/// their column.
+double difference(const ComplexMatrix& motion, const ComplexMatrix& reference) {
+  double worst = 0;
+  for (Index column = 0; column < reference.cols(); ++column) {
+    const double size = reference.col(column).cwiseAbs().maxCoeff();
+    for (Index row = 0; row < reference.rows(); ++row) {
+      const bool own = row == column || (reference.cols() == 2 && row == 0);
+      const double unit = own ? std::abs(reference(row, column)) : size;
+      const double error = std::abs(motion(row, column) - reference(row, column));
+      worst = std::max(worst, unit > 0 ? error / unit : error);
+    }
+  }
+  return worst;
+}
+
+/// The ends of the window, the modes in it that respond, and the middles between all of these. What is free
+/// to move has no static response.
+std::vector<double> places(const SectorModes& modes, const ModesRequest& request) {
+  constexpr double slow = 1e-3;
+  const bool from_zero = request.eta_low == 0 && !modes.free_squares.empty();
+  std::vector<double> etas = {from_zero ? slow * request.eta_high : request.eta_low};
+  for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
+    const double frequency = modes.frequencies[k];
+    const bool responds = !modes.shapes.col(static_cast<Index>(k)).isZero(0);
+    if (responds && frequency > request.eta_low && frequency < request.eta_high) etas.push_back(frequency);
+  }
+  if (request.eta_high > request.eta_low) etas.push_back(request.eta_high);
+  const std::size_t count = etas.size();
+  for (std::size_t i = 0; i + 1 < count; ++i) etas.push_back(0.5 * (etas[i] + etas[i + 1]));
+  std::sort(etas.begin(), etas.end());
+  return etas;
+}
+
+double change(const SectorModes& now, const SectorModes& before, Index contacts,
+              const ModesRequest& request) {
+  double worst = 0;
+  for (const double eta : places(now, request)) {
+    worst = std::max(worst, difference(response(before, contacts, request.loss, eta),
+                                       response(now, contacts, request.loss, eta)));
+  }
+  return worst;
+}
+
+SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+                      Index dofs) {
+  RitzSpace space(sector, wave);
+  space.add(ComplexMatrix::Identity(dofs, dofs));
+  return space.modes(request);
+}
+
+SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
+  constexpr double growth = 1.15;  // of the space between two looks at its modes
+  constexpr int calm = 2;          // looks in a row without a change
+  KrylovSpace krylov(sector, wave, request);
+  RitzSpace space(sector, wave);
+  SectorModes modes;
+  double next_look = 6;
+  for (int unchanged = 0; unchanged < calm;) {
+    const ComplexMatrix& block = krylov.next();
+    space.add(block);
+    const bool exhausted = block.cols() == 0;
+    if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
+    next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
+    SectorModes found = space.modes(request);
+    const bool same = !modes.frequencies.empty() &&
+                      change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance;
+    unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
+    modes = std::move(found);
+  }
+  modes.factorisations = krylov.factorisations();
+  return modes;
+}
+
+/// The full response by sparse LU, refined with residuals in long double.
+class FullResponse {
+ public:
+  FullResponse(const FiniteSector& sector, const SectorWave& wave, const Loss& loss)
+      : extended_(sector, wave),
+        reduction_(sector),
+        matrix_(reduction_.stiffness()),
+        factors_(matrix_),
+        loss_(loss) {
+    reduction_.set_forward(wave.forward());
+  }
+
+  ComplexMatrix at(double eta) {
+    const auto [k, m] = MatrixFactors<double>(eta, loss_);
+    matrix_ = reduction_.stiffness();
+    matrix_ *= k;
+    for (Index i = 0; i < matrix_.nonZeros(); ++i)
+      matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
+    if (!matrix_.coeffs().allFinite())
+      throw SectorError(fmt::format(
+          "the sector has no response at eta = {:g}, where w*^2 M is beyond the range of a double", eta));
+    if (!factors_.factor(matrix_))
+      throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
+    const Index contacts = extended_.contacts();
+    ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
+    for (Index i = 0; i < contacts; ++i)
+      motion.col(i) =
+          solve(ExtendedSector::NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
+    motion.col(contacts) = solve(extended_.load(), eta);
+    return motion;
+  }
+
+  int factorisations() const { return factors_.factorisations(); }
+
+ private:
+  /// The motions of contact and outputs under a force.
+  ComplexVector solve(const ExtendedSector::NumberVector& force, double eta) {
+    constexpr double rounding = 1e-15;
+    const auto [k, m] = MatrixFactors<ExtendedSector::Real>(eta, loss_);
+    return extended_.observed(refined_solve(extended_, factors_, k, m, force, rounding)).cast<Complex>();
+  }
+
+  ExtendedSector extended_;
+  SectorReduction reduction_;
+  ComplexSparseMatrix matrix_;
+  ComplexFactors factors_;
+  Loss loss_;
+};
+
+/// What the modes may differ by: where the entries of K cancel so far that long double leaves no more digits
+/// of w_k^2 - w^2, by that.
+double allowed(const SectorModes& modes, const ModesRequest& request, const Loss& loss, double rounding,
+               double eta) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const double frequency : modes.frequencies)
+    nearest = std::min(nearest, std::abs(ModalDenominator(eta, frequency, loss).value));
+  return std::max({worst_error, 1e3 * request.tolerance, rounding / nearest});
+}
+
+/// Compares the modes with the full solve at some places, evenly among all. `rounding` is that of eta_k^2.
+void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request, double rounding,
+             SectorModes& result) {
+  std::vector<double> etas = places(result, request);
+  const std::size_t most = 4 + result.frequencies.size() / 10;
+  if (etas.size() > most) {
+    std::vector<double> some;
+    for (std::size_t i = 0; i < most; ++i) some.push_back(etas[i * (etas.size() - 1) / (most - 1)]);
+    etas = some;
+  }
+  // Modal damping has no matrix; the structural one of the same loss at each mode takes its place.
+  Loss loss = request.loss;
+  loss.structural += loss.modal;
+  loss.modal = 0;
+  FullResponse full(sector, wave, loss);
+  for (const double eta : etas) {
+    const double error = difference(response(result, std::ssize(sector.contacts), loss, eta), full.at(eta));
+    if (!(error <= allowed(result, request, loss, rounding, eta)))
+      throw SectorError(
+          fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g}", error, eta));
+    if (!(error <= result.error)) {
+      result.error = error;
+      result.error_eta = eta;
+    }
+  }
+  result.factorisations += full.factorisations();
+  result.check_etas = std::move(etas);
+}
+
+}  // namespace
+
+Complex SectorWave::forward() const {
+  return std::polar(1.0, -two_pi * static_cast<double>(wave_number) / static_cast<double>(sectors));
+}
+
+ModalModel modal_model(const SectorModes& found, double force, const Loss& loss) {
+  std::vector<Mode> modes;
+  for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
+    const Complex shape = found.shapes(0, static_cast<Index>(k));
+    modes.push_back(
+        {found.frequencies[k], std::norm(shape), shape * (force * found.loads(static_cast<Index>(k)))});
+  }
+  return {std::move(modes), loss};
+}
+
+SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
+  SectorReduction reduction(sector);
+  reduction.set_forward(wave.forward());
+  check_mass(sector, reduction);
+  const Index dofs = reduction.size();
+  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, request, dofs)
+                                                 : lanczos_modes(sector, wave, request);
+  result.dofs = dofs;
+  if (!request.compared) return result;
+  constexpr auto digits = static_cast<double>(std::numeric_limits<ExtendedSector::Real>::epsilon());
+  compare(sector, wave, request, digits * largest_square(reduction) / (two_pi * two_pi), result);
+  return result;
+}
+
+}  // namespace arcslip

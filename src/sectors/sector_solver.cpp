@@ -1,0 +1,111 @@
+#include "arcslip/sectors/sector_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "sectors/complex_factors.hpp"
+
+namespace arcslip {
+
+SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss)
+    : reduction_(sector), loss_(loss), outputs_(sector.outputs) {
+  reduction_.set_forward(forward);
+  check_mass(sector, reduction_);
+  for (const Index dof : sector.contacts) contacts_.push_back(reduction_.reduced_dof(dof));
+  dynamic_stiffness_ = reduction_.stiffness();
+  slope_ = dynamic_stiffness_;
+  const auto m = std::ssize(contacts_);
+  const auto p = std::ssize(outputs_);
+  right_.resize(reduction_.size(), m + 1);
+  product_.resize(reduction_.size(), m + 1);
+  left_.resize(reduction_.size(), m);
+  response_ = {ComplexMatrix(m, m),
+               ComplexMatrix(m, m),
+               ComplexVector(m),
+               ComplexVector(m),
+               ComplexMatrix(p, m),
+               ComplexVector(p),
+               ComplexMatrix(m + 1, m + 1),
+               ComplexVector(m + 1)};
+  factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
+}
+
+SectorSolver::~SectorSolver() = default;
+
+int SectorSolver::factorisations() const { return factors_->factorisations(); }
+
+void SectorSolver::assemble(double eta) {
+  const double two_pi = 2 * std::numbers::pi;
+  const double w = two_pi * eta;
+  const auto [k, m] = MatrixFactors<double>(eta, loss_);
+  const Complex k_eta(0, loss_.viscous);
+  const Complex m_eta(-2 * two_pi * w, two_pi * two_pi * loss_.mass);
+  const Complex* stiffness = reduction_.stiffness().valuePtr();
+  const Complex* mass = reduction_.mass().valuePtr();
+  const Index count = dynamic_stiffness_.nonZeros();
+  for (Index i = 0; i < count; ++i) {
+    dynamic_stiffness_.valuePtr()[i] = k * stiffness[i] + m * mass[i];
+    slope_.valuePtr()[i] = k_eta * stiffness[i] + m_eta * mass[i];
+  }
+  if (reduction_.damping().size() == 0) return;
+  const Complex* damping = reduction_.damping().valuePtr();
+  for (Index i = 0; i < count; ++i) {
+    dynamic_stiffness_.valuePtr()[i] += Complex(0, w) * damping[i];
+    slope_.valuePtr()[i] += Complex(0, two_pi) * damping[i];
+  }
+}
+
+void SectorSolver::set_right_hand_sides() {
+  left_.setZero();
+  for (Index i = 0; i < left_.cols(); ++i) left_(contacts_[static_cast<std::size_t>(i)], i) = 1;
+  right_.leftCols(left_.cols()) = left_;
+  right_.rightCols<1>() = reduction_.load();
+}
+
+void SectorSolver::collect() {
+  const Index m = left_.cols();
+  for (Index i = 0; i < m; ++i) {
+    const Index dof = contacts_[static_cast<std::size_t>(i)];
+    response_.compliance.row(i) = right_.row(dof).head(m);
+    response_.free(i) = right_(dof, m);
+  }
+  for (Index i = 0; i < std::ssize(outputs_); ++i) {
+    const Index dof = outputs_[static_cast<std::size_t>(i)];
+    const Complex factor = reduction_.factor(dof);
+    response_.output_compliance.row(i) = factor * right_.row(reduction_.reduced_dof(dof)).head(m);
+    response_.output_free(i) = factor * right_(reduction_.reduced_dof(dof), m);
+  }
+  product_.noalias() = slope_ * right_;
+  response_.compliance_eta.noalias() = -left_.transpose() * product_.leftCols(m);
+  response_.free_eta.noalias() = -left_.transpose() * product_.col(m);
+}
+
+/// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian.
+void SectorSolver::collect_works(double eta) {
+  const auto [k, m] = MatrixFactors<double>(eta, loss_);
+  product_.setZero();
+  if (k.imag() != 0) product_.noalias() += reduction_.stiffness() * (k.imag() * right_);
+  if (m.imag() != 0) product_.noalias() += reduction_.mass() * (m.imag() * right_);
+  if (reduction_.damping().size() != 0)
+    product_.noalias() += reduction_.damping() * (2 * std::numbers::pi * eta * right_);
+  response_.damping.noalias() = right_.adjoint() * product_;
+  response_.load_motion.noalias() = right_.transpose() * reduction_.load().conjugate();
+}
+
+const SectorResponse& SectorSolver::at(double eta) {
+  assemble(eta);
+  if (!factors_->factor(dynamic_stiffness_)) {
+    throw std::domain_error(fmt::format("the dynamic stiffness of the sector is singular at eta = {}", eta));
+  }
+  set_right_hand_sides();
+  factors_->solve(right_);
+  factors_->solve_transposed(left_);
+  factors_->release();
+  collect();
+  collect_works(eta);
+  return response_;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,167 @@
+#include "arcslip/structure/contact_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace arcslip {
+
+ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss)
+    : contacts_(contacts), modes_(std::move(modes)), loss_(loss) {
+  if (contacts < 1 || contacts > most_contacts)
+    throw std::invalid_argument(
+        fmt::format("ContactModes: from 1 to {} contacts, not {}", most_contacts, contacts));
+  for (const ContactMode& mode : modes_) {
+    if (mode.shape.size() != contacts)
+      throw std::invalid_argument("ContactModes: every shape needs one entry for each contact");
+  }
+}
+
+ContactModes ContactModes::solved_by(Receptance receptance, ReceptanceWork work) const {
+  ContactModes solved = *this;
+  solved.receptance_ = std::move(receptance);
+  solved.receptance_work_ = std::move(work);
+  return solved;
+}
+
+void invert(ContactMatrix& a) {
+  const Index m = a.rows();
+  std::array<Index, most_contacts> rows;
+  for (Index k = 0; k < m; ++k) {
+    Index& best = rows[static_cast<std::size_t>(k)] = k;
+    for (Index i = k + 1; i < m; ++i) {
+      if (std::norm(a(i, k)) > std::norm(a(best, k))) best = i;
+    }
+    if (best != k) a.row(k).swap(a.row(best));
+    const Complex pivot = std::conj(a(k, k)) / std::norm(a(k, k));
+    a(k, k) = 0;
+    for (Index j = 0; j < m; ++j) {
+      if (j == k) continue;
+      const Complex factor = a(k, j) * pivot;
+      a.col(j) -= factor * a.col(k);
+      a(k, j) = factor;
+    }
+    a.col(k) *= -pivot;
+    a(k, k) = pivot;
+  }
+  for (Index k = m; k-- > 0;) {
+    if (rows[static_cast<std::size_t>(k)] != k) a.col(k).swap(a.col(rows[static_cast<std::size_t>(k)]));
+  }
+}
+
+void ContactReceptance::set_zero(Index contacts) {
+  compliance.setZero(contacts, contacts);
+  compliance_eta.setZero(contacts, contacts);
+  free.setZero(contacts);
+  free_eta.setZero(contacts);
+}
+
+ContactReceptance ContactModes::at(double eta) const {
+  ContactReceptance response;
+  response.set_zero(contacts_);
+  add(eta, response);
+  return response;
+}
+
+void ContactModes::add(double eta, ContactReceptance& sum) const {
+  if (receptance_) {
+    const ContactReceptance response = receptance_(eta);
+    sum.compliance += response.compliance;
+    sum.compliance_eta += response.compliance_eta;
+    sum.free += response.free;
+    sum.free_eta += response.free_eta;
+    return;
+  }
+  for (const ContactMode& mode : modes_) {
+    const ModalDenominator d(eta, mode.frequency, loss_);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const Complex slope = -inverse * inverse * d.by_eta;
+    for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
+      const Complex column = inverse * std::conj(mode.shape(j));
+      const Complex column_eta = slope * std::conj(mode.shape(j));
+      sum.compliance.col(j) += column * mode.shape;
+      sum.compliance_eta.col(j) += column_eta * mode.shape;
+    }
+    sum.free += (mode.load * inverse) * mode.shape;
+    sum.free_eta += (mode.load * slope) * mode.shape;
+  }
+}
+
+CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
+  if (receptance_) return receptance_work_(eta, forces);
+  constexpr double pi = std::numbers::pi;
+  CycleWork sum;
+  for (const ContactMode& mode : modes_) {
+    const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;
+    const Complex by_contacts = mode.shape.dot(forces);
+    const Complex motion = (mode.load + by_contacts) / d;
+    sum.load += pi * std::imag(mode.load * std::conj(motion));
+    sum.damping += pi * std::norm(motion) * d.imag();
+    sum.magnitude += pi * (std::abs(mode.load) + std::abs(by_contacts)) * std::abs(motion);
+  }
+  return sum;
+}
+
+DampedReceptance ContactModes::damped(double eta, double mass) const {
+  DampedReceptance response;
+  for (ContactMatrix* matrix : {&response.compliance, &response.compliance_eta, &response.compliance_mass})
+    matrix->setZero(contacts_, contacts_);
+  const Loss loss = loss_ + Loss{.mass = mass};
+  for (const ContactMode& mode : modes_) {
+    const ModalDenominator d(eta, mode.frequency, loss);
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const ContactMatrix shape = mode.shape * mode.shape.adjoint();
+    response.compliance += inverse * shape;
+    response.compliance_eta -= (inverse * inverse * d.by_eta) * shape;
+    response.compliance_mass -= (inverse * inverse * Complex(0, eta)) * shape;
+  }
+  return response;
+}
+
+double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
+  const Index m = forces.size();
+  const ContactReceptance at = modes.at(eta);
+  const Complex by_contacts = (at.compliance.row(m).head(m) * forces).value();
+  return std::abs(at.free(m) + force_sign * by_contacts);
+}
+
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs) {
+  Index count = 0;
+  for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
+  if (count == 0) return {};  // all held
+  // In modal coordinates: diag(eta_k^2) + B^H diag(springs) B, where B gives the relative motions.
+  ComplexMatrix relative(springs.size(), count);
+  Vector squares(count);
+  Index column = 0;
+  for (const ContactModes* structure : structures) {
+    const double sign = structure == structures.front() ? 1 : -1;
+    for (const ContactMode& mode : structure->modes()) {
+      relative.col(column) = sign * mode.shape;
+      squares(column++) = mode.frequency * mode.frequency;
+    }
+  }
+  ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
+  stiffness.diagonal() += squares;
+  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> found(stiffness);
+  std::vector<JoinedMode> modes;
+  for (Index k = 0; k < count; ++k) {
+    const double frequency = std::sqrt(std::max(0.0, found.eigenvalues()(k)));
+    const auto motion = found.eigenvectors().col(k);
+    double losses = 0;  // sum |x|^2 Im d
+    Index row = 0;
+    for (const ContactModes* structure : structures) {
+      for (const ContactMode& mode : structure->modes())
+        losses += std::norm(motion(row++)) * structure->loss().part(frequency, mode.frequency);
+    }
+    modes.push_back({frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion});
+  }
+  return modes;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,48 @@
+#include "arcslip/structure/spectrum.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+
+namespace arcslip {
+namespace {
+
+template <class Dense>
+Dense deflate(Dense matrix, const Dense& subspace) {
+  const Eigen::HouseholderQR<Dense> turned(subspace);
+  matrix.applyOnTheLeft(turned.householderQ().adjoint());
+  matrix.applyOnTheRight(turned.householderQ());
+  const Index rest = matrix.rows() - subspace.cols();
+  return matrix.bottomRightCorner(rest, rest);
+}
+
+ComplexVector sorted(ComplexVector values) {
+  std::sort(values.begin(), values.end(),
+            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  return values;
+}
+
+}  // namespace
+
+ComplexVector spectrum(const Matrix& matrix) { return sorted(matrix.eigenvalues()); }
+
+ComplexVector spectrum(const ComplexMatrix& matrix) { return sorted(matrix.eigenvalues()); }
+
+Matrix deflated(const Matrix& matrix, const Matrix& subspace) { return deflate(matrix, subspace); }
+
+ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace) {
+  return deflate(matrix, subspace);
+}
+
+ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
+  const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);
+  const Eigen::PartialPivLU<ComplexMatrix> solver(
+      matrix - beside * ComplexMatrix::Identity(matrix.rows(), matrix.rows()));
+  ComplexVector vector(matrix.rows());  // in no invariant subspace
+  for (Index i = 0; i < vector.size(); ++i) vector(i) = std::polar(1.0, static_cast<double>(i * i));
+  for (int round = 0; round < 3; ++round) vector = solver.solve(vector).normalized();
+  return vector;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,169 @@
+#include "arcslip/time/ring.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "arcslip/assembly/reduced_pair.hpp"
+
+namespace arcslip {
+namespace {
+
+// The lowest stiffness of a ring of beams is some N^-4 of the largest: long double keeps it to rounding.
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+/// Modes of one structure, scaled to unit modal mass; the first one is its rigid motion.
+struct Modes {
+  LongVector stiffness;
+  LongMatrix shapes;  ///< dofs x modes
+  LongMatrix turn;    ///< modes x modes
+  long double mass;   ///< of the whole structure
+};
+
+LongMatrix assemble(const PreciseMatrix& element, Index nodes) {
+  const Index dofs = element.rows() / 2;  // of one node
+  const LongMatrix block = element.cast<long double>();
+  LongMatrix whole = LongMatrix::Zero(nodes * dofs, nodes * dofs);
+  for (Index i = 0; i < nodes; ++i) {
+    const Index place[] = {i * dofs, (i + 1) % nodes * dofs};
+    for (Index a : {0, 1}) {
+      for (Index b : {0, 1}) {
+        whole.block(place[a], place[b], dofs, dofs) += block.block(a * dofs, b * dofs, dofs, dofs);
+      }
+    }
+  }
+  return whole;
+}
+
+/// Rows of `whole` moved so that those of node i are the ones of node i + 1.
+LongMatrix turned(const LongMatrix& whole, Index dofs) {
+  LongMatrix next(whole.rows(), whole.cols());
+  next.topRows(whole.rows() - dofs) = whole.bottomRows(whole.rows() - dofs);
+  next.bottomRows(dofs) = whole.topRows(dofs);
+  return next;
+}
+
+Modes modes_of(const Element& element, Index nodes) {
+  const Index dofs = element.mass.rows() / 2;
+  const LongMatrix mass = assemble(element.mass, nodes);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<LongMatrix> solver(assemble(element.stiffness, nodes), mass);
+  Modes modes{solver.eigenvalues(), solver.eigenvectors(), {}, 0};
+  LongVector rigid = LongVector::Zero(mass.rows());
+  for (Index i = 0; i < nodes; ++i) rigid(i * dofs) = 1;
+  modes.mass = rigid.dot(mass * rigid);
+  modes.stiffness(0) = 0;
+  modes.shapes.col(0) = rigid / std::sqrt(modes.mass);
+  modes.turn = modes.shapes.transpose() * mass * turned(modes.shapes, dofs);
+  return modes;
+}
+
+/// Every J-th row: the contact dofs.
+Matrix at_contacts(const LongMatrix& shapes, Index nodes) {
+  const Index dofs = shapes.rows() / nodes;
+  Matrix rows(nodes, shapes.cols());
+  for (Index i = 0; i < nodes; ++i) rows.row(i) = shapes.row(i * dofs).cast<double>();
+  return rows;
+}
+
+/// F of all nodes for the load of node 1.
+ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, Index nodes) {
+  const Index dofs = first.size();
+  ComplexVector load(nodes * dofs);
+  for (Index i = 0; i < nodes; ++i) {
+    const double lag =
+        2 * std::numbers::pi * static_cast<double>(wave_number * i % nodes) / static_cast<double>(nodes);
+    for (Index d = 0; d < dofs; ++d) {
+      const Complex at_first(static_cast<double>(first(d).real()), static_cast<double>(first(d).imag()));
+      load(i * dofs + d) = at_first * std::polar(1.0, -lag);
+    }
+  }
+  return load;
+}
+
+void refuse_what_is_not_linear_and_viscous(const SystemParameters& parameters) {
+  if (parameters.model == StructureModel::sector || parameters.sectors) {
+    throw std::invalid_argument("build_ring: rods or beams are needed, not sectors");
+  }
+  if (parameters.base_damping_kind != DampingKind::viscous) {
+    throw std::invalid_argument("build_ring: motion in time needs viscous damping, not " +
+                                to_string(parameters.base_damping_kind));
+  }
+  if (parameters.cubic_stiffness != 0) {
+    throw std::invalid_argument("build_ring: a cubic stiffness is not piecewise linear");
+  }
+}
+
+/// The base's modes: all there is where the damper is held.
+Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
+  const Index nodes = parameters.elements;
+  const ReducedPair pair = reduce(parameters);
+  Ring ring;
+  ring.stiffness = modes.stiffness.cast<double>();
+  ring.damping = base_damping_factor(parameters) / (2 * std::numbers::pi) * ring.stiffness;
+  ring.load =
+      modes.shapes.cast<double>().transpose() * travelling(pair.base.load, parameters.wave_number, nodes);
+  ring.base = at_contacts(modes.shapes, nodes);
+  ring.damper = Matrix::Zero(nodes, ring.base.cols());
+  ring.turn = modes.turn.cast<double>();
+  ring.wave_number = parameters.wave_number;
+  ring.contact_stiffness = parameters.interface_stiffness / static_cast<double>(nodes);
+  ring.slip_per_preload = parameters.stiffness_ratio() / parameters.interface_stiffness;
+  ring.preload_growth = parameters.preload_growth;
+  return ring;
+}
+
+/// Adds the damper's modes. The two rigid motions become the one of base against damper, the first
+/// coordinate.
+void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damping_factor) {
+  const Index nodes = ring.base.rows();
+  const Index own = ring.base.cols();
+  const Index elastic = damper.shapes.cols() - 1;
+  const Index all = own + elastic;
+  const auto ratio = static_cast<double>(std::sqrt(damper.mass / base.mass));
+  const auto scale = static_cast<double>(1 / std::sqrt(damper.mass + base.mass));
+
+  ring.stiffness.conservativeResize(all);
+  ring.stiffness.tail(elastic) = damper.stiffness.tail(elastic).cast<double>();
+  ring.damping.conservativeResize(all);
+  ring.damping.tail(elastic) = damping_factor / (2 * std::numbers::pi) * ring.stiffness.tail(elastic);
+  ring.load.conservativeResize(all);
+  ring.load.tail(elastic).setZero();
+  ring.load(0) = 0;  // the travelling load has no mean
+  ring.base.conservativeResize(nodes, all);
+  ring.base.rightCols(elastic).setZero();
+  ring.base.col(0).setConstant(-ratio * scale);
+  ring.damper = Matrix::Zero(nodes, all);
+  ring.damper.rightCols(elastic) = at_contacts(damper.shapes, nodes).rightCols(elastic);
+  ring.damper.col(0).setConstant(scale / ratio);
+  Matrix turn = Matrix::Zero(all, all);
+  turn.topLeftCorner(own, own) = ring.turn;
+  turn.bottomRightCorner(elastic, elastic) = damper.turn.bottomRightCorner(elastic, elastic).cast<double>();
+  ring.turn = turn;
+}
+
+}  // namespace
+
+double Ring::fastest_rate() const {
+  const double contacts = (relative * relative.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
+  const double half = damping.cwiseAbs().maxCoeff() / 2;
+  return half + std::sqrt(half * half + stiffness.maxCoeff() + contact_stiffness * contacts);
+}
+
+Ring build_ring(const SystemParameters& parameters) {
+  refuse_what_is_not_linear_and_viscous(parameters);
+  const Index nodes = parameters.elements;
+  const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
+  const Modes base = modes_of(
+      make(parameters.mass_ratio, parameters.stiffness_ratio(), parameters.wave_number, nodes), nodes);
+  Ring ring = ring_of_base(parameters, base);
+  if (!parameters.fixed_damper) {
+    const Modes damper = modes_of(make(1, 1, parameters.wave_number, nodes), nodes);
+    join_damper(ring, base, damper, damper_damping_factor(parameters));
+  }
+  ring.relative = ring.damper - ring.base;
+  return ring;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,236 @@
+#include "arcslip/time/ring_disturbances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace arcslip {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr Index most_cells = 16;   // side by side
+constexpr Index own_balance = -1;  // in place of a cell
+constexpr Index even_balance = -2;
+
+/// Product of 1 - e^{sigma step}/at, at = 1 or -1, but for positive factors: it changes its sign with a real
+/// multiplier at that place. Each is of the size 1 but near there.
+double passage(const std::vector<Complex>& exponents, double at, double step) {
+  constexpr double far = 30;
+  Complex product = 1;
+  for (const Complex& sigma : exponents) {
+    const Complex exponent = sigma * step;
+    const Complex nu = std::exp(Complex(std::min(exponent.real(), far), exponent.imag()));
+    const Complex distance = 1.0 - nu / at;
+    product *= distance / (std::abs(distance) + step);
+  }
+  return product.real();
+}
+
+HarmonicSystem even_system(const HarmonicSystem& system, const RingWaves& waves) {
+  HarmonicSystem even;
+  even.contacts = system.contacts;
+  for (int h = 0; h <= system.orders.back() + 1; h += 2) {
+    RingWaves::Structures under = waves.structures(h * waves.wave_number());
+    even.orders.push_back(h);
+    even.base.push_back(std::move(under.base));
+    even.damper.push_back(std::move(under.damper));
+  }
+  return even;
+}
+
+}  // namespace
+
+/// Makes the cells.
+struct RingDisturbances::Builder {
+  const RingWaves& waves;
+  Vector springs;
+  int highest;  // H
+  std::vector<Cell>& cells;
+  Index common = std::gcd(waves.wave_number(), waves.nodes());
+  Index classes = std::gcd(2 * waves.wave_number(), waves.nodes());
+  Index size = waves.nodes() / classes;  // M
+  bool is_odd = waves.nodes() / common % 2 == 1;
+
+  /// Whether all waves are taken exactly.
+  bool is_small() const { return is_exact(waves.nodes() / common, highest); }
+
+  void cell(TurnedFlow::Kind kind, Index wave, Index nodes, Index from, Index to, bool own, int symmetries) {
+    std::vector<TurnedFlow::Wave> all;
+    for (Index f = from; f <= to; f += 2) {
+      const Index moved = waves.within(wave + f * waves.wave_number());
+      all.push_back({moved, static_cast<int>(f), waves.at(moved)});
+    }
+    cells.push_back({TurnedFlow(kind, nodes, all, springs), wave, own, symmetries});
+  }
+
+  /// The waves with f from `from` to `to` in cells side by side.
+  void row(Index wave, Index from, Index to) {
+    if (to < from) return;
+    const Index count = (to - from) / 2 + 1;
+    const Index all = (count + highest + 1) / (highest + 2);
+    const Index chosen = std::min(all, most_cells);
+    for (Index k = 0; k < chosen; ++k) {
+      const Index i = chosen < all ? k * (all - 1) / (chosen - 1) : k;
+      const Index first = i * count / all;
+      const Index next = (i + 1) * count / all;
+      cell(TurnedFlow::Kind::general, wave, next - first, from + 2 * first, from + 2 * (next - 1), false, 0);
+    }
+  }
+
+  /// Waves of l = N/2 and beside it, with `beside` more f on each side; returns how many were taken there.
+  Index middle(Index beside) {
+    const Index taken = std::min<Index>((highest + 1) / 2, beside);
+    cell(TurnedFlow::Kind::self_conjugate, waves.nodes() / 2, 2 * taken + 1, 0, 2 * taken, false, 1);
+    return taken;
+  }
+
+  /// A class that is its own conjugate, of l = 0 or N/2 and f from `from`, 0 or 1.
+  void self_conjugate(Index wave, Index from, bool own) {
+    if (is_small()) {
+      cell(TurnedFlow::Kind::self_conjugate, wave, size, from, size, own, own ? 1 : 2);
+      return;
+    }
+    Index first = from;
+    Index last = size;
+    if ((last - from) % 2 != 0) --last;
+    if (wave > 0) {  // N/2, the only one that is its own conjugate
+      first = 2 + 2 * middle((last - first) / 2);
+    } else {
+      first = own ? highest + 2 : highest + 3;
+      if (is_odd) {
+        last = size - highest - 3;  // the even ones stand at its end
+      } else if (last == size) {
+        last -= 2 + 2 * middle((last - first) / 2);
+      }
+    }
+    row(wave, first, last);
+  }
+
+  void build() {
+    self_conjugate(0, is_odd ? 1 : 0, is_odd);
+    for (Index wave = 1; 2 * wave < classes; ++wave) {
+      if (is_small()) {
+        cell(TurnedFlow::Kind::general, wave, size, 0, 2 * (size - 1), false, 0);
+      } else {
+        row(wave, 0, 2 * (size - 1));
+      }
+    }
+    if (classes % 2 != 0) return;
+    if (is_odd) {
+      self_conjugate(waves.nodes() / 2, 0, false);
+    } else {
+      self_conjugate(0, 1, true);
+    }
+  }
+};
+
+RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves) : waves_(waves) {
+  Vector springs(std::ssize(system.contacts));
+  for (Index i = 0; i < springs.size(); ++i)
+    springs(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
+  const int highest = system.orders.back();
+  Builder builder{waves_, springs, highest, cells_};
+  builder.build();
+  if (!builder.is_small()) {
+    balanced_.emplace(
+        Balanced{DisturbanceFlow(system, highest), DisturbanceFlow(even_system(system, waves), highest)});
+  }
+}
+
+std::set<Index> RingDisturbances::waves(Index wave_number, Index nodes, int highest) {
+  std::set<Index> found;
+  const RingWaves asked(wave_number, nodes, [&](Index wave) {
+    found.insert(wave);
+    return RingWaves::Structures{ContactModes(1, {}, {}), ContactModes(1, {}, {})};
+  });
+  std::vector<Cell> cells;
+  Builder builder{asked, Vector::Ones(1), highest, cells};
+  builder.build();
+  if (!builder.is_small()) {
+    for (int h = 0; h <= highest + 1; h += 2) asked.structures(h * wave_number);
+  }
+  return found;
+}
+
+std::size_t RingDisturbances::symmetries() const {
+  return std::accumulate(
+      cells_.begin(), cells_.end(), std::size_t{balanced_ ? 1U : 0U},
+      [](std::size_t sum, const Cell& cell) { return sum + static_cast<std::size_t>(cell.symmetries); });
+}
+
+void RingDisturbances::add(Index which, double eta, std::span<const StickPattern> contacts,
+                           Disturbances& found) const {
+  const Cell& cell = cells_[static_cast<std::size_t>(which)];
+  const std::vector<Complex> exponents = cell.flow.exponents(eta, contacts);
+  const double edge = eta * static_cast<double>(cell.flow.nodes());
+  for (const Complex& sigma : exponents) {
+    if (cell.flow.kind() == TurnedFlow::Kind::general) {
+      // Modulo 2 j eta M: far from the real axis, where it is none of two that meet there.
+      const bool is_near = std::abs(sigma.imag()) < 0.5 * edge;
+      const Complex away = is_near ? sigma + Complex(0, 2 * edge) : sigma;
+      found.all.push_back({away, cell.wave, false, which, sigma});
+      found.all.push_back({std::conj(away), -cell.wave, false, which, sigma});
+    } else if (sigma.imag() == edge) {  // real in the frame of other f
+      const Index wave = cell.wave - cell.flow.nodes() * waves_.wave_number();
+      found.all.push_back({sigma.real(), wave, false, which, sigma});
+    } else {
+      found.all.push_back({sigma, cell.wave, cell.is_own && sigma.imag() == 0, which, sigma});
+    }
+  }
+  const double step = pi / edge;
+  if (cell.symmetries > (cell.is_own ? 1 : 0)) found.symmetries.push_back(passage(exponents, 1, step));
+  if (cell.is_own || cell.symmetries > 1) found.symmetries.push_back(passage(exponents, -1, step));
+}
+
+void RingDisturbances::add_balanced(double eta, std::span<const StickPattern> contacts,
+                                    Disturbances& found) const {
+  const ComplexVector own = balanced_->own.exponents(eta, contacts);
+  for (const Complex& sigma : own) found.all.push_back({sigma, 0, sigma.imag() == 0, own_balance, sigma});
+  const ComplexVector even = balanced_->even.exponents(eta, contacts);
+  Complex product = 1;
+  for (const Complex& sigma : even) {
+    found.all.push_back({sigma, 0, false, even_balance, sigma});
+    product *= -sigma / (std::abs(sigma) + eta);
+  }
+  found.symmetries.push_back(product.real());
+}
+
+RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const StickPattern> contacts,
+                                                    bool active) const {
+  Disturbances found;
+  if (balanced_) add_balanced(eta, contacts, found);
+  for (Index i = 0; i < std::ssize(cells_); ++i) {
+    const Cell& cell = cells_[static_cast<std::size_t>(i)];
+    if (!active || cell.is_own || !cell.flow.is_passive()) {
+      add(i, eta, contacts, found);
+    } else {
+      found.symmetries.insert(found.symmetries.end(), static_cast<std::size_t>(cell.symmetries), 1);
+    }
+  }
+  return found;
+}
+
+Complex RingDisturbances::turned(const Disturbance& one, double eta) const {
+  const double node = 2 * pi / static_cast<double>(waves_.nodes());
+  return std::exp(one.exponent * (node * static_cast<double>(waves_.wave_number()) / eta) -
+                  Complex(0, node * static_cast<double>(one.wave)));
+}
+
+Index RingDisturbances::wave_of(const Disturbance& one, double eta,
+                                std::span<const StickPattern> contacts) const {
+  const auto wave = [&](const auto& flow, const auto&... ring) {
+    return flow.wave_of(one.in_cell, eta, contacts, ring...);
+  };
+  if (one.cell == own_balance) return wave(balanced_->own, waves_);
+  if (one.cell == even_balance) return wave(balanced_->even, waves_);
+  const Cell& cell = cells_[static_cast<std::size_t>(one.cell)];
+  const double strip = 2 * eta * static_cast<double>(cell.flow.nodes());
+  const double shift = std::remainder(one.exponent.imag() - one.in_cell.imag(), strip);
+  const bool is_conjugate = cell.flow.kind() == TurnedFlow::Kind::general && std::abs(shift) > 1e-9 * strip;
+  const Index found = wave(cell.flow, waves_.nodes());
+  return is_conjugate ? waves_.within(-found) : found;
+}
+
+}  // namespace arcslip

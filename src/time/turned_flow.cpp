@@ -1,0 +1,297 @@
+#include "arcslip/time/turned_flow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "arcslip/structure/spectrum.hpp"
+#include "arcslip/time/disturbed_wave.hpp"
+#include "time/stick_schedule.hpp"
+
+namespace arcslip {
+namespace {
+
+using Coordinate = TurnedFlow::Coordinate;
+using Part = Coordinate::Part;
+using Slot = StickSchedule::Slot;
+
+template <class Scalar>
+using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr double pi = std::numbers::pi;
+constexpr double forgotten = 1e-13;  // of what grows most: less is nothing, or only rounding
+
+/// What moves a contact of node k, of phase -pi k/M.
+template <class Scalar>
+Scalar motion(const Coordinate& coordinate, Complex wave) {
+  if constexpr (std::is_same_v<Scalar, Complex>) {
+    return wave;
+  } else {
+    if (coordinate.part == Part::whole) return wave.real();
+    return std::numbers::sqrt2 * (coordinate.part == Part::real ? wave.real() : -wave.imag());
+  }
+}
+
+double scale_of(const Coordinate& one, double eta) { return std::max(one.mode.frequency, eta); }
+
+/// Flow of (p, v, x), p' = scale v, and the matrix G.
+template <class Scalar>
+class Flow {
+ public:
+  Flow(const std::vector<Coordinate>& coordinates, Index nodes, const Vector& springs, double eta,
+       std::span<const StickPattern> contacts)
+      : coordinates_(coordinates),
+        nodes_(nodes),
+        springs_(springs / static_cast<double>(nodes)),
+        eta_(eta),
+        contacts_(contacts),
+        schedule_(contacts, nodes) {
+    const auto size = std::ssize(coordinates);
+    relative_.resize(nodes * springs.size(), size);
+    scale_.resize(size);
+    for (Index column = 0; column < size; ++column) {
+      const Coordinate& one = coordinates[static_cast<std::size_t>(column)];
+      scale_(column) = scale_of(one, eta);
+      for (Index node = 0; node < nodes; ++node) {
+        const Complex lag = std::polar(1.0, -turned(one) * static_cast<double>(node));
+        for (Index i = 0; i < springs.size(); ++i)
+          relative_(node * springs.size() + i, column) = motion<Scalar>(one, lag * one.mode.shape(i));
+      }
+    }
+  }
+
+  Dense<Scalar> turned_map() {
+    const auto size = std::ssize(coordinates_);
+    const std::vector<Slot>* sticking = &schedule_.intervals().front().sticking;
+    Dense<Scalar> state =
+        Dense<Scalar>::Identity(2 * size + std::ssize(*sticking), 2 * size + std::ssize(*sticking));
+    for (const StickSchedule::Interval& interval : schedule_.intervals()) {
+      change(*sticking, interval.sticking, state);
+      sticking = &interval.sticking;
+      const Dense<Scalar> rates = generator(*sticking) * (interval.width / eta_);
+      rate_ += rates.cwiseAbs().colwise().sum().maxCoeff();
+      state.topRows(2 * size) = (rates.exp().topRows(2 * size) * state).eval();
+    }
+    change(*sticking, schedule_.behind(), state);
+    turn_back(state);
+    return state;
+  }
+
+  /// Rigid motions that all sliders follow, which nothing resists.
+  Dense<Scalar> drifts() const {
+    const auto size = std::ssize(coordinates_);
+    const std::vector<Slot>& sticking = schedule_.intervals().front().sticking;
+    const bool all_slip =
+        std::all_of(contacts_.begin(), contacts_.end(), [](const StickPattern& one) { return one.slips; });
+    Dense<Scalar> found(2 * size + std::ssize(sticking), 0);
+    for (Index i = 0; i < size && all_slip; ++i) {
+      if (coordinates_[static_cast<std::size_t>(i)].mode.frequency > 0) continue;
+      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+      auto drift = found.col(found.cols() - 1);
+      drift.setZero();
+      drift(i) = 1;
+      Index slider = 2 * size;
+      for (const Slot& slot : sticking) drift(slider++) = row(slot)(i);
+    }
+    return found;
+  }
+
+  /// Relative error that rounding may have left in an eigenvalue of modulus 1.
+  double rounding() const { return 64 * std::numeric_limits<double>::epsilon() * (1 + rate_); }
+
+ private:
+  double turned(const Coordinate& one) const { return one.order * pi / static_cast<double>(nodes_); }
+
+  auto row(const Slot& slot) const {
+    return relative_.row(slot.node * springs_.size() + static_cast<Index>(slot.contact));
+  }
+
+  /// Of (p, v, x) while these slots stick, as do the contacts that never slip.
+  Dense<Scalar> generator(const std::vector<Slot>& sticking) const {
+    const auto size = std::ssize(coordinates_);
+    Dense<Scalar> rates =
+        Dense<Scalar>::Zero(2 * size + std::ssize(sticking), 2 * size + std::ssize(sticking));
+    for (Index i = 0; i < size; ++i) {
+      const Oscillator& mode = coordinates_[static_cast<std::size_t>(i)].mode;
+      rates(i, size + i) = scale_(i);
+      rates(size + i, i) = -mode.frequency * mode.frequency / scale_(i);
+      rates(size + i, size + i) = -mode.damping;
+    }
+    const auto spring = [&](const auto& moved, double stiffness, Index slider) {
+      const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> push =
+          stiffness * scale_.cwiseInverse().cast<Scalar>().cwiseProduct(moved.adjoint());
+      rates.block(size, 0, size, size).noalias() -= push * moved;
+      if (slider >= 0) rates.col(slider).segment(size, size) += push;
+    };
+    for (Index i = 0; i < springs_.size(); ++i) {
+      if (contacts_[static_cast<std::size_t>(i)].slips) continue;
+      for (Index node = 0; node < nodes_; ++node)
+        spring(relative_.row(node * springs_.size() + i), springs_(i), -1);
+    }
+    Index slider = 2 * size;
+    for (const Slot& slot : sticking) spring(row(slot), springs_(static_cast<Index>(slot.contact)), slider++);
+    return rates;
+  }
+
+  /// Sliders of what begins to stick come, those of what ceases to stick go.
+  void change(const std::vector<Slot>& from, const std::vector<Slot>& to, Dense<Scalar>& state) const {
+    const auto size = std::ssize(coordinates_);
+    Dense<Scalar> next(2 * size + std::ssize(to), state.cols());
+    next.topRows(2 * size) = state.topRows(2 * size);
+    for (Index i = 0; i < std::ssize(to); ++i) {
+      const Slot& slot = to[static_cast<std::size_t>(i)];
+      const auto old = std::find(from.begin(), from.end(), slot);
+      if (old == from.end()) {
+        next.row(2 * size + i) = row(slot) * state.topRows(size);
+      } else {
+        next.row(2 * size + i) = state.row(2 * size + (old - from.begin()));
+      }
+    }
+    state.swap(next);
+  }
+
+  /// Each node takes the place of the one behind it.
+  void turn_back(Dense<Scalar>& state) const {
+    const auto size = std::ssize(coordinates_);
+    for (Index i = 0; i < size; ++i) {
+      const Coordinate& one = coordinates_[static_cast<std::size_t>(i)];
+      const Complex factor = std::polar(1.0, -turned(one));
+      for (const Index place : {i, size + i}) {
+        if constexpr (std::is_same_v<Scalar, Complex>) {
+          state.row(place) *= factor;
+        } else if (one.part == Part::whole) {
+          state.row(place) *= factor.real();
+        } else if (one.part == Part::real) {
+          const Eigen::RowVectorXd real = state.row(place);
+          const Eigen::RowVectorXd imaginary = state.row(place + 1);
+          state.row(place) = factor.real() * real - factor.imag() * imaginary;
+          state.row(place + 1) = factor.real() * imaginary + factor.imag() * real;
+        }
+      }
+    }
+    if (coordinates_.empty() || coordinates_.front().order % 2 == 0) return;
+    for (std::size_t i = 0; i < schedule_.behind().size(); ++i) {
+      if (schedule_.behind()[i].node == 0) state.row(2 * size + static_cast<Index>(i)) *= -1;
+    }
+  }
+
+  const std::vector<Coordinate>& coordinates_;
+  Index nodes_;
+  Vector springs_;
+  double eta_;
+  std::span<const StickPattern> contacts_;
+  StickSchedule schedule_;
+  Dense<Scalar> relative_;  // node by node, its contacts
+  Vector scale_;
+  double rate_ = 0;
+};
+
+/// Exponents of an oscillator by itself.
+std::array<Complex, 2> roots(const Oscillator& mode) {
+  const Complex root =
+      std::sqrt(Complex(0.25 * mode.damping * mode.damping - mode.frequency * mode.frequency));
+  return {-0.5 * mode.damping + root, -0.5 * mode.damping - root};
+}
+
+std::vector<WavePlace> places(const std::vector<Coordinate>& coordinates, double eta) {
+  std::vector<WavePlace> all;
+  const auto size = std::ssize(coordinates);
+  for (Index i = 0; i < size; ++i) {
+    const Coordinate& one = coordinates[static_cast<std::size_t>(i)];
+    if (one.part != Part::imaginary)
+      all.push_back({one.wave, one.mode.frequency, scale_of(one, eta), i, size + i, one.part == Part::real});
+  }
+  return all;
+}
+
+}  // namespace
+
+TurnedFlow::TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs)
+    : kind_(kind), nodes_(nodes), springs_(springs) {
+  for (const Wave& wave : waves) {
+    const bool alone = kind == Kind::general || wave.order == 0 || wave.order == nodes;
+    for (const Oscillator& mode : wave.modes) {
+      coordinates_.push_back({alone ? Part::whole : Part::real, wave.wave, wave.order, mode});
+      if (!alone) coordinates_.push_back({Part::imaginary, wave.wave, wave.order, mode});
+    }
+  }
+}
+
+bool TurnedFlow::is_passive() const {
+  return std::all_of(coordinates_.begin(), coordinates_.end(),
+                     [](const Coordinate& one) { return one.mode.damping >= 0; });
+}
+
+double TurnedFlow::step(double eta) const { return pi / (static_cast<double>(nodes_) * eta); }
+
+TurnedFlow::Parts TurnedFlow::parts(double eta) const {
+  constexpr double most = 16;
+  Parts parts;
+  for (const Coordinate& one : coordinates_) {
+    const bool free = roots(one.mode)[0].real() * step(eta) > most;
+    (free ? parts.free : parts.held).push_back(one);
+  }
+  return parts;
+}
+
+std::array<Complex, 2> TurnedFlow::free_exponents(const Coordinate& coordinate, double eta) const {
+  const double strip = 2 * static_cast<double>(nodes_) * eta;
+  std::array<Complex, 2> all = roots(coordinate.mode);
+  for (Complex& sigma : all) {
+    sigma.imag(std::remainder(sigma.imag() - coordinate.order * eta, strip));
+    if (std::abs(sigma.imag()) == 0.5 * strip) sigma.imag(0.5 * strip);
+    if (coordinate.part == Part::imaginary) sigma = std::conj(sigma);
+  }
+  return all;
+}
+
+/// Of real motions the flow is real.
+template <class Use>
+auto TurnedFlow::with_flow(const std::vector<Coordinate>& held, double eta,
+                           std::span<const StickPattern> contacts, const Use& use) const {
+  return kind_ == Kind::general ? use(Flow<Complex>(held, nodes_, springs_, eta, contacts))
+                                : use(Flow<double>(held, nodes_, springs_, eta, contacts));
+}
+
+std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPattern> contacts) const {
+  const Parts apart = parts(eta);
+  std::vector<Complex> all;
+  for (const Coordinate& one : apart.free) {
+    for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
+  }
+  const auto add = [&](auto flow) {
+    const ComplexVector multipliers = spectrum(deflated(flow.turned_map(), flow.drifts()));
+    const double largest = multipliers.size() == 0 ? 1 : std::max(1.0, multipliers.cwiseAbs().maxCoeff());
+    for (const Complex& nu : multipliers) {
+      if (std::abs(nu) < forgotten * largest) continue;
+      const double size = std::log(std::abs(nu));
+      const double angle = nu.imag() != 0 ? std::arg(nu) / pi : nu.real() < 0 ? 1 : 0;
+      all.emplace_back(std::abs(size) < flow.rounding() * largest ? 0 : size / step(eta),
+                       angle * static_cast<double>(nodes_) * eta);
+    }
+  };
+  if (!apart.held.empty()) with_flow(apart.held, eta, contacts, add);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Complex& a, const Complex& b) { return a.real() > b.real(); });
+  return all;
+}
+
+Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+                          Index ring) const {
+  const Parts apart = parts(eta);
+  for (const Coordinate& one : apart.free) {
+    for (const Complex& sigma : free_exponents(one, eta)) {
+      if (sigma == exponent) return std::min(one.wave, ring - one.wave);
+    }
+  }
+  return with_flow(apart.held, eta, contacts, [&](auto flow) {
+    const ComplexVector vector =
+        eigenvector(flow.turned_map().template cast<Complex>(), std::exp(exponent * step(eta)));
+    return disturbed_wave(places(apart.held, eta), vector, ring);
+  });
+}
+
+}  // namespace arcslip

@@ -1,0 +1,88 @@
+// The corrector allocates nothing: counted where all memory comes from, that of Eigen, too.
+
+#include <atomic>
+#include <cstdlib>
+
+#include "arcslip/continuation/path/stepper.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "catch.hpp"
+#include "paper_cases.hpp"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+}  // namespace
+
+#ifdef __SANITIZE_ADDRESS__
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+                                                         void (*)(const volatile void*));
+
+namespace {
+
+[[maybe_unused]] const int installed = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { ++allocations; }, [](const volatile void*) {});
+
+}  // namespace
+#else
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+}
+#endif
+
+using namespace arcslip;
+
+namespace {
+
+/// Allocations of 20 steps, probes included, after `warm` steps.
+long allocated(const continuation::Problem& problem, const continuation::Guess& guess, double step,
+               int warm) {
+  continuation::Corrector corrector(problem, problems::ForcedResponse::eta, {});
+  continuation::Stepper stepper(problem, corrector, {problems::ForcedResponse::Y}, 0.1);
+  REQUIRE(stepper.start(guess.unknowns, guess.parameters, guess.regime, 1) ==
+          continuation::Correction::converged);
+  long before = 0;
+  int kept = 0;
+  for (int i = -warm; i < 20; ++i) {
+    if (i == 0) before = allocations;
+    kept += static_cast<int>(stepper.attempt(continuation::Hold::tangent, step));
+    stepper.probe(0.5 * step);
+    stepper.advance();
+  }
+  const long during = allocations - before;
+  CHECK(kept == 20 + warm);
+  CHECK(corrector.work().iterations >= 5);
+  return during;
+}
+
+}  // namespace
+
+TEST_CASE("Steps and corrections allocate nothing") {
+  const problems::ForcedResponse problem(build_system(testing::figure_8(1)));
+  CHECK(allocated(problem, problem.guess(0.5, 1), 0.05, 0) == 0);
+}
+
+TEST_CASE("Nor do those in many harmonics, once their matrices have their sizes") {
+  SystemParameters parameters = testing::figure_8(1);
+  parameters.harmonics = odd_up_to(GENERATE(1, 9, 31));
+  const problems::HarmonicResponse problem(build_harmonic_system(parameters));
+  CHECK(allocated(problem, problem.guess(3.7, 1), 2e-3, 2) == 0);
+}
+
+TEST_CASE("The count of allocations counts") {
+  const long before = allocations;
+  Vector some(GENERATE(1, 1000));
+  some.setZero();
+  CHECK(allocations > before);
+}

@@ -1,0 +1,116 @@
+// Values of the parameter on which a branch is to put points.
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/path/trace.hpp"
+#include "catch.hpp"
+#include "scalar_problem.hpp"
+
+using namespace arcslip;
+using namespace arcslip::continuation;
+using namespace arcslip::testing;
+
+TEST_CASE("Values that coincide but for rounding have a point each") {
+  const double apart = GENERATE(2e-17, 1e-13, 1e-11, 1e-9);
+  CAPTURE(apart);
+  TraceOptions options = over("p", 0, 2);
+  for (int i = 0; i < 500; ++i) options.stop_at.push_back(0.1 + i * apart);
+  for (const double value : {2 - apart, apart}) options.stop_at.push_back(value);
+  std::sort(options.stop_at.begin(), options.stop_at.end());
+  options.stop_at.erase(std::unique(options.stop_at.begin(), options.stop_at.end()), options.stop_at.end());
+  std::erase(options.stop_at, 2);
+  const Branch branch = trace(line("p", 1e-3), {vector_of({0}), vector_of({0})}, options);
+  REQUIRE(branch.complete());
+  const auto points = of_type(branch, PointType::user);
+  REQUIRE(points.size() == options.stop_at.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CHECK(points[i].parameters(0) == options.stop_at[i]);
+    CHECK_THAT(points[i].unknowns(0), WithinRel(1e3 * options.stop_at[i], 1e-12));
+  }
+}
+
+TEST_CASE("Values around a fold have a point on either side, or on the fold") {
+  // p = 1 - x^2, from x = -1 to 1.
+  const ScalarProblem arch(
+      {"p"}, [](double x, const Vector& p) { return 1 - x * x - p(0); },
+      [](double x, const Vector&) { return -2 * x; }, {[](double, const Vector&) { return -1.0; }});
+  const double gap = GENERATE(-1e-12, 0.0, 1e-15, 1e-12, 3e-11, 1e-9);
+  CAPTURE(gap);
+  TraceOptions options = over("p", 0, 1.5);
+  options.stop_at = {0.5, 1 - gap, 1 - gap - 1e-11};
+  const Branch branch = trace(arch, {vector_of({-1}), vector_of({0})}, options);
+  CHECK(branch.stop == Stop::left_range);
+  CHECK(of_type(branch, PointType::fold).size() == 1);
+  long near = 0;
+  for (const BranchPoint& point : of_type(branch, PointType::user)) {
+    near += static_cast<long>(point.parameters(0) > 0.9);
+    CHECK_THAT(point.unknowns(0) * point.unknowns(0), WithinAbs(1 - point.parameters(0), 1e-12));
+  }
+  CHECK(near == (gap > 1e-13 ? 4 : 3));
+}
+
+namespace {
+
+/// A problem of one unknown whose scales are its own values.
+class Relative : public ScalarProblem {
+ public:
+  Relative(bool unknown, bool parameter, ScalarProblem problem)
+      : ScalarProblem(std::move(problem)), unknown_(unknown), parameter_(parameter) {}
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    ScalarProblem::scale(u, p, unknowns, parameters);
+    if (unknown_) unknowns = u.cwiseAbs();
+    if (parameter_) parameters = p.cwiseAbs();
+  }
+
+ private:
+  bool unknown_;
+  bool parameter_;
+};
+
+void check_approach(const Problem& problem, double at, bool beyond) {
+  CAPTURE(at, beyond);
+  TraceOptions options = over("p", at + 1, beyond ? at - 1 : at);
+  if (beyond) options.stop_at = {at};
+  const Branch branch = trace(problem, {vector_of({1}), vector_of({at + 1})}, options);
+  INFO(branch.explanation);
+  CHECK(branch.stop == Stop::asymptotic);
+  CHECK_FALSE(branch.complete());
+  CHECK_THAT(branch.explanation, ContainsSubstring("comes ever nearer to p = "));
+  CHECK(branch.points.size() < 1000);
+  CHECK(branch.work.evaluations < 10000);
+}
+
+}  // namespace
+
+TEST_CASE("A value that a branch only approaches ends it soon, and the reason is told") {
+  const auto minus_one = [](double, const Vector&) { return -1.0; };
+  const bool beyond = GENERATE(false, true);
+  for (const double at : {0.0, 1.0, -3.0}) {
+    const ScalarProblem exponential(
+        {"p"}, [=](double x, const Vector& p) { return at + std::exp(1 - x) - p(0); },
+        [](double x, const Vector&) { return -std::exp(1 - x); }, {minus_one});
+    check_approach(exponential, at, beyond);
+    const ScalarProblem hyperbola(
+        {"p"}, [=](double x, const Vector& p) { return (p(0) - at) * x - 1; },
+        [=](double, const Vector& p) { return p(0) - at; }, {[](double x, const Vector&) { return x; }});
+    check_approach(hyperbola, at, beyond);
+    const ScalarProblem parabola(
+        {"p"}, [=](double x, const Vector& p) { return at + x * x - p(0); },
+        [](double x, const Vector&) { return 2 * x; }, {minus_one});
+    check_approach(Relative(true, false, parabola), at, beyond);
+  }
+  const ScalarProblem logarithm(
+      {"p"}, [](double x, const Vector& p) { return x - 1 + std::log(p(0)); },
+      [](double, const Vector&) { return 1.0; }, {[](double, const Vector& p) { return 1 / p(0); }});
+  check_approach(Relative(false, true, logarithm), 0, false);
+}
+
+TEST_CASE("0 is reached also in a scale that shrinks with the parameter") {
+  const Branch branch =
+      trace(Relative(false, true, line("p", 2)), {vector_of({5}), vector_of({10})}, over("p", 10, 0));
+  CHECK(branch.complete());
+  CHECK(branch.points.back().parameters(0) == 0);
+  CHECK(branch.points.back().unknowns(0) == 0);
+  CHECK(branch.points.size() < 1000);
+}
