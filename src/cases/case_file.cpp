@@ -11,6 +11,7 @@
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
+#include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/sector_section.hpp"
@@ -25,14 +26,8 @@ std::vector<std::string> case_sections() {
 
 namespace {
 
-using continuation::PointType;
 using nlohmann::ordered_json;
 using problems::LibraryModel;
-
-const std::vector<std::string> branch_keys = {
-    "parameter", "parameters", "from",   "to",       "eta",      "start",      "all_solutions",
-    "switching", "curve",      "window", "response", "for_each", "extrema_of", "stability"};
-const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
 
 const LibraryModel* read_model(const TomlDocument& document) {
   const TomlSection section(document, "system");
@@ -40,113 +35,10 @@ const LibraryModel* read_model(const TomlDocument& document) {
   return problems::find_model(section.text("model", model_names()));
 }
 
-/// The parameters that may be continued.
-std::vector<std::string> parameters_of(const LibraryModel* model, Response response) {
-  if (model != nullptr) return model->build(problems::defaults(*model))->parameter_names();
-  if (response == Response::nonlinear_mode) return {"R"};
-  return {response == Response::limit_cycle ? "zeta_B" : "eta", "P"};
-}
-
-Response read_response(const TomlSection& section) {
-  const std::string name = section.text("response", {"forced", "one_way", "limit_cycle", "nonlinear_mode"});
-  if (name == "one_way") return Response::one_way;
-  if (name == "nonlinear_mode") return Response::nonlinear_mode;
-  return name == "forced" ? Response::forced : Response::limit_cycle;
-}
-
-/// Reads [branch] but for what `for_each` may change.
-class BranchSection {
- public:
-  BranchSection(const TomlDocument& document, const TomlSection& section, const LibraryModel* model)
-      : document_(document), section_(section), model_(model) {}
-
-  CaseBranch read(const continuation::TraceOptions& options) {
-    CaseBranch branch;
-    branch.options = options;
-    if (section_.has("response")) {
-      if (model_ != nullptr) section_.fail("response", "only for systems with friction");
-      branch.problem.response = read_response(section_);
-    }
-    names_ = parameters_of(model_, branch.problem.response);
-    if (section_.has("curve")) {
-      read_curve(branch);
-    } else {
-      for (const char* key : {"parameters", "window"}) {
-        if (section_.has(key)) section_.fail(key, "only beside curve");
-      }
-      branch.options.parameter = section_.text("parameter", names_);
-    }
-    read_range(branch);
-    read_extrema(branch);
-    branch.problem.stability = section_.boolean("stability", false);
-    return branch;
-  }
-
- private:
-  void read_curve(CaseBranch& branch) {
-    for (const char* key : {"parameter", "start", "all_solutions", "switching"}) {
-      if (section_.has(key)) section_.fail(key, "not beside curve, which has parameters and a window");
-    }
-    CurveRequest curve{};
-    curve.type = *continuation::point_type(section_.text("curve", curves));
-    const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names_, "\", \""));
-    const std::vector<std::string> pair = section_.texts("parameters", names_, expected);
-    if (pair.size() != 2 || pair[0] == pair[1]) section_.mismatch("parameters", expected);
-    curve.active = pair[0];
-    branch.options.parameter = pair[1];
-    section_.require("window", "two different numbers, the range of " + curve.active);
-    const std::vector<double> window = section_.numbers("window", parameter_rule(model_, curve.active));
-    if (window.size() != 2 || window[0] == window[1])
-      section_.mismatch("window", "two different numbers, the range of " + curve.active);
-    curve.from = window[0];
-    curve.to = window[1];
-    curve.window = {std::min(curve.from, curve.to), std::max(curve.from, curve.to)};
-    branch.curve = curve;
-  }
-
-  void read_range(CaseBranch& branch) {
-    continuation::TraceOptions& options = branch.options;
-    const NumberRule rule = parameter_rule(model_, options.parameter);
-    options.from = section_.number("from", rule);
-    options.to = section_.number("to", rule);
-    if (options.from == options.to) section_.mismatch("to", "a number that differs from branch.from");
-    const NumberRule in_range =
-        within(std::min(options.from, options.to), std::max(options.from, options.to));
-    options.stop_at = TomlSection(document_, "continuation").numbers("stop_at", in_range);
-    if (section_.has("start")) branch.start = section_.number("start", in_range);
-    branch.switching = section_.boolean("switching", false);
-    branch.all_solutions = section_.boolean("all_solutions", false);
-    if (branch.all_solutions)
-      section_.require("start", "the value of the parameter to find all solutions at");
-    if (branch.start && branch.switching)
-      section_.fail("start", "not beside switching, which follows the branch that begins at branch.from");
-  }
-
-  void read_extrema(CaseBranch& branch) {
-    if (section_.has("extrema_of")) {
-      branch.options.extrema_of = section_.texts("extrema_of", {}, "an array of observables");
-    } else if (model_ == nullptr && !branch.problem.is_limit_cycle()) {
-      branch.options.extrema_of = {branch.problem.is_mode() ? "zeta" : "Y"};
-    }
-    if (!branch.curve) return;
-    const char* expected = "the one observable whose extrema the curve is made of";
-    const bool ridge = branch.curve->type == PointType::peak || branch.curve->type == PointType::trough;
-    if (!ridge && section_.has("extrema_of"))
-      section_.fail("extrema_of", "only beside curves of peaks or troughs");
-    if (ridge && branch.options.extrema_of.empty()) section_.require("extrema_of", expected);
-    if (ridge && branch.options.extrema_of.size() != 1) section_.mismatch("extrema_of", expected);
-  }
-
-  const TomlDocument& document_;
-  const TomlSection& section_;
-  const LibraryModel* model_;
-  std::vector<std::string> names_;
-};
-
 /// What may differ from branch to branch.
-std::vector<std::string> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
-  std::vector<std::string> keys = listed_keys(document, model);
-  if (model == nullptr) keys.emplace_back("eta");
+std::vector<ListedKey> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
+  std::vector<ListedKey> keys = listed_keys(document, model);
+  if (model == nullptr) keys.push_back({"eta", "branch.eta"});
   return keys;
 }
 
@@ -155,7 +47,7 @@ ordered_json resolve(const TomlDocument& document, const CaseBranch& first) {
   ordered_json resolved = to_json(document.root());
   resolved.erase("study");
   resolve_system(first.problem, resolved["system"]);
-  resolve_continuation(first.options, resolved["continuation"]);
+  resolved["continuation"].update(continuation_keys().values(first.options));
   return resolved;
 }
 
@@ -270,13 +162,11 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
     : document_(std::move(document)), section_(*document_, "branch") {
   TomlSection(*document_, "").allow_only(case_sections());
   if (section_.table() == nullptr) document_->fail(nullptr, "branch", "missing; expected a section [branch]");
-  section_.allow_only(branch_keys);
   model_ = read_model(*document_);
-  common_ = BranchSection(*document_, section_, model_).read(read_continuation(*document_));
+  common_ = read_branch(*document_, model_);
   parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
   for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
-  if (model_ != nullptr && section_.has("eta")) section_.fail("eta", "only for systems with friction");
   check_keys(*document_, model_);
   use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
   use_.balanced = common_.problem.response == Response::forced || common_.problem.is_mode();
@@ -307,7 +197,6 @@ void BranchSource::check_replaced() const {
   const ForEachSet lacking = for_each_->lacking();
   ProblemRequest problem = common_.problem;
   read_system(*document_, lacking.replacements, use_, problem);
-  if (section_.has("eta")) section_.number("eta", positive());
 }
 
 CaseBranch BranchSource::checked() const {

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
+#include <climits>
 
 #include "keys/printable.hpp"
 
@@ -11,66 +12,56 @@ namespace {
 
 using continuation::PointType;
 
-const std::vector<std::string> continuation_keys = {"tolerance", "max_step",   "min_step",   "max_points",
-                                                    "stop_at",   "stop_after", "max_seconds"};
-
 /// One special point by its name, or a table of names and counts.
-std::vector<continuation::StopAfter> read_stop_after(const TomlDocument& document,
-                                                     const TomlSection& section) {
+void read_stop_after(continuation::TraceOptions& options, const TomlSection& section) {
   constexpr const char* expected =
       "the type of a special point, or a table of types and counts: \"fold\", { fold = 2, peak = 5 }";
-  std::vector<continuation::StopAfter> rules;
-  if (!section.has("stop_after")) return rules;
-  const toml::node& node = section.require("stop_after", expected);
-  const auto type_of = [&](const std::string& name, const toml::node& place, const std::string& key) {
+  const auto type_of = [&](const std::string& name, const TomlSection& place, const std::string& key) {
     const auto type = continuation::point_type(name);
     if (!type || *type == PointType::regular || *type == PointType::start || *type == PointType::end)
-      document.fail(&place, key,
-                    fmt::format("unknown type '{}'; expected {}", printable(name, longest_text), expected));
+      place.fail(key, fmt::format("unknown type '{}'; expected {}", printable(name, longest_text), expected));
     return *type;
   };
-  if (const toml::table* table = node.as_table()) {
-    const TomlSection counts(document, "continuation.stop_after");
-    for (const auto& [key, value] : *table) {
-      const std::string name(key.str());
-      rules.push_back(
-          {type_of(name, value, counts.name(name)),
-           counts.integer(name, 1, std::numeric_limits<int>::max(), [] { return "an integer >= 1"; }),
-           {}});
-    }
-    return rules;
+  const toml::node& node = section.require("stop_after", expected);
+  if (const auto name = node.value_exact<std::string>()) {
+    options.stop_after = {{type_of(*name, section, "stop_after"), 1, {}}};
+    return;
   }
-  const auto name = node.value_exact<std::string>();
-  if (!name) section.mismatch("stop_after", expected);
-  rules.push_back({type_of(*name, node, section.name("stop_after")), 1, {}});
-  return rules;
+  const TomlSection counts = section.inside("stop_after", expected);
+  for (const auto& [key, value] : *node.as_table()) {
+    const std::string name(key.str());
+    const PointType type = type_of(name, counts, name);
+    options.stop_after.push_back({type, counts.integer(name, at_least(1, INT_MAX)), {}});
+  }
 }
 
 }  // namespace
 
-continuation::TraceOptions read_continuation(const TomlDocument& document) {
-  const TomlSection section(document, "continuation");
-  section.allow_only(continuation_keys);
-  continuation::TraceOptions options;
-  options.tolerance = section.number("tolerance", inside(0, 1e-2), options.tolerance);
-  options.max_step = section.number("max_step", {[](double h) { return h > 0 && h <= 1; }, " > 0 and <= 1"},
-                                    options.max_step);
-  options.min_step = section.number(
-      "min_step", {[&](double h) { return h > 0 && h <= options.max_step; }, " > 0 and <= max_step"},
-      options.min_step);
-  options.max_points = section.integer(
-      "max_points", 2, std::numeric_limits<int>::max(), [] { return "an integer >= 2"; }, options.max_points);
-  options.max_seconds = section.number("max_seconds", positive(), options.max_seconds);
-  options.stop_after = read_stop_after(document, section);
-  return options;
-}
-
-void resolve_continuation(const continuation::TraceOptions& options, nlohmann::ordered_json& section) {
-  section["tolerance"] = options.tolerance;
-  section["max_step"] = options.max_step;
-  section["min_step"] = options.min_step;
-  section["max_points"] = options.max_points;
-  section["stop_at"] = options.stop_at;
+const KeyTable<continuation::TraceOptions>& continuation_keys() {
+  using S = continuation::TraceOptions;
+  using K = Key<S>;
+  const auto least_step = [](const S& options) {
+    return NumberRule{up_to(options.max_step).holds, " > 0 and <= max_step"};
+  };
+  const auto range = [](const S& options) {
+    return within(std::min(options.from, options.to), std::max(options.from, options.to));
+  };
+  static const KeyTable<S> keys{
+      {K("tolerance", &S::tolerance, inside(0, 1e-2),
+         "of the scaled residual and of the correction that is left, in the problem's scale"),
+       K("max_step", &S::max_step, up_to(1), "largest step", unit("scaled arclength")),
+       K("min_step", &S::min_step, {" > 0 and <= max_step", least_step},
+         "smallest step; a branch that asks for less has ended", unit("scaled arclength")),
+       K("max_points", &S::max_points, at_least(2, INT_MAX), "of a branch"),
+       K("stop_at", &S::stop_at, {" from `from` to `to`", range},
+         "values of the parameter to land on exactly; in a study preloads at which every peak gets a row"),
+       K::special("stop_after", "name or table",
+                  "ends a branch at a special point: `\"fold\"`, or `{ fold = 2, peak = 5 }`; not in a study",
+                  read_stop_after, otherwise("never")),
+       K("max_seconds", &S::max_seconds, positive(),
+         "of a branch with all its parts, the search for its first point included", unit("s"),
+         otherwise("no limit"), unresolved)}};
+  return keys;
 }
 
 }  // namespace arcslip

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/system_section.hpp"
 #include "keys/printable.hpp"
 
 namespace arcslip {
@@ -65,9 +64,11 @@ std::string keys_of(const std::vector<Entry>& entries) {
 }  // namespace
 
 ForEach::ForEach(const TomlDocument& document, const TomlSection& section,
-                 const std::vector<std::string>& allowed, Lists lists)
+                 const std::vector<ListedKey>& listed, Lists lists)
     : document_(&document), path_(section.name("for_each")) {
   if (!section.has("for_each")) return;
+  std::vector<std::string> allowed;
+  for (const ListedKey& key : listed) allowed.push_back(key.name);
   const toml::array* tables = section.require("for_each", "").as_array();
   tables_ = tables != nullptr;
   if (tables_) {
@@ -81,6 +82,9 @@ ForEach::ForEach(const TomlDocument& document, const TomlSection& section,
     }
     if (axis.range && axis.range->to > axis.range->from) axis.largest = axis.count - 1;
     keys_.push_back(axis.key);
+    axis.path = std::find_if(listed.begin(), listed.end(), [&](const ListedKey& key) {
+                  return key.name == axis.key;
+                })->path;
   }
 }
 
@@ -159,8 +163,7 @@ ForEach::Range ForEach::read_range(const TomlSection& section, std::size_t& coun
   range.from = section.number("from", rule);
   range.to = section.number("to", rule);
   if (range.from == range.to) section.mismatch("to", "a number that differs from " + section.name("from"));
-  count = static_cast<std::size_t>(section.integer("count", 2, static_cast<Index>(most_sets),
-                                                   [] { return "an integer >= 2 and <= 1e9"; }));
+  count = static_cast<std::size_t>(section.integer("count", within(2, 1e9, " >= 2 and <= 1e9")));
   range.integers = !range.logarithmic && section.require("from", "").is_integer() &&
                    section.require("to", "").is_integer();
   return range;
@@ -210,8 +213,7 @@ ForEachSet ForEach::at(std::size_t index) const {
     if (axis.range) set.made.push_back(axis.make(position[k]));
     const toml::node* node = axis.range ? set.made.back().get() : axis.listed[position[k]];
     set.values[axis.key] = arcslip::to_json(*node);
-    const std::string path = axis.key == "eta" ? "branch.eta" : path_of(axis.key);
-    set.replacements[path] = {node, name(axis, position[k]), axis.range ? axis.place : node};
+    set.replacements[axis.path] = {node, name(axis, position[k]), axis.range ? axis.place : node};
   }
   return set;
 }

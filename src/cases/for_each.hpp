@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "keys/toml_reader.hpp"
+#include "keys/key_table.hpp"
 
 namespace arcslip {
 
@@ -23,7 +23,7 @@ class ForEach {
   enum class Lists { together, combined };  ///< combined: every value with every other, the last key fastest
 
   /// Reads `for_each` of a section, if it has one. Throws InputError.
-  ForEach(const TomlDocument& document, const TomlSection& section, const std::vector<std::string>& allowed,
+  ForEach(const TomlDocument& document, const TomlSection& section, const std::vector<ListedKey>& listed,
           Lists lists);
 
   const std::vector<std::string>& keys() const { return keys_; }
@@ -52,6 +52,7 @@ class ForEach {
   /// The values of one key.
   struct Axis {
     std::string key;
+    std::string path = {};  ///< of what it replaces
     std::size_t count = 0;
     std::vector<const toml::node*> listed = {};  ///< empty of a range
     std::optional<Range> range = {};

@@ -1,115 +1,81 @@
 #include "cases/geometry_section.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
-
-#include "cases/system_section.hpp"
 
 namespace arcslip {
 namespace {
 
-const std::vector<std::string> ring_keys = {"elastic_modulus", "density", "poisson_ratio", "width", "height"};
-const std::vector<std::string> keys = {"base",
-                                       "damper",
-                                       "circumference",
-                                       "radius",
-                                       "friction_coefficient",
-                                       "preload_per_length",
-                                       "force_per_length"};
+using S = GeometrySettings;
+using K = Key<S>;
 
-/// The keys of [system] that the section stands for.
-constexpr const char* replaced_keys[] = {"mass_ratio",    "frequency_ratio", "slenderness",
-                                         "poisson_ratio", "force",           "preload"};
+KeyTable<S> ring(RectangularRing Geometry::*which) {
+  using R = RectangularRing;
+  const auto is_needed = [=](const S& settings, const TomlSection&) {
+    return settings.needs_shear && which == &Geometry::damper;
+  };
+  return {{K("elastic_modulus", at(which, &R::elastic_modulus), positive(), "E", unit("Pa"), required),
+           K("density", at(which, &R::density), positive(), "rho", unit("kg/m^3"), required),
+           K("poisson_ratio", at(which, &R::poisson_ratio), poisson_rule(),
+             "nu; that of the base has no influence",
+             needed("required of the damper, unless `[system]` has interface_stiffness", is_needed)),
+           K("width", at(which, &R::width), positive(), "w", unit("m"), required),
+           K("height", at(which, &R::height), positive(), "h, the direction in which transverse waves move",
+             unit("m"), required)}};
+}
 
-class GeometrySection {
- public:
-  GeometrySection(const TomlDocument& document, const Replacements& replacements)
-      : document_(document), replacements_(replacements), section_(document, "geometry", &replacements) {}
-
-  Geometry read(bool needs_shear, bool needs_preload) const {
-    Geometry geometry;
-    geometry.base = read_ring("base", false);
-    geometry.damper = read_ring("damper", needs_shear);
-    geometry.circumference = read_circumference();
-    geometry.friction_coefficient = section_.number("friction_coefficient", positive());
-    if (needs_preload || section_.has("preload_per_length"))
-      geometry.preload_per_length = section_.number("preload_per_length", positive());
-    geometry.force_per_length = section_.number("force_per_length", positive());
-    return geometry;
+/// Refuses sizes so extreme that the groups are beyond what a double holds.
+void check(const TomlDocument& document, const Geometry& geometry, const SystemParameters& system) {
+  const PhysicalScale scale(geometry, system);
+  const double preload = geometry.preload_per_length > 0 ? system.preload : 1;
+  for (const double value : {system.mass_ratio, system.frequency_ratio, system.interface_stiffness,
+                             system.force, preload, scale.frequency(1), scale.energy(1)}) {
+    if (!std::isnormal(value))
+      document.fail(document.root().get("geometry"), "geometry",
+                    "expected sizes and materials of rings, got extreme ones");
   }
-
-  /// Refuses sizes so extreme that the groups are beyond what a double holds.
-  void check(const Geometry& geometry, const SystemParameters& system) const {
-    const PhysicalScale scale(geometry, system);
-    const double preload = geometry.preload_per_length > 0 ? system.preload : 1;
-    for (const double value : {system.mass_ratio, system.frequency_ratio, system.interface_stiffness,
-                               system.force, preload, scale.frequency(1), scale.energy(1)}) {
-      if (!std::isnormal(value))
-        document_.fail(section_.table(), "geometry",
-                       "expected sizes and materials of rings, got extreme ones");
-    }
-  }
-
- private:
-  RectangularRing read_ring(const std::string& which, bool needs_shear) const {
-    section_.require(which, "a table { elastic_modulus, density, poisson_ratio, width, height }");
-    const TomlSection section(document_, "geometry." + which, &replacements_);
-    RectangularRing ring;
-    ring.elastic_modulus = section.number("elastic_modulus", positive());
-    ring.density = section.number("density", positive());
-    if (needs_shear || section.has("poisson_ratio"))
-      ring.poisson_ratio = section.number("poisson_ratio", poisson_rule());
-    ring.width = section.number("width", positive());
-    ring.height = section.number("height", positive());
-    return ring;
-  }
-
-  double read_circumference() const {
-    if (section_.has("radius") == section_.has("circumference"))
-      section_.fail(section_.has("radius") ? "radius" : "circumference",
-                    "expected either circumference or radius, the mean one");
-    if (section_.has("circumference")) return section_.number("circumference", positive());
-    return 2 * std::numbers::pi * section_.number("radius", positive());
-  }
-
-  const TomlDocument& document_;
-  const Replacements& replacements_;
-  TomlSection section_;
-};
+}
 
 }  // namespace
 
-void check_geometry_keys(const TomlDocument& document) {
-  const TomlSection section(document, "geometry");
-  section.allow_only(keys);
-  for (const char* ring : {"base", "damper"}) {
-    if (section.has(ring)) TomlSection(document, section.name(ring)).allow_only(ring_keys);
-  }
+const KeyTable<GeometrySettings>& geometry_keys() {
+  constexpr const char* shape = "a table { elastic_modulus, density, poisson_ratio, width, height }";
+  static const KeyTable<S> base = ring(&Geometry::base);
+  static const KeyTable<S> damper = ring(&Geometry::damper);
+  const auto whole = [](auto& settings) -> auto& { return settings; };
+  const auto is_needed = [](const S& settings, const TomlSection&) { return settings.needs_preload; };
+  static const KeyTable<S> keys{
+      {K::table("base", whole, base, shape, "a table", "a ring of solid rectangular section", required,
+                unlisted),
+       K::table("damper", whole, damper, shape, "a table", "another one", required, unlisted),
+       K("circumference", &S::circumference, positive(), "L of both", unit("m"),
+         otherwise("required, or radius")),
+       K("radius", &S::radius, positive(), "the mean one, L/(2 pi)", unit("m"),
+         otherwise("required, or circumference")),
+       K("friction_coefficient", &S::friction_coefficient, positive(), "mu", required),
+       K("preload_per_length", &S::preload_per_length, positive(), "p_0", unit("N/m"),
+         needed("required, unless P varies", is_needed)),
+       K("force_per_length", &S::force_per_length, positive(), "amplitude f_0", unit("N/m"), required)}};
+  return keys;
 }
 
 bool has_geometry(const TomlDocument& document) { return document.root().contains("geometry"); }
 
-std::vector<std::string> geometry_keys() {
-  std::vector<std::string> names(keys.begin() + 2, keys.end());
-  for (const char* ring : {"base", "damper"}) {
-    for (const std::string& key : ring_keys) names.push_back(fmt::format("{}.{}", ring, key));
-  }
-  return names;
-}
-
 void read_geometry(const TomlDocument& document, const Replacements& replacements, const TomlSection& system,
-                   const std::string& parameter, ProblemRequest& problem) {
-  for (const char* key : replaced_keys) {
-    if (system.has(key)) system.fail(key, "not beside [geometry], which gives it");
-  }
-  const GeometrySection section(document, replacements);
-  const bool is_given = system.has("interface_stiffness");
-  const Geometry geometry = section.read(!is_given, parameter != "P");
-  set_groups(geometry, problem.system);
-  if (is_given) problem.system.interface_stiffness = system.number("interface_stiffness", positive());
-  section.check(geometry, problem.system);
+                   FrictionSettings& settings, ProblemRequest& problem) {
+  const TomlSection section(document, "geometry", &replacements);
+  GeometrySettings geometry;
+  const double given = settings.interface_stiffness;
+  geometry.needs_shear = !system.has("interface_stiffness");
+  geometry.needs_preload = settings.use->parameter != "P";
+  geometry_keys().read(geometry, section);
+  if (section.has("radius") == section.has("circumference"))
+    section.fail(section.has("radius") ? "radius" : "circumference",
+                 "expected either circumference or radius, the mean one");
+  if (geometry.radius) geometry.circumference = 2 * std::numbers::pi * *geometry.radius;
+  set_groups(geometry, settings);
+  if (!geometry.needs_shear) settings.interface_stiffness = given;
+  check(document, geometry, settings);
   problem.geometry = geometry;
 }
 

@@ -17,317 +17,337 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double default_tolerance = 1e-10;
-constexpr double default_limit = 1;  // per preload
-
 /// The folder of a case file, which the names of other files start from. One in a pipe has none.
-std::filesystem::path folder_of(const std::string& path) {
+std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder;
+  return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder.string();
 }
 
-/// [system.base] or [system.damper].
-class PartSection {
- public:
-  PartSection(const TomlDocument& document, const std::string& path, bool loaded, SectorPath response)
-      : document_(document),
-        path_(path),
-        section_(document, path),
-        folder_(folder_of(document.path())),
-        loaded_(loaded),
-        response_(response) {
-    std::vector<std::string> keys = {
-        "mass",         "stiffness",           "damping",    "left", "right", "interior", "contact",
-        "damping_kind", "reference_frequency", "mass_factor"};
-    keys.emplace_back("output");
-    if (loaded) keys.emplace_back("load");
-    section_.allow_only(keys);
-  }
-
-  SectorPart read() {
-    SectorPart part;
-    FiniteSector& sector = part.sector;
-    sector.mass = matrix("mass");
-    size_ = sector.mass.rows();
-    sector.stiffness = matrix("stiffness");
-    if (section_.has("damping")) sector.damping = matrix("damping");
-    sector.left = dofs("left");
-    sector.right = dofs("right");
-    if (section_.has("interior")) sector.interior = dofs("interior");
-    sector.contacts = dofs("contact");
-    if (sector.contacts.empty() || std::ssize(sector.contacts) >= most_contacts)
-      section_.fail("contact", fmt::format("expected from 1 to {} dofs, got {}", most_contacts - 1,
-                                           sector.contacts.size()));
-    if (section_.has("output")) sector.outputs = dofs("output");
-    sector.load = loaded_ ? load() : ComplexVector::Zero(size_);
-    if (loaded_ && sector.load.isZero(0)) section_.fail("load", "expected a force that is not 0");
-    try {
-      sector = checked(std::move(sector));
-    } catch (const SectorError& error) {
-      document_.fail(section_.table(), path_, error.what());
-    }
-    if (response_ == SectorPath::reduced) diagonalise(part);
-    read_damping(part);
-    part.fingerprint = fingerprint_;
-    return part;
-  }
-
- private:
-  /// Turns C into a loss of the modes.
-  void diagonalise(SectorPart& part) const {
-    FiniteSector& sector = part.sector;
-    if (sector.damping.size() == 0) return;
-    try {
-      part.fixed = proportional_loss(sector.damping, sector.mass, sector.stiffness);
-    } catch (const SectorError& error) {
-      section_.fail("damping", std::string(error.what()) + R"(; path = "full" in [system] takes any)");
-    }
-    sector.damping = SparseMatrix();
-  }
-
-  void read_damping(SectorPart& part) const {
-    if (section_.has("damping_kind")) {
-      const std::string kind = section_.text("damping_kind", {"viscous", "structural", "modal"});
-      part.damping_kind = kind == "viscous" ? DampingKind::viscous
-                          : kind == "modal" ? DampingKind::modal
-                                            : DampingKind::structural;
-    }
-    if (response_ == SectorPath::full && part.damping_kind == DampingKind::modal)
-      section_.fail(
-          "damping_kind",
-          R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
-    if (part.damping_kind == DampingKind::viscous) {
-      part.reference_frequency = section_.number("reference_frequency", positive());
-    } else if (section_.has("reference_frequency")) {
-      section_.fail("reference_frequency", R"(only beside damping_kind = "viscous")");
-    }
-    const NumberRule not_negative{[](double x) { return x >= 0; }, " >= 0"};
-    part.fixed.mass += section_.number("mass_factor", not_negative, 0) / (2 * std::numbers::pi);
-  }
-
-  void add_to_fingerprint(const std::string& text) {
+/// What the file that the key names holds: `parse` of its text and its path.
+template <class Parse>
+auto parsed(PartSettings& part, const TomlSection& section, std::string_view key, std::size_t largest,
+            const Parse& parse,
+            const std::function<void(std::string_view, const std::string&)>& begins = {}) {
+  const std::string path = (std::filesystem::path(part.folder) / section.text(key, {})).string();
+  try {
+    const std::string text = read_text(path, largest, [&](std::string_view beginning) {
+      if (begins) begins(beginning, path);
+    });
     for (const char c : text) {  // FNV-1a
-      fingerprint_ ^= static_cast<unsigned char>(c);
-      fingerprint_ *= 1099511628211U;
+      part.fingerprint ^= static_cast<unsigned char>(c);
+      part.fingerprint *= 1099511628211U;
     }
+    return parse(text, path);
+  } catch (const InputError& error) {
+    section.fail(key, error.what());
+  } catch (const MatrixTextError& error) {
+    section.fail(key, error.what());
+  } catch (const std::bad_alloc&) {
+    section.fail(key, path + ": there is not enough memory for it");
   }
+}
 
-  /// What the file that the key names holds: `parse` of its text and its path.
-  template <class Parse>
-  auto parsed(std::string_view key, std::size_t largest, const Parse& parse,
-              const std::function<void(std::string_view, const std::string&)>& begins = {}) {
-    const std::string path = (folder_ / section_.text(key, {})).string();
-    try {
-      const std::string text = read_text(path, largest, [&](std::string_view beginning) {
-        if (begins) begins(beginning, path);
-      });
-      add_to_fingerprint(text);
-      return parse(text, path);
-    } catch (const InputError& error) {
-      section_.fail(key, error.what());
-    } catch (const MatrixTextError& error) {
-      section_.fail(key, error.what());
-    } catch (const std::bad_alloc&) {
-      section_.fail(key, path + ": there is not enough memory for it");
-    }
-  }
+std::vector<Index> listed(const PartSettings& part, const TomlSection& section, std::string_view key) {
+  const Index size = part.sector.mass.rows();
+  const NumberRule rule{
+      [=](double dof) { return dof >= 1 && dof <= static_cast<double>(size) && dof == std::floor(dof); },
+      fmt::format(" that is a dof from 1 to {}", size)};
+  std::vector<Index> dofs;
+  for (const double dof : section.numbers(key, rule)) dofs.push_back(static_cast<Index>(dof) - 1);
+  return dofs;
+}
 
-  SparseMatrix matrix(std::string_view key) {
-    section_.require(key, "a Matrix Market file");
-    return parsed(key, largest_matrix, read_matrix_market, check_banner);
-  }
-
-  std::vector<Index> dofs(std::string_view key) {
-    const char* expected = "a file of dofs, or an array of them";
-    const toml::node& node = section_.require(key, expected);
-    if (node.is_string()) {
-      return parsed(key, largest_list, [&](const std::string& text, const std::string& path) {
-        return read_dofs(text, path, size_);
-      });
-    }
-    if (!node.is_array()) section_.mismatch(key, expected);
-    return listed(section_, key);
-  }
-
-  std::vector<Index> listed(const TomlSection& section, std::string_view key) const {
-    const NumberRule rule{
-        [&](double dof) { return dof >= 1 && dof <= static_cast<double>(size_) && dof == std::floor(dof); },
-        fmt::format(" that is a dof from 1 to {}", size_)};
-    std::vector<Index> dofs;
-    for (const double dof : section.numbers(key, rule)) dofs.push_back(static_cast<Index>(dof) - 1);
-    return dofs;
-  }
-
-  ComplexVector load() {
-    const char* expected = "a file of loads, or a table { dof = [...], value = [...] }";
-    const toml::node& node = section_.require("load", expected);
-    if (node.is_string()) {
-      return parsed("load", largest_list, [&](const std::string& text, const std::string& path) {
-        return read_load(text, path, size_);
-      });
-    }
-    if (!node.is_table()) section_.mismatch("load", expected);
-    const TomlSection table(document_, section_.name("load"));
+void read_load(PartSettings& part, const TomlSection& section) {
+  const Index size = part.sector.mass.rows();
+  const char* expected = "a file of loads, or a table { dof = [...], value = [...] }";
+  ComplexVector& load = part.sector.load;
+  if (section.require("load", expected).is_string()) {
+    load = parsed(part, section, "load", largest_list, [&](const std::string& text, const std::string& path) {
+      return arcslip::read_load(text, path, size);
+    });
+  } else {
+    const TomlSection table = section.inside("load", expected);
     table.allow_only({"dof", "value", "imaginary"});
     table.require("dof", "an array of dofs");
     table.require("value", "an array of numbers");
-    const std::vector<Index> dofs = listed(table, "dof");
+    const std::vector<Index> dofs = listed(part, table, "dof");
     const std::vector<double> real = table.numbers("value", any_number());
-    const std::vector<double> imaginary = table.numbers("imaginary", any_number());
-    const auto check = [&](const char* key, std::size_t size) {
-      if (size != dofs.size())
-        table.fail(key, fmt::format("expected {} numbers, as many as dofs, got {}", dofs.size(), size));
+    std::vector<double> imaginary(dofs.size());
+    if (table.has("imaginary")) imaginary = table.numbers("imaginary", any_number());
+    const auto check = [&](const char* key, std::size_t count) {
+      if (count != dofs.size())
+        table.fail(key, fmt::format("expected {} numbers, as many as dofs, got {}", dofs.size(), count));
     };
     check("value", real.size());
-    if (table.has("imaginary")) check("imaginary", imaginary.size());
-    ComplexVector load = ComplexVector::Zero(size_);
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      load(dofs[i]) += Complex(real[i], imaginary.empty() ? 0 : imaginary[i]);
-    return load;
+    check("imaginary", imaginary.size());
+    load = ComplexVector::Zero(size);
+    for (std::size_t i = 0; i < dofs.size(); ++i) load(dofs[i]) += Complex(real[i], imaginary[i]);
   }
-
-  const TomlDocument& document_;
-  std::string path_;
-  TomlSection section_;
-  std::filesystem::path folder_;
-  bool loaded_;
-  SectorPath response_;
-  Index size_ = 0;
-  std::uint64_t fingerprint_ = 14695981039346656037U;
-};
-
-bool has_damper(const TomlDocument& document) {
-  return TomlSection(document, "system.damper").table() != nullptr;
+  if (load.isZero(0)) section.fail("load", "expected a force that is not 0");
 }
 
-void read_window(const TomlSection& section, const SystemUse& use, SystemParameters& system) {
-  system.eta_low = use.eta_low;
-  system.eta_high = use.eta_high;
+namespace part {
+
+using S = PartSettings;
+using K = Key<S>;
+
+K matrix(const char* name, SparseMatrix FiniteSector::*member, const std::string& meaning,
+         const auto&... term) {
+  const auto read = [=](S& part, const TomlSection& section) {
+    section.require(name, "a Matrix Market file");
+    part.sector.*member = parsed(part, section, name, largest_matrix, read_matrix_market, check_banner);
+  };
+  return K::special(name, "Matrix Market file", meaning, read, term...);
+}
+
+K dofs(const char* name, std::vector<Index> FiniteSector::*member, const std::string& meaning,
+       const auto&... term) {
+  const auto read = [=](S& part, const TomlSection& section) {
+    const char* expected = "a file of dofs, or an array of them";
+    const toml::node& node = section.require(name, expected);
+    if (!node.is_string() && !node.is_array()) section.mismatch(name, expected);
+    part.sector.*member =
+        node.is_array() ? listed(part, section, name)
+                        : parsed(part, section, name, largest_list, [&](const auto& text, const auto& path) {
+                            return read_dofs(text, path, part.sector.mass.rows());
+                          });
+  };
+  return K::special(name, "file or list of dofs", meaning, read, term...);
+}
+
+void check_contacts(const S& part, const TomlSection& section) {
+  const std::size_t count = part.sector.contacts.size();
+  if (count == 0 || count >= most_contacts)
+    section.fail("contact", fmt::format("expected from 1 to {} dofs, got {}", most_contacts - 1, count));
+}
+
+void check_kind(const S& part, const TomlSection& section) {
+  if (part.path == SectorPath::full && part.damping_kind == DampingKind::modal)
+    section.fail(
+        "damping_kind",
+        R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
+}
+
+bool is_viscous(const S& part, const TomlSection& /*section*/) {
+  return part.damping_kind == DampingKind::viscous;
+}
+
+/// Turns C into a loss of the modes.
+void diagonalise(S& part, const TomlSection& section) {
+  FiniteSector& sector = part.sector;
+  if (part.path != SectorPath::reduced || sector.damping.size() == 0) return;
+  try {
+    part.fixed = proportional_loss(sector.damping, sector.mass, sector.stiffness);
+  } catch (const SectorError& error) {
+    section.fail("damping", std::string(error.what()) + R"(; path = "full" in [system] takes any)");
+  }
+  sector.damping = SparseMatrix();
+}
+
+KeyTable<S> keys(bool loaded) {
+  using F = FiniteSector;
+  const std::vector<K> keys{
+      matrix("mass", &F::mass, "M: real, coordinate, symmetric, or general and so but for rounding",
+             required),
+      matrix("stiffness", &F::stiffness, "K", required),
+      matrix("damping", &F::damping,
+             "C = alpha M + beta K; any other symmetric one with `path = \"full\"` alone", otherwise("none")),
+      dofs("left", &F::left, "the boundary to the sector before; dofs count from 1, in a file one a line",
+           required),
+      dofs("right", &F::right, "that to the next sector, paired with `left` in order", required),
+      dofs("interior", &F::interior, "the rest", otherwise("all others")),
+      dofs("contact", &F::contacts, "up to 12, not on the right; those of base and damper pair in order",
+           required, then(check_contacts)),
+      K::choice("damping_kind", &S::damping_kind,
+                {{"viscous", DampingKind::viscous},
+                 {"structural", DampingKind::structural},
+                 {"modal", DampingKind::modal}},
+                "of the zeta in `damping`: C proportional to K; K (1 + 2j zeta); zeta for every mode", "",
+                then(check_kind)),
+      K("reference_frequency", &S::reference_frequency, positive(), "eta at which the loss is 2 zeta",
+        required, only(R"(only beside damping_kind = "viscous")", is_viscous)),
+      K("mass_factor", &S::mass_factor, at_least(0),
+        "alpha of a part alpha M of C; beside it or a C zeta adds to them and is 0 by default"),
+      dofs("output", &F::outputs,
+           "whose amplitudes follow in `branches.csv`: `Y_40` of the base, `U_40` of the damper",
+           otherwise("none"))};
+  if (!loaded) return keys;
+  return {keys,
+          {K::special("load", "file or table",
+                      "of the base, the force on the sector of phase 0: a file of lines `dof value "
+                      "[imaginary part]`, or a table `{ dof, value, imaginary }` of lists",
+                      read_load, required)}};
+}
+
+SectorPart read(const TomlDocument& document, const std::string& path, SectorPath response) {
+  const TomlSection section(document, path);
+  const bool loaded = path == "system.base";
+  S part;
+  part.path = response;
+  part.folder = folder_of(document.path());
+  part.fingerprint = 14695981039346656037U;
+  part_keys(loaded).read(part, section);
+  if (!loaded) part.sector.load = ComplexVector::Zero(part.sector.mass.rows());
+  try {
+    part.sector = checked(std::move(part.sector));
+  } catch (const SectorError& error) {
+    document.fail(section.table(), path, error.what());
+  }
+  diagonalise(part, section);
+  part.fixed.mass += part.mass_factor / (2 * std::numbers::pi);
+  return std::move(static_cast<SectorPart&>(part));
+}
+
+}  // namespace part
+
+using S = FrictionSettings;
+using K = Key<S>;
+
+void read_window(S& settings, const TomlSection& section) {
   const char* expected = "two numbers, 0 < low < high: the eta for which the modes of the sectors are found";
-  if (!(use.eta_low > 0)) section.require("reduction_window", expected);
-  if (!section.has("reduction_window")) return;
+  section.require("reduction_window", expected);
   const std::vector<double> window = section.numbers("reduction_window", positive());
   if (window.size() != 2 || !(window[0] < window[1])) section.mismatch("reduction_window", expected);
-  system.eta_low = window[0];
-  system.eta_high = window[1];
+  settings.eta_low = window[0];
+  settings.eta_high = window[1];
 }
 
-/// A number for all contacts, or a list with one for each.
-std::vector<double> for_contacts(const TomlSection& section, std::string_view key, std::size_t count,
-                                 std::optional<double> standard) {
-  const toml::table* table = section.table();
-  if (table == nullptr || !(*table)[key].is_array())
-    return std::vector<double>(
-        count, standard ? section.number(key, positive(), *standard) : section.number(key, positive()));
-  const std::vector<double> values = section.numbers(key, positive());
-  if (values.size() != count)
-    section.fail(key, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
-                                  values.size()));
-  return values;
+/// Reads a number for all contacts, or a list with one for each.
+K::Reader for_contacts(const std::string& name, std::vector<double> S::*member) {
+  return [=](S& settings, const TomlSection& section) {
+    const std::size_t count = settings.sectors->base().sector.contacts.size();
+    std::vector<double>& values = settings.*member;
+    const toml::table* table = section.table();
+    if (table == nullptr || !(*table)[name].is_array()) {
+      values.assign(count, section.number(name, positive()));
+      return;
+    }
+    values = section.numbers(name, positive());
+    if (values.size() != count)
+      section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
+                                     values.size()));
+  };
 }
 
-void read_contacts(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
-                   SystemParameters& system) {
-  const std::size_t count = use.sectors->base().sector.contacts.size();
-  if (count > 1 && !use.balanced)
+NumberRule wave_rule(const S& settings) {
+  const Index most = settings.elements / 2;
+  return within(0, static_cast<double>(most), fmt::format(" >= 0 and <= sectors/2 = {}", most));
+}
+
+void check_path(const S& settings, const TomlSection& section) {
+  const bool forced = settings.use == nullptr || (settings.use->balanced && settings.use->parameter != "R");
+  if (settings.path == SectorPath::full && !forced)
+    section.fail(
+        "path",
+        R"(expected "reduced" for a study, nonlinear modes, limit cycles and one-way responses, got "full")");
+}
+
+/// What is held to the modes and contacts that there are.
+void check_use(const TomlDocument& document, const TomlSection& section, const S& settings) {
+  const std::size_t count = settings.contacts.size();
+  if (count > 1 && !settings.use->balanced)
     TomlSection(document, "system.base")
         .fail("contact",
               fmt::format("expected one dof for a study, limit cycles and one-way responses, got {}", count));
-  const std::vector<double> k = for_contacts(section, "contact_stiffness", count, {});
-  const std::vector<double> limit = for_contacts(section, "limit_per_preload", count, default_limit);
-  system.interface_stiffness = k.front() * static_cast<double>(system.elements);
-  for (std::size_t i = 0; i < count; ++i) system.contacts.push_back({k[i], limit[i] / k[i]});
+  try {
+    settings.sectors->check({settings.wave_number, settings.elements});
+  } catch (const SectorError& error) {
+    section.fail("wave_number", fmt::format("at {}: {}", settings.wave_number, error.what()));
+  }
 }
 
 }  // namespace
+
+const KeyTable<PartSettings>& part_keys(bool loaded) {
+  static const KeyTable<PartSettings> base = part::keys(true);
+  static const KeyTable<PartSettings> damper = part::keys(false);
+  return loaded ? base : damper;
+}
+
+const KeyTable<FrictionSettings>& sector_keys() {
+  const auto of = [](const SectorPart* part) -> ordered_json {
+    if (part == nullptr) return nullptr;
+    return {{"damping_kind", to_string(part->damping_kind)},
+            {"fingerprint", fmt::format("{:016x}", part->fingerprint)}};
+  };
+  const auto base = [=](const S& settings) {
+    return of(settings.sectors ? &settings.sectors->base() : nullptr);
+  };
+  const auto damper = [=](const S& settings) {
+    return of(settings.sectors ? settings.sectors->damper() : nullptr);
+  };
+  const auto window = [](const S& settings) { return ordered_json{settings.eta_low, settings.eta_high}; };
+  const auto has_no_range = [](const S& settings, const TomlSection&) { return !(settings.eta_low > 0); };
+  static const KeyTable<S> keys{
+      {K::special("model", "\"sector\"", "any structure of N equal sectors", {}, otherwise("required"),
+                  unlisted),
+       K("sectors", &S::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N", required),
+       K("wave_number", &S::wave_number, {" >= 0 and <= sectors/2", wave_rule}, "n, nodal diameters",
+         required),
+       K::special("contact_stiffness", "number or list",
+                  "k of the contact of a sector; of several contacts that of all, or a list",
+                  for_contacts("contact_stiffness", &S::contact_stiffness), required)},
+      shared_keys(),
+      {K::special(
+           "limit_per_preload", "number or list", "L: a contact slips where its force is L P, S = L P/k",
+           for_contacts("limit_per_preload", &S::limit_per_preload), resolved([](const S&) { return 1.0; })),
+       K("force", &S::force, positive(), "factor of the load"), preload_growth_key(),
+       K::choice("path", &S::path, {{"reduced", SectorPath::reduced}, {"full", SectorPath::full}},
+                 "the response by modes, or by a sparse LU factorisation at each eta", "", unlisted,
+                 then(check_path)),
+       K("reduction_tolerance", &S::reduction_tolerance, within(1e-14, 1e-2, " >= 1e-14 and <= 0.01"),
+         "relative change of the response at which modes are no longer added", unlisted),
+       K::special("reduction_window", "two numbers",
+                  "the eta for which the modes serve or, with `path = \"full\"`, are found as resonances",
+                  read_window,
+                  needed("the range of `[branch]` or `[study]`; required of limit cycles", has_no_range),
+                  resolved(window)),
+       K::special("base", "table", "the base's sector", {}, otherwise("required"), unlisted, resolved(base)),
+       K::special("damper", "table", "the damper's", {}, otherwise("none: the contact is to ground"),
+                  unlisted, resolved(damper))}};
+  return keys;
+}
 
 bool is_sector(const TomlDocument& document) {
   const toml::table* table = TomlSection(document, "system").table();
   return table != nullptr && (*table)["model"].value<std::string>() == "sector";
 }
 
-std::vector<std::string> sector_keys() {
-  return {"model",
-          "wave_number",
-          "sectors",
-          "contact_stiffness",
-          "limit_per_preload",
-          "force",
-          "preload",
-          "preload_growth",
-          "damping",
-          "reduction_tolerance",
-          "reduction_window",
-          "base",
-          "damper",
-          "harmonics",
-          "harmonics_tolerance",
-          "path"};
-}
-
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
   if (!is_sector(document)) return nullptr;
   const TomlSection section(document, "system");
   section.require("base", "a table with the matrices of the base's sector");
-  const NumberRule rule{[](double x) { return x >= 1e-14 && x <= 1e-2; }, " >= 1e-14 and <= 0.01"};
-  const double tolerance = section.number("reduction_tolerance", rule, default_tolerance);
-  const SectorPath path = section.has("path") && section.text("path", {"reduced", "full"}) == "full"
-                              ? SectorPath::full
-                              : SectorPath::reduced;
+  S settings;
+  for (const char* key : {"reduction_tolerance", "path"}) sector_keys().read(key, settings, section);
   std::optional<SectorPart> damper;
-  if (section.has("damper")) damper = PartSection(document, "system.damper", false, path).read();
-  SectorPart base = PartSection(document, "system.base", true, path).read();
+  if (section.has("damper")) damper = part::read(document, "system.damper", settings.path);
+  SectorPart base = part::read(document, "system.base", settings.path);
   const std::size_t contacts = base.sector.contacts.size();
   if (damper && damper->sector.contacts.size() != contacts)
     TomlSection(document, "system.damper")
         .fail("contact", fmt::format("expected {} dofs, as many as of the base, got {}", contacts,
                                      damper->sector.contacts.size()));
-  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), tolerance, path);
+  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), settings.reduction_tolerance,
+                                            settings.path);
 }
 
-void read_sector_system(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
-                        SystemParameters& system) {
-  constexpr Index most = 1'000'000'000;
-  system.model = StructureModel::sector;
-  system.sectors = use.sectors;
-  system.elements = section.integer("sectors", 1, most, [] { return "an integer >= 1 and <= 1e9"; });
-  system.wave_number = section.integer("wave_number", 0, system.elements / 2, [&] {
-    return fmt::format("an integer >= 0 and <= sectors/2 = {}", system.elements / 2);
-  });
-  const bool forced = use.balanced && use.parameter != "R";
-  if (system.sectors->path() == SectorPath::full && !forced)
-    section.fail(
-        "path",
-        R"(expected "reduced" for a study, nonlinear modes, limit cycles and one-way responses, got "full")");
-  read_contacts(document, section, use, system);
-  system.force = section.number("force", positive(), 1);
-  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
-  system.fixed_damper = !has_damper(document);
-  read_window(section, use, system);
-  try {
-    system.sectors->check({system.wave_number, system.elements});
-  } catch (const SectorError& error) {
-    section.fail("wave_number", fmt::format("at {}: {}", system.wave_number, error.what()));
-  }
-}
-
-void resolve_sectors(const SystemParameters& system, ordered_json& section) {
-  const auto set = [](ordered_json& table, const char* key, const ordered_json& value) {
-    if (!table.contains(key)) table[key] = value;
-  };
-  set(section, "limit_per_preload", default_limit);
-  set(section, "force", system.force);
-  set(section, "preload_growth", system.preload_growth);
-  set(section, "path", to_string(system.sectors->path()));
-  set(section, "reduction_tolerance", system.sectors->tolerance());
-  set(section, "reduction_window", {system.eta_low, system.eta_high});
-  const auto add = [&](const char* name, const SectorPart& part) {
-    ordered_json& table = section[name];
-    set(table, "damping_kind", to_string(part.damping_kind));
-    table["fingerprint"] = fmt::format("{:016x}", part.fingerprint);
-  };
-  add("base", system.sectors->base());
-  if (system.sectors->damper() != nullptr) add("damper", *system.sectors->damper());
+void read_sector_system(const TomlDocument& document, const TomlSection& section, S& settings) {
+  const SystemUse& use = *settings.use;
+  settings.model = StructureModel::sector;
+  settings.sectors = use.sectors;
+  settings.eta_low = use.eta_low;
+  settings.eta_high = use.eta_high;
+  settings.fixed_damper = settings.sectors->damper() == nullptr;
+  const std::size_t count = settings.sectors->base().sector.contacts.size();
+  settings.limit_per_preload.assign(count, 1);
+  if (settings.sectors->base().is_damped()) settings.base_damping = 0;
+  if (!settings.fixed_damper && settings.sectors->damper()->is_damped()) settings.damper_damping = 0;
+  sector_keys().read(settings, section);
+  const std::vector<double>& k = settings.contact_stiffness;
+  settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
+  for (std::size_t i = 0; i < count; ++i)
+    settings.contacts.push_back({k[i], settings.limit_per_preload[i] / k[i]});
+  check_use(document, section, settings);
 }
 
 }  // namespace arcslip

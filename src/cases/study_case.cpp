@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/geometry_section.hpp"
 #include "cases/sector_section.hpp"
+#include "cases/study_section.hpp"
 #include "cases/system_section.hpp"
-#include "cases/uncertain_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -22,6 +20,7 @@ struct Source {
   std::optional<ForEach> for_each;
   std::shared_ptr<const SectorPair> sectors;
   problems::PreloadRange range;
+  bool scatters;
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
@@ -30,37 +29,15 @@ struct Source {
   }
 
   StudyDesign design(std::size_t index) const {
-    const TomlDocument& document = *file;
     auto [values, replacements, made] = for_each->at(index);
     const ProblemRequest problem = this->problem(replacements);
-    if (problem.system.preload_growth != 0 && scatters(document))
-      TomlSection(document, "system", &replacements)
+    if (problem.system.preload_growth != 0 && scatters)
+      TomlSection(*file, "system", &replacements)
           .fail("preload_growth",
                 "not beside [study.uncertain], whose response is proportional to the force");
     return {std::move(values), problem.system, problem.geometry};
   }
 };
-
-std::vector<double> read_window(const TomlSection& section) {
-  const char* expected = "two numbers, 0 < low < high, between which peaks are sought";
-  section.require("eta", expected);
-  std::vector<double> window = section.numbers("eta", positive());
-  if (window.size() != 2 || !(window[0] < window[1])) section.mismatch("eta", expected);
-  return window;
-}
-
-problems::PreloadRange read_preloads(const TomlDocument& document, const TomlSection& section) {
-  section.text("parameter", {"P"});
-  problems::PreloadRange range;
-  range.from = section.number("from", positive());
-  range.to = section.number(
-      "to", {[&](double to) { return to > range.from; }, fmt::format(" > study.from = {:g}", range.from)});
-  const std::vector<double> window = read_window(section);
-  range.eta_low = window[0];
-  range.eta_high = window[1];
-  range.stop_at = TomlSection(document, "continuation").numbers("stop_at", within(range.from, range.to));
-  return range;
-}
 
 /// The input as it is understood, without what belongs to [branch].
 ordered_json resolve(const Source& source, const StudyCase& study) {
@@ -69,10 +46,9 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
   ProblemRequest first;
   first.system = study.design(0).system;
   resolve_system(first, resolved["system"]);
-  resolved["study"]["sweep"] = study.sweep;
+  fill(resolved["study"], study_keys().values(study));
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
-  if (study.uncertain) resolve_uncertainty(*study.uncertain, resolved["study"]["uncertain"]);
-  resolve_continuation(study.options, resolved["continuation"]);
+  resolved["continuation"].update(continuation_keys().values(study.options));
   return resolved;
 }
 
@@ -83,28 +59,28 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
 }
 
 StudyCase read_study(const CaseFile& file) {
-  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}});
+  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}, false});
   const TomlDocument& document = *file.document();
   const TomlSection root(document, "");
   root.allow_only(case_sections());
   const TomlSection section(document, "study");
   if (section.table() == nullptr) document.fail(nullptr, "study", "missing; expected a section [study]");
-  section.allow_only({"parameter", "from", "to", "eta", "for_each", "sweep", "uncertain"});
   if (TomlSection(document, "system").table() == nullptr)
     document.fail(nullptr, "system", "missing; expected a section [system]");
 
   StudyCase study;
   study.title = root.has("title") ? root.text("title", {}) : "";
-  study.range = read_preloads(document, section);
-  study.options = read_continuation(document);
-  study.options.stop_at = study.range.stop_at;
-  study.sweep = section.boolean("sweep", true);
-  if (scatters(document)) study.uncertain = read_uncertainty(document);
+  study_keys().read(study, section);
+  study.options.from = study.range.from;
+  study.options.to = study.range.to;
+  continuation_keys().read(study.options, TomlSection(document, "continuation"));
+  study.range.stop_at = study.options.stop_at;
+  source->scatters = study.uncertain.has_value();
   check_keys(document, nullptr);
   source->range = study.range;
   source->sectors = read_sectors(document);
   study.is_physical = has_geometry(document);
-  const std::vector<std::string> allowed = listed_keys(document, nullptr);
+  const std::vector<ListedKey> allowed = listed_keys(document, nullptr);
   source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);
   for (const char* key : {"preload", "preload_per_length"}) {
     if (source->for_each->sets(key))

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <map>
 
-#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 #include "cases/geometry_section.hpp"
 #include "cases/sector_section.hpp"
@@ -16,31 +14,14 @@ namespace arcslip {
 namespace {
 
 using nlohmann::ordered_json;
+using S = FrictionSettings;
+using K = Key<S>;
+using problems::LibraryModel;
 
-const std::vector<std::string> friction_keys = {
-    "model",           "wave_number",  "elements",      "mass_ratio",
-    "frequency_ratio", "slenderness",  "poisson_ratio", "interface_stiffness",
-    "damping",         "force",        "preload",       "preload_growth",
-    "cubic_stiffness", "fixed_damper", "harmonics",     "harmonics_tolerance"};
-constexpr double default_poisson_ratio = 0.3;
-constexpr double default_harmonics_tolerance = 1e-4;
+constexpr double most_elements = 1e9;
 
 NumberRule damping_rule() {
   return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
-}
-
-double read_interface_stiffness(const TomlSection& section, StructureModel model) {
-  const double poisson_ratio = section.number("poisson_ratio", poisson_rule(), default_poisson_ratio);
-  if (model == StructureModel::rods) {
-    if (section.has("slenderness"))
-      section.fail("slenderness", "only for beams; rods take interface_stiffness");
-    return section.number("interface_stiffness", positive());
-  }
-  if (section.has("slenderness") && section.has("interface_stiffness")) {
-    section.fail("interface_stiffness", "expected this or slenderness, not both");
-  }
-  if (section.has("interface_stiffness")) return section.number("interface_stiffness", positive());
-  return shear_interface_stiffness(section.number("slenderness", positive()), poisson_ratio);
 }
 
 /// What a damping ratio may be. That of a sector with damping of another kind may be 0.
@@ -50,41 +31,25 @@ NumberRule ratio_rule(bool may_be_negative, const SectorPart* part) {
   return {[](double zeta) { return zeta >= 0 && zeta < 1; }, " >= 0 and < 1"};
 }
 
-void read_damping(const TomlDocument& document, const TomlSection& section, bool passive,
-                  SystemParameters& system) {
-  const SectorPart* base_part = system.sectors ? &system.sectors->base() : nullptr;
-  const SectorPart* damper_part = system.sectors ? system.sectors->damper() : nullptr;
-  if (base_part != nullptr && base_part->is_damped()) system.base_damping = 0;
-  if (damper_part != nullptr && damper_part->is_damped()) system.damper_damping = 0;
-  if (!section.has("damping")) return;
-  const toml::table* table = section.require("damping", "a table").as_table();
-  if (table == nullptr) section.mismatch("damping", "a table { base = ..., damper = ... }");
-  for (const auto& [key, node] : *table) {
-    const std::string name = section.name_given("damping") + "." + std::string(key.str());
-    if (key.str() == "kind" && !system.sectors) {
-      const std::string kind = node.value<std::string>().value_or("");
-      if (kind != "viscous" && kind != "structural")
-        document.mismatch(node, name, R"("viscous" or "structural", for the base)");
-      system.base_damping_kind = kind == "viscous" ? DampingKind::viscous : DampingKind::structural;
-      continue;
-    }
-    const bool base = key.str() == "base";
-    if (!base && key.str() != "damper")
-      document.fail(&node, name,
-                    system.sectors ? "unknown key; expected base or damper"
-                                   : "unknown key; expected base, damper or kind");
-    const NumberRule rule = ratio_rule(base && !passive, base ? base_part : damper_part);
-    (base ? system.base_damping : system.damper_damping) = document.number({&node, name}, rule);
-  }
+constexpr const char* in_geometry = "not beside [geometry], which gives it";
+bool without_geometry(const S& settings, const TomlSection& /*section*/) { return !settings.has_geometry; }
+bool is_beam(const S& settings, const TomlSection& /*section*/) {
+  return settings.model == StructureModel::beams;
 }
-
-/// What [geometry] stands for where it is given.
-void read_groups(const TomlSection& section, const SystemUse& use, SystemParameters& system) {
-  system.mass_ratio = section.number("mass_ratio", positive());
-  system.frequency_ratio = section.number("frequency_ratio", positive());
-  system.interface_stiffness = read_interface_stiffness(section, system.model);
-  system.force = section.number("force", positive());
-  if (use.parameter != "P" || section.has("preload")) system.preload = section.number("preload", positive());
+bool needs_slenderness(const S& settings, const TomlSection& section) {
+  return is_beam(settings, section) && !section.has("interface_stiffness");
+}
+bool needs_stiffness(const S& settings, const TomlSection& section) {
+  return !is_beam(settings, section) && !settings.has_geometry;
+}
+NumberRule element_rule(const S& settings) {
+  const Index least = 2 * settings.wave_number;
+  return within(static_cast<double>(least + 1), most_elements,
+                fmt::format(" > 2 wave_number = {} and <= 1e9", least));
+}
+NumberRule cubic_rule(const S& settings) {
+  if (!settings.use->linear_passive) return any_number();
+  return {[](double k) { return k == 0; }, " that is 0, as a study has it"};
 }
 
 /// Refuses numbers so extreme that what follows from them is beyond what a double holds.
@@ -106,163 +71,233 @@ void check_groups(const TomlDocument& document, const TomlSection& section, cons
 }
 
 void read_rings(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
-                const SystemUse& use, ProblemRequest& problem) {
-  SystemParameters& system = problem.system;
-  system.model =
-      section.text("model", {"rods", "beams"}) == "rods" ? StructureModel::rods : StructureModel::beams;
-  constexpr Index most = 1'000'000'000;
-  system.wave_number = section.integer("wave_number", 1, most, [] { return "an integer >= 1"; });
-  system.elements = section.integer("elements", 2 * system.wave_number + 1, most, [&] {
-    return fmt::format("an integer > 2 wave_number = {} and <= 1e9", 2 * system.wave_number);
-  });
-  if (has_geometry(document)) {
-    read_geometry(document, replacements, section, use.parameter, problem);
-  } else {
-    read_groups(section, use, system);
-    check_groups(document, section, system);
-  }
-  const NumberRule zero{[](double k) { return k == 0; }, " that is 0, as a study has it"};
-  system.cubic_stiffness = section.number("cubic_stiffness", use.linear_passive ? zero : any_number(), 0);
-  system.fixed_damper = section.boolean("fixed_damper", false);
+                S& settings, ProblemRequest& problem) {
+  settings.has_geometry = has_geometry(document);
+  ring_keys().read(settings, section);
+  if (settings.has_geometry) return read_geometry(document, replacements, section, settings, problem);
+  if (settings.slenderness)
+    settings.interface_stiffness = shear_interface_stiffness(*settings.slenderness, settings.poisson_ratio);
+  check_groups(document, section, settings);
 }
 
 /// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
-void read_harmonics(const TomlSection& section, const SystemUse& use, ProblemRequest& problem) {
+void read_orders(S& settings, const TomlSection& section) {
   constexpr int highest = 2 * most_harmonics - 1;
-  const auto expected = [=] {
-    return fmt::format(R"(an odd integer from 1 to {}, a list of them that begins with 1, or "auto")",
-                       highest);
-  };
   const auto fits = [](double h) { return h >= 1 && h <= highest && std::fmod(h, 2) == 1; };
-  std::vector<int>& orders = problem.system.harmonics;
-  problem.harmonics_tolerance.reset();
-  if (section.has("harmonics")) {
-    const toml::node& node = section.require("harmonics", "");
-    if (node.value<std::string>() == "auto") {
-      const NumberRule rule{[](double x) { return x >= 1e-9 && x <= 0.1; }, " >= 1e-9 and <= 0.1"};
-      problem.harmonics_tolerance = section.number("harmonics_tolerance", rule, default_harmonics_tolerance);
-    } else if (node.is_array()) {
-      orders.clear();
-      for (const double h : section.numbers("harmonics", {fits, " that is odd, from 1 to 255"}))
-        orders.push_back(static_cast<int>(h));
-      const bool ascending =
-          std::adjacent_find(orders.begin(), orders.end(), std::greater_equal<>()) == orders.end();
-      if (orders.empty() || orders.front() != 1 || !ascending)
-        section.fail("harmonics", "expected a list that begins with 1 and ascends");
-    } else {
-      if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())))
-        section.mismatch("harmonics", expected());
-      orders = odd_up_to(static_cast<int>(*node.value<Index>()));
-    }
-  }
-  if (section.has("harmonics_tolerance") && !problem.harmonics_tolerance)
-    section.fail("harmonics_tolerance", R"(only beside harmonics = "auto")");
-  const bool several = orders.size() > 1 || problem.harmonics_tolerance;
-  if (several && !use.balanced)
-    section.fail("harmonics", "expected 1 for a study, limit cycles and one-way responses");
-  if (several && problem.system.cubic_stiffness != 0)
-    section.fail("harmonics", "expected 1 beside cubic_stiffness");
-  check_waves(section, "harmonics", problem.system, orders);
-}
-
-void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
-                   const SystemUse& use, ProblemRequest& problem) {
-  if (use.sectors) {
-    if (has_geometry(document))
-      document.fail(document.root().get("geometry"), "geometry", "only for rods and beams");
-    read_sector_system(document, section, use, problem.system);
+  const toml::node& node = section.require("harmonics", "");
+  std::vector<int>& orders = settings.harmonics;
+  if (node.value<std::string>() == "auto") {
+    settings.harmonics_tolerance = 1e-4;
+  } else if (node.is_array()) {
+    const std::vector<double> listed = section.numbers("harmonics", {fits, " that is odd, from 1 to 255"});
+    orders.assign(listed.begin(), listed.end());
+    if (orders.empty() || orders.front() != 1 ||
+        !std::is_sorted(orders.begin(), orders.end(), std::less_equal<>()))
+      section.fail("harmonics", "expected a list that begins with 1 and ascends");
   } else {
-    read_rings(document, replacements, section, use, problem);
-  }
-  read_damping(document, section, use.linear_passive, problem.system);
-  problem.system.preload_growth = section.number("preload_growth", any_number(), 0);
-  read_harmonics(section, use, problem);
-}
-
-void read_settings(const TomlSection& section, const SystemUse& use,
-                   problems::LibraryModel::Values& settings) {
-  for (const problems::Setting& setting : use.model->settings) {
-    if (setting.name == use.parameter && section.has(setting.name))
-      section.fail(setting.name,
-                   "the continuation parameter has its values from [branch]; leave it out here");
-    if (setting.is_integer) {
-      settings.push_back(static_cast<double>(section.integer(
-          setting.name, static_cast<Index>(setting.low), static_cast<Index>(setting.high),
-          [&] { return fmt::format("an integer >= {:g} and <= {:g}", setting.low, setting.high); },
-          static_cast<Index>(setting.value))));
-    } else {
-      settings.push_back(
-          section.number(setting.name, parameter_rule(use.model, setting.name), setting.value));
-    }
+    if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())))
+      section.mismatch(
+          "harmonics",
+          fmt::format(R"(an odd integer from 1 to {}, a list of them that begins with 1, or "auto")",
+                      highest));
+    orders = odd_up_to(static_cast<int>(*node.value<Index>()));
   }
 }
 
-}  // namespace
-
-void check_waves(const TomlSection& section, const std::string& key, const SystemParameters& system,
-                 const std::vector<int>& orders) {
+/// Refuses sectors that cannot travel as the waves of the harmonics.
+void check_waves(const TomlSection& section, const SystemParameters& system) {
   if (!system.sectors) return;
-  for (const int h : orders) {
+  for (const int h : system.harmonics) {
     const Index wave = h * system.wave_number % system.elements;
     try {
       system.sectors->check({wave, system.elements});
     } catch (const SectorError& error) {
-      section.fail(key, fmt::format("harmonic {}, which travels as {} waves: {}", h, wave, error.what()));
+      section.fail("harmonics",
+                   fmt::format("harmonic {}, which travels as {} waves: {}", h, wave, error.what()));
     }
   }
 }
 
-std::vector<std::string> model_names() {
-  std::vector<std::string> names = {"rods", "beams", "sector"};
-  for (const problems::LibraryModel& model : problems::library()) names.push_back(model.name);
-  return names;
+void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
+                   const SystemUse& use, ProblemRequest& problem) {
+  S settings;
+  settings.use = &use;
+  if (use.sectors) {
+    if (has_geometry(document))
+      document.fail(document.root().get("geometry"), "geometry", "only for rods and beams");
+    read_sector_system(document, section, settings);
+  } else {
+    read_rings(document, replacements, section, settings, problem);
+  }
+  if (settings.harmonics.size() > 1 || settings.harmonics_tolerance) {
+    if (!use.balanced)
+      section.fail("harmonics", "expected 1 for a study, limit cycles and one-way responses");
+    if (settings.cubic_stiffness != 0) section.fail("harmonics", "expected 1 beside cubic_stiffness");
+  }
+  check_waves(section, settings);
+  problem.harmonics_tolerance = settings.harmonics_tolerance;
+  problem.system = std::move(settings);
 }
 
-std::vector<std::string> system_keys(const problems::LibraryModel* model) {
-  if (model == nullptr) return friction_keys;
-  std::vector<std::string> keys = {"model"};
-  for (const problems::Setting& setting : model->settings) keys.push_back(setting.name);
+/// What a setting of a model may be, as messages say it.
+NumberRule rule_of(const problems::Setting& setting) {
+  constexpr double most = std::numeric_limits<double>::max();
+  if (setting.low == -most && setting.high == most) return any_number();
+  const auto holds = [low = setting.low, high = setting.high](double x) { return x >= low && x <= high; };
+  if (setting.high == most) return {holds, fmt::format(" >= {:g}", setting.low)};
+  return {holds, fmt::format(" >= {:g} and <= {:g}", setting.low, setting.high)};
+}
+
+Key<LibrarySettings> key_of(const problems::Setting& setting, std::size_t i) {
+  using L = Key<LibrarySettings>;
+  const std::string standard = fmt::format("{}", setting.value);
+  const auto continued = only("the continuation parameter has its values from [branch]; leave it out here",
+                              [name = setting.name](const LibrarySettings& settings, const TomlSection&) {
+                                return name != settings.parameter;
+                              });
+  const NumberRule rule = rule_of(setting);
+  const auto value = [i](auto& settings) -> auto& { return settings.values[i]; };
+  if (!setting.is_integer)
+    return L(setting.name, value, rule, setting.meaning, continued, otherwise(standard),
+             parameter(setting.name));
+  const auto read = [=, name = setting.name](LibrarySettings& settings, const TomlSection& section) {
+    value(settings) = static_cast<double>(section.integer(name, rule));
+  };
+  const auto size = [=](const LibrarySettings& settings) { return static_cast<Index>(value(settings)); };
+  return L::special(setting.name, "integer" + rule.text, setting.meaning, read, continued,
+                    otherwise(standard), resolved(size));
+}
+
+}  // namespace
+
+K preload_growth_key() {
+  return K("preload_growth", &S::preload_growth, any_number(), "P_2 of the preload P + P_2 eta^2");
+}
+
+std::vector<K> shared_keys() {
+  const auto base = [](const S& settings) {
+    const bool may_be_negative = !settings.use->linear_passive;
+    return ratio_rule(may_be_negative, settings.sectors ? &settings.sectors->base() : nullptr);
+  };
+  const auto damper = [](const S& settings) {
+    return ratio_rule(false, settings.sectors ? settings.sectors->damper() : nullptr);
+  };
+  const auto of_rings = [](const S& settings, const TomlSection&) { return !settings.sectors; };
+  const auto kind = [](const S& settings) {
+    return settings.sectors ? ordered_json() : ordered_json(to_string(settings.base_damping_kind));
+  };
+  static const KeyTable<S> damping{
+      {K("base", &S::base_damping, {damping_rule().text, base},
+         "zeta of the base; negative where its own motion excites it, which a study does not take",
+         parameter("zeta_B")),
+       K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper"),
+       K::choice("kind", &S::base_damping_kind,
+                 {{"viscous", DampingKind::viscous}, {"structural", DampingKind::structural}},
+                 "of rods and beams; structural is K_B (1 + 2j zeta_B)", ", for the base", resolved(kind),
+                 only("unknown key; expected base or damper", of_rings))}};
+  const auto needs_preload = [](const S& settings, const TomlSection&) {
+    return !settings.has_geometry && settings.use->parameter != "P";
+  };
+  const auto is_auto = [](const S& settings, const TomlSection&) {
+    return settings.harmonics_tolerance.has_value();
+  };
+  return {K("preload", &S::preload, positive(), "P = mu p_0/k_B; of sectors, see limit_per_preload",
+            needed("required, unless P varies", needs_preload), only(in_geometry, without_geometry),
+            parameter("P")),
+          K::table(
+              "damping", [](auto& settings) -> auto& { return settings; }, damping, "",
+              "a table { base = ..., damper = ... }", "damping ratios"),
+          K::special("harmonics", "odd integer, list or \"auto\"",
+                     "the harmonics in which friction is balanced: all odd ones up to this, or those listed",
+                     read_orders, resolved([](const S&) { return 1; })),
+          K("harmonics_tolerance", &S::harmonics_tolerance, within(1e-9, 0.1, " >= 1e-9 and <= 0.1"),
+            "the largest harmonic left out, relative to R",
+            only(R"(only beside harmonics = "auto")", is_auto), otherwise("1e-4"))};
+}
+
+const KeyTable<FrictionSettings>& ring_keys() {
+  const auto group = [](auto& key) {
+    needed("required", without_geometry)(key);
+    only(in_geometry, without_geometry)(key);
+  };
+  const auto not_both =
+      only("expected this or slenderness, not both",
+           [](const S&, const TomlSection& section) { return !section.has("slenderness"); });
+  const auto poisson_ratio = [](const S& settings) {
+    return settings.slenderness ? ordered_json(settings.poisson_ratio) : ordered_json();
+  };
+  static const KeyTable<S> keys{
+      {K::choice("model", &S::model, {{"rods", StructureModel::rods}, {"beams", StructureModel::beams}},
+                 "longitudinal waves, or transverse ones", "", required),
+       K("wave_number", &S::wave_number, at_least(1, most_elements), "n, waves round the circumference",
+         required),
+       K("elements", &S::elements, {" > 2 wave_number and <= 1e9", element_rule},
+         "N, each with a contact point; the cost does not depend on it", required),
+       K("mass_ratio", &S::mass_ratio, positive(), "M*, mass of the base over that of the damper", group),
+       K("frequency_ratio", &S::frequency_ratio, positive(),
+         "gamma, natural frequency of the base over that of the damper", group),
+       K("slenderness", &S::slenderness, positive(), "L/h_D, which gives K_FD = 12 (L/h_D)^4/(1 + nu)",
+         needed("required, or interface_stiffness", needs_slenderness), only(in_geometry, without_geometry),
+         only("only for beams; rods take interface_stiffness", is_beam)),
+       K("interface_stiffness", &S::interface_stiffness, positive(),
+         "K_FD itself; beside `[geometry]` in place of its shear estimate",
+         needed("required of rods", needs_stiffness), not_both),
+       K("force", &S::force, positive(), "F = f_0/k_B", group)},
+      shared_keys(),
+      {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper",
+         only(in_geometry, without_geometry), otherwise("0.3"), resolved(poisson_ratio)),
+       preload_growth_key(),
+       K("cubic_stiffness", &S::cubic_stiffness, {"", cubic_rule},
+         "N k_3/K* of springs k_3 y^3 between the base's nodes and ground; 0 in a study"),
+       K::flag("fixed_damper", &S::fixed_damper, "friction against a rigid ring")}};
   return keys;
 }
 
-std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model) {
-  if (is_sector(document)) {
-    std::vector<std::string> names = sector_keys();
-    for (const char* key : {"model", "base", "damper", "reduction_tolerance", "path"}) std::erase(names, key);
-    return names;
-  }
-  std::vector<std::string> names = system_keys(model);
-  if (model != nullptr) std::erase(names, "model");
-  if (model == nullptr && has_geometry(document)) {
-    for (const std::string& key : geometry_keys()) names.push_back(key);
-  }
+const KeyTable<LibrarySettings>& library_keys(const LibraryModel& model) {
+  static const auto tables = [] {
+    std::map<std::string, KeyTable<LibrarySettings>> made;
+    for (const LibraryModel& one : problems::library()) {
+      std::vector<Key<LibrarySettings>> keys{Key<LibrarySettings>::special(
+          "model", fmt::format("\"{}\"", one.name), one.title, {}, unlisted, otherwise("required"))};
+      for (std::size_t i = 0; i < one.settings.size(); ++i) keys.push_back(key_of(one.settings[i], i));
+      made.emplace(one.name, KeyTable<LibrarySettings>(std::move(keys)));
+    }
+    return made;
+  }();
+  return tables.at(model.name);
+}
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names = {"rods", "beams", "sector"};
+  for (const LibraryModel& model : problems::library()) names.push_back(model.name);
   return names;
 }
 
-void check_keys(const TomlDocument& document, const problems::LibraryModel* model) {
-  TomlSection(document, "system").allow_only(is_sector(document) ? sector_keys() : system_keys(model));
-  if (model == nullptr && !is_sector(document)) check_geometry_keys(document);
+std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryModel* model) {
+  if (model != nullptr) return arcslip::listed_keys(library_keys(*model).words(), "system");
+  if (is_sector(document)) return arcslip::listed_keys(sector_keys().words(), "system");
+  std::vector<ListedKey> keys = arcslip::listed_keys(ring_keys().words(), "system");
+  if (!has_geometry(document)) return keys;
+  const std::vector<ListedKey> sizes = arcslip::listed_keys(geometry_keys().words(), "geometry");
+  keys.insert(keys.end(), sizes.begin(), sizes.end());
+  return keys;
 }
 
-std::string path_of(const std::string& key) {
-  static const std::vector<std::string> of_geometry = geometry_keys();
-  const bool is_physical = std::find(of_geometry.begin(), of_geometry.end(), key) != of_geometry.end();
-  return (is_physical ? "geometry." : "system.") + key;
+void check_keys(const TomlDocument& document, const LibraryModel* model) {
+  TomlSection(document, "system")
+      .allow_only(model != nullptr      ? library_keys(*model).names()
+                  : is_sector(document) ? sector_keys().names()
+                                        : ring_keys().names());
 }
 
 NumberRule poisson_rule() {
   return {[](double nu) { return nu > -1 && nu <= 0.5; }, " > -1 and <= 0.5"};
 }
 
-NumberRule parameter_rule(const problems::LibraryModel* model, const std::string& parameter) {
+NumberRule parameter_rule(const LibraryModel* model, const std::string& parameter) {
   if (model == nullptr) return parameter == "zeta_B" ? damping_rule() : positive();
   for (const problems::Setting& setting : model->settings) {
-    if (setting.name != parameter) continue;
-    constexpr double most = std::numeric_limits<double>::max();
-    if (setting.low == -most && setting.high == most) return any_number();
-    const auto holds = [low = setting.low, high = setting.high](double x) { return x >= low && x <= high; };
-    if (setting.high == most) return {holds, fmt::format(" >= {:g}", setting.low)};
-    return {holds, fmt::format(" >= {:g} and <= {:g}", setting.low, setting.high)};
+    if (setting.name == parameter) return rule_of(setting);
   }
   return any_number();
 }
@@ -271,46 +306,23 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
                  ProblemRequest& problem) {
   const TomlSection section(document, "system", &replacements);
   problem.model = use.model;
-  if (use.model != nullptr) {
-    if (has_geometry(document))
-      document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
-    read_settings(section, use, problem.settings);
-  } else {
-    read_friction(document, replacements, section, use, problem);
-  }
+  if (use.model == nullptr) return read_friction(document, replacements, section, use, problem);
+  if (has_geometry(document))
+    document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
+  LibrarySettings settings{problems::defaults(*use.model), use.parameter};
+  library_keys(*use.model).read(settings, section);
+  problem.settings = std::move(settings.values);
 }
 
 void resolve_system(const ProblemRequest& problem, ordered_json& section) {
-  const auto set = [&](const std::string& key, const ordered_json& value) {
-    if (!section.contains(key)) section[key] = value;
-  };
-  if (problem.model != nullptr) {
-    for (std::size_t i = 0; i < problem.settings.size(); ++i) {
-      const problems::Setting& setting = problem.model->settings[i];
-      if (setting.is_integer) {
-        set(setting.name, static_cast<Index>(problem.settings[i]));
-      } else {
-        set(setting.name, problem.settings[i]);
-      }
-    }
-    return;
-  }
-  const SystemParameters& system = problem.system;
-  // One that for_each replaces may be anything.
-  ordered_json damping = section.contains("damping") && section["damping"].is_object()
-                             ? section["damping"]
-                             : ordered_json::object();
-  if (!damping.contains("base")) damping["base"] = system.base_damping;
-  if (!damping.contains("damper")) damping["damper"] = system.damper_damping;
-  if (!system.sectors && !damping.contains("kind")) damping["kind"] = to_string(system.base_damping_kind);
-  section["damping"] = damping;
-  set("harmonics", 1);
-  if (problem.harmonics_tolerance) set("harmonics_tolerance", *problem.harmonics_tolerance);
-  if (system.sectors) return resolve_sectors(system, section);
-  if (section.contains("slenderness")) set("poisson_ratio", default_poisson_ratio);
-  set("preload_growth", system.preload_growth);
-  set("cubic_stiffness", system.cubic_stiffness);
-  set("fixed_damper", system.fixed_damper);
+  if (problem.model != nullptr)
+    return fill(section, library_keys(*problem.model).values({problem.settings, ""}));
+  S settings{problem.system};
+  settings.harmonics_tolerance = problem.harmonics_tolerance;
+  if (settings.sectors) settings.path = settings.sectors->path();
+  if (settings.sectors) settings.reduction_tolerance = settings.sectors->tolerance();
+  if (section.contains("slenderness")) settings.slenderness = 0;
+  fill(section, (settings.sectors ? sector_keys() : ring_keys()).values(settings));
 }
 
 }  // namespace arcslip

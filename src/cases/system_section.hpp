@@ -2,22 +2,13 @@
 
 // The sections [system] and, by geometry_section.hpp, [geometry] of a case file.
 
+#include <memory>
+
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/cases/case_file.hpp"
-#include "keys/toml_reader.hpp"
+#include "keys/key_table.hpp"
 
 namespace arcslip {
-
-/// Keys that [system] may have for a model, and the names of models.
-std::vector<std::string> system_keys(const problems::LibraryModel* model);
-std::vector<std::string> model_names();
-
-/// Refuses keys that [system] and, of rods and beams, [geometry] do not have.
-void check_keys(const TomlDocument& document, const problems::LibraryModel* model);
-
-/// Keys that for_each may list, those of [geometry] by dotted names, and the path of the value that a key
-/// stands for.
-std::vector<std::string> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);
-std::string path_of(const std::string& key);
 
 /// What [system] is read for.
 struct SystemUse {
@@ -32,14 +23,43 @@ struct SystemUse {
       false;  ///< whether several contacts and the full path of a sector, and several harmonics, may be taken
 };
 
+/// [system] of a model with friction as it is read.
+struct FrictionSettings : SystemParameters {
+  const SystemUse* use = nullptr;
+  bool has_geometry = false;
+  std::optional<double> slenderness = {};
+  double poisson_ratio = 0.3;
+  std::optional<double> harmonics_tolerance = {};
+  std::vector<double> contact_stiffness = {};  ///< of sectors, for each contact
+  std::vector<double> limit_per_preload = {};
+  SectorPath path = SectorPath::reduced;
+  double reduction_tolerance = 1e-10;
+};
+
+/// Keys that the models with friction share.
+std::vector<Key<FrictionSettings>> shared_keys();
+Key<FrictionSettings> preload_growth_key();
+
+/// [system] of rods and beams, and of a model of the library.
+const KeyTable<FrictionSettings>& ring_keys();
+struct LibrarySettings {
+  problems::LibraryModel::Values values;
+  std::string parameter;  ///< the continuation parameter
+};
+const KeyTable<LibrarySettings>& library_keys(const problems::LibraryModel& model);
+
+/// Refuses keys that [system] does not have.
+void check_keys(const TomlDocument& document, const problems::LibraryModel* model);
+
+/// What for_each may list in [system] and [geometry].
+std::vector<ListedKey> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);
+
+std::vector<std::string> model_names();
+
 /// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws
 /// InputError.
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem);
-
-/// Refuses sectors that cannot travel as the waves of these harmonics, in the name of a key.
-void check_waves(const TomlSection& section, const std::string& key, const SystemParameters& system,
-                 const std::vector<int>& orders);
 
 /// Adds the defaults that were taken to the section as JSON.
 void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& section);

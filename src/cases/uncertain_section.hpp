@@ -3,17 +3,10 @@
 // The section [study.uncertain] of a case file.
 
 #include "arcslip/problems/ridges/uncertainty.hpp"
-#include "keys/toml_reader.hpp"
+#include "keys/key_table.hpp"
 
 namespace arcslip {
 
-/// Whether the case has the section.
-bool scatters(const TomlDocument& document);
-
-/// Reads the section. Throws InputError.
-problems::Uncertainty read_uncertainty(const TomlDocument& document);
-
-/// Adds the defaults that were taken to the section as JSON.
-void resolve_uncertainty(const problems::Uncertainty& uncertainty, nlohmann::ordered_json& section);
+const KeyTable<problems::Uncertainty>& uncertain_keys();
 
 }  // namespace arcslip

@@ -150,9 +150,17 @@ NumberRule inside(double low, double high) {
           fmt::format(" > {} and < {}", low, high)};
 }
 
-NumberRule within(double low, double high) {
+NumberRule within(double low, double high, const std::string& text) {
   return {[low, high](double value) { return value >= low && value <= high; },
-          fmt::format(" >= {} and <= {}", low, high)};
+          text.empty() ? fmt::format(" >= {} and <= {}", low, high) : text};
+}
+
+NumberRule at_least(double low, double high) {
+  return {[low, high](double value) { return value >= low && value <= high; }, fmt::format(" >= {}", low)};
+}
+
+NumberRule up_to(double high) {
+  return {[high](double value) { return value > 0 && value <= high; }, fmt::format(" > 0 and <= {}", high)};
 }
 
 TomlSection::TomlSection(const TomlDocument& document, std::string path, const Replacements* replacements)
@@ -215,26 +223,16 @@ double TomlSection::number(std::string_view key, const NumberRule& rule) const {
   return number ? *number : document_.number(find(key), rule);
 }
 
-double TomlSection::number(std::string_view key, const NumberRule& rule, double otherwise) const {
-  return has(key) ? number(key, rule) : otherwise;
-}
-
-Index TomlSection::integer(std::string_view key, Index low, Index high, const Expected& expected) const {
-  const toml::node* given = node(key);
-  if (given == nullptr) require(key, expected());
-  const auto* value = given->as_integer();
-  if (value == nullptr || value->get() < low || value->get() > high) mismatch(key, expected());
+Index TomlSection::integer(std::string_view key, const NumberRule& rule) const {
+  const std::string expected = "an integer" + rule.text;
+  const auto* value = require(key, expected).as_integer();
+  if (value == nullptr || !rule.holds(static_cast<double>(value->get()))) mismatch(key, expected);
   return value->get();
 }
 
-Index TomlSection::integer(std::string_view key, Index low, Index high, const Expected& expected,
-                           Index otherwise) const {
-  return has(key) ? integer(key, low, high, expected) : otherwise;
-}
-
-std::string TomlSection::text(std::string_view key, const std::vector<std::string>& choices) const {
-  const std::string expected =
-      choices.empty() ? "a string" : fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
+std::string TomlSection::text(std::string_view key, const std::vector<std::string>& choices,
+                              const std::string& remark) const {
+  const std::string expected = choices.empty() ? "a string" : one_of(choices) + remark;
   const auto value = require(key, expected).value_exact<std::string>();
   if (!value || (!choices.empty() && std::find(choices.begin(), choices.end(), *value) == choices.end())) {
     mismatch(key, expected);
@@ -253,9 +251,8 @@ std::vector<double> TomlSection::numbers(std::string_view key, const NumberRule&
   return values;
 }
 
-bool TomlSection::boolean(std::string_view key, bool otherwise) const {
-  if (!has(key)) return otherwise;
-  const auto value = require(key, "").value_exact<bool>();
+bool TomlSection::boolean(std::string_view key) const {
+  const auto value = require(key, "true or false").value_exact<bool>();
   if (!value) mismatch(key, "true or false");
   return *value;
 }
@@ -274,12 +271,23 @@ std::vector<std::string> TomlSection::texts(std::string_view key, const std::vec
   return values;
 }
 
+TomlSection TomlSection::inside(std::string_view key, const std::string& expected) const {
+  const Replacement value = find(key);
+  const toml::table* table = require(key, expected).as_table();
+  if (table == nullptr) mismatch(key, expected);
+  return {document_, *table, value.name, replacements_};
+}
+
 void TomlSection::allow_only(const std::vector<std::string>& keys) const {
   if (table_ == nullptr) return;
   for (const auto& [key, node] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
     document_.fail(&node, name(key.str()), unknown_key(key.str(), keys));
   }
+}
+
+std::string one_of(const std::vector<std::string>& choices) {
+  return fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
 }
 
 std::string unknown_key(std::string_view key, const std::vector<std::string>& keys) {

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -44,8 +45,10 @@ struct NumberRule {
 
 NumberRule any_number();
 NumberRule positive();
-NumberRule inside(double low, double high);  ///< between the two
-NumberRule within(double low, double high);  ///< between the two or equal to one
+NumberRule inside(double low, double high);                                ///< between the two
+NumberRule within(double low, double high, const std::string& text = "");  ///< or equal to one of them
+NumberRule at_least(double low, double high = std::numeric_limits<double>::max());  ///< `high` is not said
+NumberRule up_to(double high);                                                      ///< > 0 and no more
 
 /// A file's table and the settings on top of it.
 class TomlDocument {
@@ -76,22 +79,24 @@ class TomlSection {
  public:
   TomlSection(const TomlDocument& document, std::string path, const Replacements* replacements = nullptr);
   /// A table that no path leads to, in an array.
-  TomlSection(const TomlDocument& document, const toml::table& table, std::string path)
-      : document_(document), path_(std::move(path)), replacements_(nullptr), table_(&table) {}
+  TomlSection(const TomlDocument& document, const toml::table& table, std::string path,
+              const Replacements* replacements = nullptr)
+      : document_(document), path_(std::move(path)), replacements_(replacements), table_(&table) {}
 
   bool has(std::string_view key) const { return node(key) != nullptr; }
   double number(std::string_view key, const NumberRule& rule) const;
-  double number(std::string_view key, const NumberRule& rule, double otherwise) const;
-  /// `expected` is what a message says of the range.
-  using Expected = std::function<std::string()>;
-  Index integer(std::string_view key, Index low, Index high, const Expected& expected) const;
-  Index integer(std::string_view key, Index low, Index high, const Expected& expected, Index otherwise) const;
-  std::string text(std::string_view key, const std::vector<std::string>& choices) const;
-  bool boolean(std::string_view key, bool otherwise) const;
+  Index integer(std::string_view key, const NumberRule& rule) const;
+  /// One of the choices, unless these are empty; `remark` follows them in messages.
+  std::string text(std::string_view key, const std::vector<std::string>& choices,
+                   const std::string& remark = "") const;
+  bool boolean(std::string_view key) const;
   std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
   /// An array of names, each among the choices unless these are empty.
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& choices,
                                  const std::string& expected) const;
+
+  /// The table that a key holds, which is `expected`.
+  TomlSection inside(std::string_view key, const std::string& expected) const;
 
   /// Refuses every key that is not among these.
   void allow_only(const std::vector<std::string>& keys) const;
@@ -117,6 +122,9 @@ class TomlSection {
 
 /// The same value as JSON.
 nlohmann::ordered_json to_json(const toml::node& node);
+
+/// "\"a\" or \"b\"".
+std::string one_of(const std::vector<std::string>& choices);
 
 /// What is said of a key that is not among `keys`: which one it was most likely meant to be, or all of them.
 std::string unknown_key(std::string_view key, const std::vector<std::string>& keys);

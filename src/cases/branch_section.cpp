@@ -1,0 +1,172 @@
+#include "cases/branch_section.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cases/continuation_section.hpp"
+#include "cases/system_section.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::PointType;
+using continuation::TraceOptions;
+
+/// The parameters that may be continued.
+std::vector<std::string> parameters_of(const ProblemRequest& problem) {
+  if (problem.model != nullptr)
+    return problem.model->build(problems::defaults(*problem.model))->parameter_names();
+  if (problem.is_mode()) return {"R"};
+  return {problem.is_limit_cycle() ? "zeta_B" : "eta", "P"};
+}
+
+bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
+  return branch.problem.model == nullptr;
+}
+bool is_curve(const CaseBranch& branch, const TomlSection& /*section*/) { return branch.curve.has_value(); }
+bool is_branch(const CaseBranch& branch, const TomlSection& /*section*/) { return !branch.curve; }
+
+void read_parameters(CaseBranch& branch, const TomlSection& section) {
+  const std::vector<std::string> names = parameters_of(branch.problem);
+  const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names, "\", \""));
+  const std::vector<std::string> pair = section.texts("parameters", names, expected);
+  if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
+  branch.curve->active = pair[0];
+  branch.options.parameter = pair[1];
+}
+
+void read_window(CaseBranch& branch, const TomlSection& section) {
+  CurveRequest& curve = *branch.curve;
+  const std::string expected = "two different numbers, the range of " + curve.active;
+  section.require("window", expected);
+  const std::vector<double> window =
+      section.numbers("window", parameter_rule(branch.problem.model, curve.active));
+  if (window.size() != 2 || window[0] == window[1]) section.mismatch("window", expected);
+  curve.from = window[0];
+  curve.to = window[1];
+  curve.window = {std::min(curve.from, curve.to), std::max(curve.from, curve.to)};
+}
+
+NumberRule rule_of_parameter(const CaseBranch& branch) {
+  return parameter_rule(branch.problem.model, branch.options.parameter);
+}
+
+NumberRule rule_of_range(const CaseBranch& branch) {
+  const auto [low, high] = std::minmax({branch.options.from, branch.options.to});
+  return within(low, high);
+}
+
+void check_range(const CaseBranch& branch, const TomlSection& section) {
+  if (branch.options.from == branch.options.to)
+    section.mismatch("to", "a number that differs from branch.from");
+}
+
+void check_start(const CaseBranch& branch, const TomlSection& section) {
+  if (branch.switching)
+    section.fail("start", "not beside switching, which follows the branch that begins at branch.from");
+}
+
+void check_all(const CaseBranch& branch, const TomlSection& section) {
+  if (branch.all_solutions) section.require("start", "the value of the parameter to find all solutions at");
+}
+
+void read_extrema(CaseBranch& branch, const TomlSection& section) {
+  const char* expected = "the one observable whose extrema the curve is made of";
+  const bool curve = branch.curve.has_value();
+  const bool ridge =
+      curve && (branch.curve->type == PointType::peak || branch.curve->type == PointType::trough);
+  std::vector<std::string>& observables = branch.options.extrema_of;
+  if (section.has("extrema_of")) {
+    observables = section.texts("extrema_of", {}, "an array of observables");
+    if (curve && !ridge) section.fail("extrema_of", "only beside curves of peaks or troughs");
+  } else if (branch.problem.model == nullptr && !branch.problem.is_limit_cycle()) {
+    observables = {branch.problem.is_mode() ? "zeta" : "Y"};
+  }
+  if (ridge && observables.empty()) section.require("extrema_of", expected);
+  if (ridge && observables.size() != 1) section.mismatch("extrema_of", expected);
+}
+
+}  // namespace
+
+const KeyTable<CaseBranch>& branch_keys() {
+  using S = CaseBranch;
+  using K = Key<S>;
+  static const auto along = only("not beside curve, which has parameters and a window", is_branch);
+  static const auto across = only("only beside curve", is_curve);
+  static const auto friction = only("only for systems with friction", of_friction);
+  const auto has_no_pair = [](const S&, const TomlSection& section) { return !section.has("parameters"); };
+  static const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
+  static const KeyTable<S> keys{
+      {K::choice("response", at(&S::problem, &ProblemRequest::response),
+                 {{"forced", Response::forced},
+                  {"one_way", Response::one_way},
+                  {"limit_cycle", Response::limit_cycle},
+                  {"nonlinear_mode", Response::nonlinear_mode}},
+                 "to the force; of a damper on a base that moves as if alone; vibration without force; "
+                 "frequency and "
+                 "damping ratio of a mode over its amplitude",
+                 "", friction),
+       K::special("curve", one_of(curves), "a curve of such points in two parameters",
+                  [](S& branch, const TomlSection& section) {
+                    branch.curve.emplace().type = *continuation::point_type(section.text("curve", curves));
+                  }),
+       K::special(
+           "parameter", "name",
+           "what varies: `\"eta\"`, `\"P\"`; of limit cycles `\"zeta_B\"`, `\"P\"`; of nonlinear modes "
+           "`\"R\"`; or "
+           "one of a library model",
+           [](S& branch, const TomlSection& section) {
+             branch.options.parameter = section.text("parameter", parameters_of(branch.problem));
+           },
+           needed("required", has_no_pair), along),
+       K::special("parameters", "two names",
+                  "of a curve, as `[\"eta\", \"P\"]`: its first points are looked for on a branch over the "
+                  "first one at "
+                  "`[system]`'s value of the second",
+                  read_parameters, required, across),
+       K::special("window", "two numbers",
+                  "range of the first parameter of a curve, searched from its first value to its second",
+                  read_window, required, across),
+       K("from", at(&S::options, &TraceOptions::from), {"", rule_of_parameter},
+         "first value of the parameter, of a curve of the second one", required),
+       K("to", at(&S::options, &TraceOptions::to), {"", rule_of_parameter},
+         "last value, on which a branch ends", required, then(check_range)),
+       K("eta", at(&S::problem, &ProblemRequest::eta), positive(),
+         "the fixed frequency where P is the parameter; of nonlinear modes a frequency near theirs", friction,
+         parameter("eta"), unresolved),
+       K::special(
+           "for_each", "table, or list of tables",
+           "one branch for each value of a key of `[system]` or `[geometry]`, or of `eta`; several lists are "
+           "walked together",
+           {}),
+       K::flag("switching", &S::switching,
+               "follow all branches that meet this one, at branch points and at corners where several pieces "
+               "meet",
+               along),
+       K("start", &S::start, {" from `from` to `to`", rule_of_range},
+         "trace both ways from this value, until the range is left on either side; not beside switching",
+         along, then(check_start)),
+       K::flag("all_solutions", &S::all_solutions,
+               "find all solutions at `start` by deflation and trace each one's branch, so that closed and "
+               "disconnected branches are found",
+               along, then(check_all)),
+       K::special("extrema_of", "list of names",
+                  "observables whose peaks and troughs are located; of a curve of these the one",
+                  read_extrema,
+                  needed("`[\"Y\"]` of forced responses", [](const S&, const TomlSection&) { return true; })),
+       K::flag("stability", at(&S::problem, &ProblemRequest::stability),
+               "growth of disturbances of a forced response in every wave")}};
+  return keys;
+}
+
+CaseBranch read_branch(const TomlDocument& document, const problems::LibraryModel* model) {
+  CaseBranch branch;
+  branch.problem.model = model;
+  branch_keys().read(branch, TomlSection(document, "branch"));
+  continuation_keys().read(branch.options, TomlSection(document, "continuation"));
+  return branch;
+}
+
+}  // namespace arcslip
