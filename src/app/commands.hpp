@@ -50,6 +50,17 @@ struct CheckOptions {
 /// Prints what `run` and `study` would do.
 int check_command(const CheckOptions& options);
 
+struct HelpOptions {
+  std::string key;        ///< empty: all of them
+  bool markdown = false;  ///< tables of all keys, as the README has them
+};
+
+/// Tells what keys case files have, or all of one.
+int help_command(const HelpOptions& options);
+
+/// The keys of these sections, or of all, with their meanings.
+std::string list_keys(const std::vector<std::string>& sections);
+
 /// Runs a command; what it throws is printed on stderr and becomes the status.
 int guarded(const std::function<int()>& command);
 

@@ -93,10 +93,10 @@ void read_extrema(CaseBranch& branch, const TomlSection& section) {
 const KeyTable<CaseBranch>& branch_keys() {
   using S = CaseBranch;
   using K = Key<S>;
-  static const auto along = only("not beside curve, which has parameters and a window", is_branch);
+  static const auto along =
+      only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
   static const auto across = only("only beside curve", is_curve);
   static const auto friction = only("only for systems with friction", of_friction);
-  const auto has_no_pair = [](const S&, const TomlSection& section) { return !section.has("parameters"); };
   static const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
   static const KeyTable<S> keys{
       {K::choice("response", at(&S::problem, &ProblemRequest::response),
@@ -104,58 +104,44 @@ const KeyTable<CaseBranch>& branch_keys() {
                   {"one_way", Response::one_way},
                   {"limit_cycle", Response::limit_cycle},
                   {"nonlinear_mode", Response::nonlinear_mode}},
-                 "to the force; of a damper on a base that moves as if alone; vibration without force; "
-                 "frequency and "
-                 "damping ratio of a mode over its amplitude",
-                 "", friction),
+                 "what is asked of a system with friction", "", friction),
        K::special("curve", one_of(curves), "a curve of such points in two parameters",
                   [](S& branch, const TomlSection& section) {
                     branch.curve.emplace().type = *continuation::point_type(section.text("curve", curves));
                   }),
        K::special(
            "parameter", "name",
-           "what varies: `\"eta\"`, `\"P\"`; of limit cycles `\"zeta_B\"`, `\"P\"`; of nonlinear modes "
-           "`\"R\"`; or "
-           "one of a library model",
+           "what varies: eta or P, of limit cycles zeta_B or P, of nonlinear modes R, or a library model's "
+           "own",
            [](S& branch, const TomlSection& section) {
              branch.options.parameter = section.text("parameter", parameters_of(branch.problem));
            },
-           needed("required", has_no_pair), along),
+           needed("required", lacks("parameters")), along),
        K::special("parameters", "two names",
-                  "of a curve, as `[\"eta\", \"P\"]`: its first points are looked for on a branch over the "
-                  "first one at "
-                  "`[system]`'s value of the second",
+                  "of a curve: its first points are looked for over the first, at the second of `[system]`",
                   read_parameters, required, across),
        K::special("window", "two numbers",
-                  "range of the first parameter of a curve, searched from its first value to its second",
-                  read_window, required, across),
+                  "range of the first parameter of a curve, searched from its first value on", read_window,
+                  required, across),
        K("from", at(&S::options, &TraceOptions::from), {"", rule_of_parameter},
          "first value of the parameter, of a curve of the second one", required),
        K("to", at(&S::options, &TraceOptions::to), {"", rule_of_parameter},
          "last value, on which a branch ends", required, then(check_range)),
        K("eta", at(&S::problem, &ProblemRequest::eta), positive(),
-         "the fixed frequency where P is the parameter; of nonlinear modes a frequency near theirs", friction,
-         parameter("eta"), unresolved),
-       K::special(
-           "for_each", "table, or list of tables",
-           "one branch for each value of a key of `[system]` or `[geometry]`, or of `eta`; several lists are "
-           "walked together",
-           {}),
+         "the fixed frequency where P varies; of nonlinear modes one near theirs", friction, parameter("eta"),
+         unresolved),
+       K::special("for_each", "table, or list of tables",
+                  "one branch for each value of keys of `[system]` and `[geometry]`, or of eta", {}),
        K::flag("switching", &S::switching,
-               "follow all branches that meet this one, at branch points and at corners where several pieces "
-               "meet",
-               along),
+               "follow all branches that meet this one, at branch points and corners", along),
        K("start", &S::start, {" from `from` to `to`", rule_of_range},
-         "trace both ways from this value, until the range is left on either side; not beside switching",
-         along, then(check_start)),
+         "trace both ways from this value; not beside switching", along, then(check_start)),
        K::flag("all_solutions", &S::all_solutions,
-               "find all solutions at `start` by deflation and trace each one's branch, so that closed and "
-               "disconnected branches are found",
-               along, then(check_all)),
+               "find all solutions at `start` by deflation and trace the branch of each", along,
+               then(check_all)),
        K::special("extrema_of", "list of names",
                   "observables whose peaks and troughs are located; of a curve of these the one",
-                  read_extrema,
-                  needed("`[\"Y\"]` of forced responses", [](const S&, const TomlSection&) { return true; })),
+                  read_extrema, needed("`[\"Y\"]` of forced responses", always)),
        K::flag("stability", at(&S::problem, &ProblemRequest::stability),
                "growth of disturbances of a forced response in every wave")}};
   return keys;

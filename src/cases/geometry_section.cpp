@@ -14,14 +14,15 @@ KeyTable<S> ring(RectangularRing Geometry::*which) {
   const auto is_needed = [=](const S& settings, const TomlSection&) {
     return settings.needs_shear && which == &Geometry::damper;
   };
-  return {{K("elastic_modulus", at(which, &R::elastic_modulus), positive(), "E", unit("Pa"), required),
-           K("density", at(which, &R::density), positive(), "rho", unit("kg/m^3"), required),
+  return {{K("elastic_modulus", at(which, &R::elastic_modulus), positive(), "Young's modulus E", unit("Pa"),
+             required),
+           K("density", at(which, &R::density), positive(), "density rho", unit("kg/m^3"), required),
            K("poisson_ratio", at(which, &R::poisson_ratio), poisson_rule(),
-             "nu; that of the base has no influence",
+             "Poisson's ratio nu; that of the base has no influence",
              needed("required of the damper, unless `[system]` has interface_stiffness", is_needed)),
-           K("width", at(which, &R::width), positive(), "w", unit("m"), required),
-           K("height", at(which, &R::height), positive(), "h, the direction in which transverse waves move",
-             unit("m"), required)}};
+           K("width", at(which, &R::width), positive(), "of the section, w", unit("m"), required),
+           K("height", at(which, &R::height), positive(),
+             "of the section, h, the direction in which transverse waves move", unit("m"), required)}};
 }
 
 /// Refuses sizes so extreme that the groups are beyond what a double holds.
@@ -47,15 +48,17 @@ const KeyTable<GeometrySettings>& geometry_keys() {
   static const KeyTable<S> keys{
       {K::table("base", whole, base, shape, "a table", "a ring of solid rectangular section", required,
                 unlisted),
-       K::table("damper", whole, damper, shape, "a table", "another one", required, unlisted),
-       K("circumference", &S::circumference, positive(), "L of both", unit("m"),
+       K::table("damper", whole, damper, shape, "a table", "another one, pressed against it", required,
+                unlisted),
+       K("circumference", &S::circumference, positive(), "L of both, the mean one", unit("m"),
          otherwise("required, or radius")),
        K("radius", &S::radius, positive(), "the mean one, L/(2 pi)", unit("m"),
          otherwise("required, or circumference")),
-       K("friction_coefficient", &S::friction_coefficient, positive(), "mu", required),
-       K("preload_per_length", &S::preload_per_length, positive(), "p_0", unit("N/m"),
+       K("friction_coefficient", &S::friction_coefficient, positive(), "mu of the contact", required),
+       K("preload_per_length", &S::preload_per_length, positive(), "p_0 between the rings", unit("N/m"),
          needed("required, unless P varies", is_needed)),
-       K("force_per_length", &S::force_per_length, positive(), "amplitude f_0", unit("N/m"), required)}};
+       K("force_per_length", &S::force_per_length, positive(),
+         "f_0, amplitude of the travelling force on the base", unit("N/m"), required)}};
   return keys;
 }
 

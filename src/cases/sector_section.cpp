@@ -8,6 +8,7 @@
 #include <functional>
 #include <new>
 #include <numbers>
+#include <tuple>
 
 #include "arcslip/sectors/matrix_market.hpp"
 #include "keys/input_file.hpp"
@@ -204,12 +205,9 @@ using S = FrictionSettings;
 using K = Key<S>;
 
 void read_window(S& settings, const TomlSection& section) {
-  const char* expected = "two numbers, 0 < low < high: the eta for which the modes of the sectors are found";
-  section.require("reduction_window", expected);
-  const std::vector<double> window = section.numbers("reduction_window", positive());
-  if (window.size() != 2 || !(window[0] < window[1])) section.mismatch("reduction_window", expected);
-  settings.eta_low = window[0];
-  settings.eta_high = window[1];
+  std::tie(settings.eta_low, settings.eta_high) =
+      section.rising("reduction_window",
+                     "two numbers, 0 < low < high: the eta for which the modes of the sectors are found");
 }
 
 /// Reads a number for all contacts, or a list with one for each.

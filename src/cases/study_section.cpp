@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "cases/uncertain_section.hpp"
 
 namespace arcslip {
 namespace {
 
 void read_window(StudyCase& study, const TomlSection& section) {
-  const char* expected = "two numbers, 0 < low < high, between which peaks are sought";
-  section.require("eta", expected);
-  const std::vector<double> window = section.numbers("eta", positive());
-  if (window.size() != 2 || !(window[0] < window[1])) section.mismatch("eta", expected);
-  study.range.eta_low = window[0];
-  study.range.eta_high = window[1];
+  std::tie(study.range.eta_low, study.range.eta_high) =
+      section.rising("eta", "two numbers, 0 < low < high, between which peaks are sought");
 }
 
 }  // namespace
@@ -36,13 +34,10 @@ const KeyTable<StudyCase>& study_keys() {
        K("from", at(&S::range, &PreloadRange::from), positive(), "lowest preload", required),
        K("to", at(&S::range, &PreloadRange::to), {" > from", above}, "highest preload", required),
        K::special("eta", "two numbers",
-                  "the window of frequencies in which peaks are sought; a peak on its edge counts",
-                  read_window, required),
-       K::special(
-           "for_each", "table, or list of tables",
-           "the designs: lists and ranges of keys of `[system]` and `[geometry]`, every value with every "
-           "other, the last key fastest; or a table for each design",
-           {}),
+                  "the window of frequencies in which peaks are sought; one on its edge counts", read_window,
+                  required),
+       K::special("for_each", "table, or list of tables",
+                  "the designs: values of keys of `[system]` and `[geometry]`, each with each", {}),
        K::flag("sweep", &S::sweep, "whether `sweep.csv` and `quantiles.csv` are wanted"),
        K::special(
            "uncertain", "table", "what scatters",

@@ -151,10 +151,12 @@ NumberRule rule_of(const problems::Setting& setting) {
 Key<LibrarySettings> key_of(const problems::Setting& setting, std::size_t i) {
   using L = Key<LibrarySettings>;
   const std::string standard = fmt::format("{}", setting.value);
-  const auto continued = only("the continuation parameter has its values from [branch]; leave it out here",
-                              [name = setting.name](const LibrarySettings& settings, const TomlSection&) {
-                                return name != settings.parameter;
-                              });
+  const auto continued = only(
+      "the continuation parameter has its values from [branch]; leave it out here",
+      [name = setting.name](const LibrarySettings& settings, const TomlSection&) {
+        return name != settings.parameter;
+      },
+      "");
   const NumberRule rule = rule_of(setting);
   const auto value = [i](auto& settings) -> auto& { return settings.values[i]; };
   if (!setting.is_integer)
@@ -193,8 +195,8 @@ std::vector<K> shared_keys() {
        K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper"),
        K::choice("kind", &S::base_damping_kind,
                  {{"viscous", DampingKind::viscous}, {"structural", DampingKind::structural}},
-                 "of rods and beams; structural is K_B (1 + 2j zeta_B)", ", for the base", resolved(kind),
-                 only("unknown key; expected base or damper", of_rings))}};
+                 "of the base: C proportional to K, or K (1 + 2j zeta_B)", ", for the base", resolved(kind),
+                 only("unknown key; expected base or damper", of_rings, "not of sectors"))}};
   const auto needs_preload = [](const S& settings, const TomlSection&) {
     return !settings.has_geometry && settings.use->parameter != "P";
   };
@@ -216,13 +218,13 @@ std::vector<K> shared_keys() {
 }
 
 const KeyTable<FrictionSettings>& ring_keys() {
-  const auto group = [](auto& key) {
+  const auto in_groups = only(in_geometry, without_geometry);
+  const auto group = [=](auto& key) {
     needed("required", without_geometry)(key);
-    only(in_geometry, without_geometry)(key);
+    in_groups(key);
   };
   const auto not_both =
-      only("expected this or slenderness, not both",
-           [](const S&, const TomlSection& section) { return !section.has("slenderness"); });
+      only("expected this or slenderness, not both", lacks("slenderness"), "not beside slenderness");
   const auto poisson_ratio = [](const S& settings) {
     return settings.slenderness ? ordered_json(settings.poisson_ratio) : ordered_json();
   };
@@ -237,15 +239,15 @@ const KeyTable<FrictionSettings>& ring_keys() {
        K("frequency_ratio", &S::frequency_ratio, positive(),
          "gamma, natural frequency of the base over that of the damper", group),
        K("slenderness", &S::slenderness, positive(), "L/h_D, which gives K_FD = 12 (L/h_D)^4/(1 + nu)",
-         needed("required, or interface_stiffness", needs_slenderness), only(in_geometry, without_geometry),
+         needed("required, or interface_stiffness", needs_slenderness), in_groups,
          only("only for beams; rods take interface_stiffness", is_beam)),
        K("interface_stiffness", &S::interface_stiffness, positive(),
          "K_FD itself; beside `[geometry]` in place of its shear estimate",
          needed("required of rods", needs_stiffness), not_both),
        K("force", &S::force, positive(), "F = f_0/k_B", group)},
       shared_keys(),
-      {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper",
-         only(in_geometry, without_geometry), otherwise("0.3"), resolved(poisson_ratio)),
+      {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper", in_groups, otherwise("0.3"),
+         resolved(poisson_ratio)),
        preload_growth_key(),
        K("cubic_stiffness", &S::cubic_stiffness, {"", cubic_rule},
          "N k_3/K* of springs k_3 y^3 between the base's nodes and ground; 0 in a study"),

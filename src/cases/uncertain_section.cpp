@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <tuple>
 
 namespace arcslip {
 namespace {
@@ -10,10 +11,9 @@ using problems::Scatter;
 using problems::Uncertainty;
 
 void read_uniform(Scatter& scatter, const TomlSection& section) {
-  const std::vector<double> range = section.numbers("uniform", positive());
-  if (range.size() != 2 || !(range[0] < range[1]))
-    section.mismatch("uniform", "two factors of the nominal value, 0 < low < high");
-  scatter = {Scatter::Kind::uniform, 0, range[0], range[1]};
+  scatter.kind = Scatter::Kind::uniform;
+  std::tie(scatter.low, scatter.high) =
+      section.rising("uniform", "two factors of the nominal value, 0 < low < high");
 }
 
 const KeyTable<Scatter>& scatter_keys() {
@@ -36,12 +36,8 @@ Key<Uncertainty> factor(const std::string& name, Scatter Uncertainty::*member, c
       section.fail(name, "expected { lognormal = ... } or { uniform = [...] }");
   };
   return Key<Uncertainty>::table(name, member, scatter_keys(), "at least one of mu, preload and force",
-                                 "a table", "factor on its nominal value", unresolved, then(check),
-                                 otherwise("1"), term...);
-}
-
-bool is_needed(const Uncertainty& /*uncertainty*/, const TomlSection& section) {
-  return !section.has("preload") && !section.has("force");
+                                 "a table", "distribution of the factor on its nominal value", unresolved,
+                                 then(check), otherwise("1"), term...);
 }
 
 void check_quantiles(const Uncertainty& uncertainty, const TomlSection& section) {
@@ -56,7 +52,7 @@ const KeyTable<Uncertainty>& uncertain_keys() {
   using S = Uncertainty;
   using K = Key<S>;
   static const KeyTable<S> keys{
-      {factor("mu", &S::friction, needed("1; one of the three is needed", is_needed)),
+      {factor("mu", &S::friction, needed("1; one of the three is needed", lacks("preload", "force"))),
        factor("preload", &S::preload), factor("force", &S::force),
        K("samples", &S::samples, within(100, 1e6, " >= 100 and <= 1e6"), "of a Latin hypercube"),
        K("seed", &S::seed, at_least(0), "the same one gives the same samples everywhere"),

@@ -13,7 +13,8 @@
 // A key that is not given leaves the settings as they are: what they are at first is its default. Keys are
 // read in their order, so that what one may be can depend on those before it.
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -166,7 +167,12 @@ struct Key {
   KeyWords told() const {
     KeyWords told = words;
     if (!told.otherwise.empty() || !told.inner.empty() || !value) return told;
-    if (const Json standard = value(S{}); !standard.is_null()) told.otherwise = standard.dump();
+    const Json standard = value(S{});
+    if (standard.is_number_float()) {
+      told.otherwise = fmt::format("{}", standard.template get<double>());
+    } else if (!standard.is_null()) {
+      told.otherwise = standard.dump();
+    }
     return told;
   }
 
@@ -209,15 +215,26 @@ auto needed(const std::string& text, const Condition& condition) {
     key.words.otherwise = text;
   };
 }
-inline const auto required = needed("required", [](const auto&, const TomlSection&) { return true; });
+inline constexpr auto always = [](const auto&, const TomlSection&) { return true; };
+inline const auto required = needed("required", always);
 
-/// Where the condition does not hold it is refused with this text.
+/// The condition that a section has none of these keys.
+template <class... Name>
+auto lacks(const Name&... name) {
+  return [=](const auto&, const TomlSection& section) { return (!section.has(name) && ...); };
+}
+
+/// Where the condition does not hold it is refused with this text; help has `told` of it.
 template <class Condition>
-auto only(const std::string& text, const Condition& condition) {
+auto only(const std::string& text, const Condition& condition, const std::string& told) {
   return [=](auto& key) {
-    key.words.condition += (key.words.condition.empty() ? "" : "; ") + text;
+    key.words.condition += (key.words.condition.empty() || told.empty() ? "" : "; ") + told;
     key.only.emplace_back(text, condition);
   };
+}
+template <class Condition>
+auto only(const std::string& text, const Condition& condition) {
+  return only(text, condition, text);
 }
 
 /// Done after it was read, as a check.

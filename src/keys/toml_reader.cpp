@@ -251,6 +251,13 @@ std::vector<double> TomlSection::numbers(std::string_view key, const NumberRule&
   return values;
 }
 
+std::pair<double, double> TomlSection::rising(std::string_view key, const std::string& expected) const {
+  require(key, expected);
+  const std::vector<double> pair = numbers(key, positive());
+  if (pair.size() != 2 || !(pair[0] < pair[1])) mismatch(key, expected);
+  return {pair[0], pair[1]};
+}
+
 bool TomlSection::boolean(std::string_view key) const {
   const auto value = require(key, "true or false").value_exact<bool>();
   if (!value) mismatch(key, "true or false");

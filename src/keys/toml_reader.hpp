@@ -91,6 +91,8 @@ class TomlSection {
                    const std::string& remark = "") const;
   bool boolean(std::string_view key) const;
   std::vector<double> numbers(std::string_view key, const NumberRule& rule) const;
+  /// Two numbers, 0 < low < high, which are `expected`.
+  std::pair<double, double> rising(std::string_view key, const std::string& expected) const;
   /// An array of names, each among the choices unless these are empty.
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& choices,
                                  const std::string& expected) const;

@@ -165,6 +165,26 @@ TEST_CASE("Help and version explain the program with status 0") {
                                                     ContainsSubstring("limit_cycle"));
 }
 
+TEST_CASE("help lists the keys of case files and tells all of one, or the nearest to it") {
+  const Outcome all = arcslip_program("help");
+  CHECK(all.status == 0);
+  CHECK_THAT(all.out, ContainsSubstring("[study.uncertain]") && ContainsSubstring("damper.width") &&
+                          ContainsSubstring("lorenz84.G"));
+  const Outcome one = arcslip_program("help continuation.max_step");
+  CHECK(one.status == 0);
+  CHECK(one.out ==
+        "continuation.max_step: largest step\n  is            number > 0 and <= 1\n"
+        "  unit          scaled arclength\n  if not given  0.1\n");
+  CHECK_THAT(arcslip_program("help eta").out,
+             ContainsSubstring("branch.eta: ") && ContainsSubstring("study.eta: "));
+  CHECK_THAT(arcslip_program("help preload").out,
+             ContainsSubstring("continued as  P\n") && ContainsSubstring("may list it\n"));
+  const Outcome none = arcslip_program("help continuation.max_stop");
+  CHECK(none.status == 2);
+  CHECK(is_one_line(none.err));
+  CHECK_THAT(none.err, ContainsSubstring("did you mean 'max_step'?"));
+}
+
 TEST_CASE("check says what would run, and refuses what run would refuse") {
   const Outcome outcome = arcslip_program("check " + figure_8);
   CHECK(outcome.status == 0);

@@ -230,6 +230,21 @@ TEST_CASE("The README's cases are problems/figure_8.toml, a sector and parts of 
   CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[4]));
 }
 
+TEST_CASE("The README's tables of keys are those that the program prints") {
+  const std::string readme = read(source + "/README.md");
+  const testing::Outcome outcome = Checkout().run("arcslip help --markdown");
+  CHECK(outcome.status == 0);
+  int tables = 0;
+  for (std::size_t at = 0; at < outcome.out.size(); ++tables) {
+    const std::size_t end = outcome.out.find("\n\n", at) + 1;
+    const std::string table = outcome.out.substr(at, end - at);
+    INFO(table);
+    CHECK(readme.find("\n" + table) != std::string::npos);
+    at = end + 1;
+  }
+  CHECK(tables == 9);
+}
+
 TEST_CASE("Every case file stands in the README's table") {
   const std::string readme = read(source + "/README.md");
   for (const auto& entry : std::filesystem::directory_iterator(source + "/problems")) {

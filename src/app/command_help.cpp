@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/commands.hpp"
+#include "cases/key_catalogue.hpp"
+#include "keys/printable.hpp"
+#include "results/output.hpp"
+
+namespace arcslip {
+namespace {
+
+/// Without the marks of code.
+std::string plain(std::string text) {
+  std::erase(text, '`');
+  return text;
+}
+
+/// With stars that are no marks.
+std::string marked(const std::string& text) {
+  std::string result;
+  bool code = false;
+  for (const char c : text) {
+    code = code != (c == '`');
+    if (!code && (c == '*' || c == '|')) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string described(const std::string& text, const std::string& more) {
+  return text.empty() || more.empty() ? text + more : text + "; " + more;
+}
+
+std::string type_of(const KeyWords& key) {
+  return key.type + key.allowed + (key.unit.empty() ? "" : ", " + key.unit);
+}
+
+std::string heading(const KeySection& section) {
+  return plain(fmt::format("[{}]{}", section.name, section.note.empty() ? "" : ", " + section.note));
+}
+
+std::string as_markdown(const KeySection& section) {
+  std::string text = fmt::format("| key of `[{}]`{} | is | if not given | means |\n|---|---|---|---|\n",
+                                 section.name, section.note.empty() ? "" : ", " + section.note);
+  for (const KeyWords& key : section.keys)
+    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, marked(type_of(key)), marked(key.otherwise),
+                        marked(described(key.meaning, key.condition)));
+  return text;
+}
+
+/// All that is known of a key, a line each.
+std::string explained(const KeySection& section, const KeyWords& key) {
+  std::string text = fmt::format("{}.{}: {}\n", section.name, key.name, plain(key.meaning));
+  const auto add = [&](const char* what, const std::string& value) {
+    if (!value.empty()) text += fmt::format("  {:<14}{}\n", what, plain(value));
+  };
+  add("of", plain(section.note));
+  add("is", key.type + key.allowed);
+  add("unit", key.unit);
+  add("if not given", key.otherwise);
+  add("may be given", key.condition);
+  add("continued as", key.parameter);
+  add("for_each", key.is_listed ? "may list it" : "");
+  return text;
+}
+
+/// Whether a dotted name ends with these words.
+bool ends_with(const std::string& name, const std::string& words) {
+  return name == words || name.ends_with("." + words);
+}
+
+int help_of(const std::string& asked, const std::vector<KeySection>& sections) {
+  std::string text;
+  std::vector<std::string> names;
+  for (const KeySection& section : sections) {
+    for (const KeyWords& key : section.keys) {
+      names.push_back(key.name.substr(key.name.rfind('.') + 1));
+      if (ends_with(section.name + "." + key.name, asked)) text += explained(section, key);
+    }
+  }
+  if (!text.empty()) {
+    print(text);
+    return status::done;
+  }
+  const std::string meant = nearest_name(asked.substr(asked.rfind('.') + 1), names);
+  complain(fmt::format("arcslip help: {}: unknown key; {}", printable(asked, longest_name),
+                       meant.empty() ? "arcslip help lists all" : "did you mean '" + meant + "'?"));
+  return status::wrong_command_line;
+}
+
+}  // namespace
+
+std::string list_keys(const std::vector<std::string>& names) {
+  std::string text;
+  for (const KeySection& section : key_catalogue()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), section.name) == names.end()) continue;
+    text += fmt::format("{}{}\n", text.empty() ? "" : "\n", heading(section));
+    for (const KeyWords& key : section.keys) {
+      const std::string choices = key.type.starts_with('"') ? ": " + key.type : "";
+      text += fmt::format("  {:<24} {}{}\n", key.name, plain(key.meaning), choices);
+    }
+  }
+  return text;
+}
+
+int help_command(const HelpOptions& options) {
+  const std::vector<KeySection> sections = key_catalogue();
+  if (!options.key.empty()) return help_of(options.key, sections);
+  std::string text;
+  if (!options.markdown) text = list_keys({}) + "\narcslip help KEY tells all of one.\n";
+  for (const KeySection& section : sections) {
+    if (options.markdown) text += as_markdown(section) + "\n";
+  }
+  print(text);
+  return status::done;
+}
+
+}  // namespace arcslip
