@@ -75,6 +75,7 @@ StudyCase read_study(const CaseFile& file) {
   study.options.to = study.range.to;
   continuation_keys().read(study.options, TomlSection(document, "continuation"));
   study.range.stop_at = study.options.stop_at;
+  study.options.stop_after.clear();  // no branch of the search may end before its window does
   source->scatters = study.uncertain.has_value();
   check_keys(document, nullptr);
   source->range = study.range;

@@ -58,6 +58,12 @@ TEST_CASE("A study is read with its defaults, of one design where nothing is lis
   CHECK(study.resolved["system"]["damping"]["base"] == 1e-4);
 }
 
+TEST_CASE("No branch of a study ends before its window does", "[study]") {
+  const StudyCase study = read_text(good + "[continuation]\nstop_after = \"peak\"\nmax_seconds = 60\n");
+  CHECK(study.options.stop_after.empty());
+  CHECK(study.options.max_seconds == 60);
+}
+
 TEST_CASE("Lists of a study are combined, the last key of the file fastest", "[study]") {
   const StudyCase study = read_text(
       good +
