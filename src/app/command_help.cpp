@@ -28,24 +28,18 @@ std::string marked(const std::string& text) {
   return result;
 }
 
-std::string described(const std::string& text, const std::string& more) {
-  return text.empty() || more.empty() ? text + more : text + "; " + more;
-}
-
-std::string type_of(const KeyWords& key) {
-  return key.type + key.allowed + (key.unit.empty() ? "" : ", " + key.unit);
-}
-
-std::string heading(const KeySection& section) {
-  return plain(fmt::format("[{}]{}", section.name, section.note.empty() ? "" : ", " + section.note));
+/// Both, with what parts them where there are both.
+std::string joined(const std::string& text, const char* part, const std::string& more) {
+  return text.empty() || more.empty() ? text + more : text + part + more;
 }
 
 std::string as_markdown(const KeySection& section) {
-  std::string text = fmt::format("| key of `[{}]`{} | is | if not given | means |\n|---|---|---|---|\n",
-                                 section.name, section.note.empty() ? "" : ", " + section.note);
+  std::string text = fmt::format("| key of {} | is | if not given | means |\n|---|---|---|---|\n",
+                                 joined("`[" + section.name + "]`", ", ", section.note));
   for (const KeyWords& key : section.keys)
-    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, marked(type_of(key)), marked(key.otherwise),
-                        marked(described(key.meaning, key.condition)));
+    text += fmt::format("| `{}` | {} | {} | {} |\n", key.name,
+                        marked(joined(key.type + key.allowed, ", ", key.unit)), marked(key.otherwise),
+                        marked(joined(key.meaning, "; ", key.condition)));
   return text;
 }
 
@@ -55,7 +49,7 @@ std::string explained(const KeySection& section, const KeyWords& key) {
   const auto add = [&](const char* what, const std::string& value) {
     if (!value.empty()) text += fmt::format("  {:<14}{}\n", what, plain(value));
   };
-  add("of", plain(section.note));
+  add("of", section.note);
   add("is", key.type + key.allowed);
   add("unit", key.unit);
   add("if not given", key.otherwise);
@@ -95,7 +89,8 @@ std::string list_keys(const std::vector<std::string>& names) {
   std::string text;
   for (const KeySection& section : key_catalogue()) {
     if (!names.empty() && std::find(names.begin(), names.end(), section.name) == names.end()) continue;
-    text += fmt::format("{}{}\n", text.empty() ? "" : "\n", heading(section));
+    text += fmt::format("{}{}\n", text.empty() ? "" : "\n",
+                        plain(joined("[" + section.name + "]", ", ", section.note)));
     for (const KeyWords& key : section.keys) {
       const std::string choices = key.type.starts_with('"') ? ": " + key.type : "";
       text += fmt::format("  {:<24} {}{}\n", key.name, plain(key.meaning), choices);

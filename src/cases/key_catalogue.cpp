@@ -7,7 +7,6 @@
 #include "cases/geometry_section.hpp"
 #include "cases/sector_section.hpp"
 #include "cases/study_section.hpp"
-#include "cases/uncertain_section.hpp"
 
 namespace arcslip {
 namespace {
