@@ -80,13 +80,13 @@ struct Key {
   template <class Member>
   using Value = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
 
-  /// What a number may be, which may depend on what was read before it; `text` is what help says.
+  /// What a number may be, which may depend on what was read before it; help has `text` of such.
   struct Rule {
-    Rule(const NumberRule& rule) : text(rule.text), of([rule](const S&) { return rule; }) {}
-    Rule(std::string said, std::function<NumberRule(const S&)> rule)
-        : text(std::move(said)), of(std::move(rule)) {}
-    std::string text;
-    std::function<NumberRule(const S&)> of;
+    Rule(NumberRule rule) : fixed(std::move(rule)) {}
+    Rule(const std::string& text, std::function<NumberRule(const S&)> rule)
+        : fixed{{}, text}, of(std::move(rule)) {}
+    NumberRule fixed;
+    std::function<NumberRule(const S&)> of = {};  ///< null: the fixed one holds
   };
 
   /// A number, an integer or a list of numbers, as the member is.
@@ -103,9 +103,12 @@ struct Key {
         return std::pair("number", &TomlSection::number);
       }
     }();
-    words = {name, get.first, rule.text, meaning};
+    words = {name, get.first, rule.fixed.text, meaning};
     read = [=](S& settings, const TomlSection& section) {
-      std::invoke(member, settings) = static_cast<T>((section.*get.second)(name, rule.of(settings)));
+      const auto set = [&](const NumberRule& allowed) {
+        std::invoke(member, settings) = static_cast<T>((section.*get.second)(name, allowed));
+      };
+      rule.of ? set(rule.of(settings)) : set(rule.fixed);
     };
     value = [=](const S& settings) { return json_of(std::invoke(member, settings)); };
     (term(*this), ...);
