@@ -167,7 +167,6 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
   for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
-  check_keys(*document_, model_);
   use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
   use_.balanced = common_.problem.response == Response::forced || common_.problem.is_mode();
   if (use_.sectors)

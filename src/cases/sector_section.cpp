@@ -314,6 +314,7 @@ bool is_sector(const TomlDocument& document) {
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
   if (!is_sector(document)) return nullptr;
   const TomlSection section(document, "system");
+  section.allow_only(sector_keys().names());
   section.require("base", "a table with the matrices of the base's sector");
   S settings;
   for (const char* key : {"reduction_tolerance", "path"}) sector_keys().read(key, settings, section);

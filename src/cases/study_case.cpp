@@ -77,7 +77,6 @@ StudyCase read_study(const CaseFile& file) {
   study.range.stop_at = study.options.stop_at;
   study.options.stop_after.clear();  // no branch of the search may end before its window does
   source->scatters = study.uncertain.has_value();
-  check_keys(document, nullptr);
   source->range = study.range;
   source->sectors = read_sectors(document);
   study.is_physical = has_geometry(document);

@@ -19,6 +19,7 @@ using K = Key<S>;
 using problems::LibraryModel;
 
 constexpr double most_elements = 1e9;
+constexpr double usual_harmonics_tolerance = 1e-4;
 
 NumberRule damping_rule() {
   return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
@@ -87,7 +88,7 @@ void read_orders(S& settings, const TomlSection& section) {
   const toml::node& node = section.require("harmonics", "");
   std::vector<int>& orders = settings.harmonics;
   if (node.value<std::string>() == "auto") {
-    settings.harmonics_tolerance = 1e-4;
+    settings.harmonics_tolerance = usual_harmonics_tolerance;
   } else if (node.is_array()) {
     const std::vector<double> listed = section.numbers("harmonics", {fits, " that is odd, from 1 to 255"});
     orders.assign(listed.begin(), listed.end());
@@ -203,18 +204,19 @@ std::vector<K> shared_keys() {
   const auto is_auto = [](const S& settings, const TomlSection&) {
     return settings.harmonics_tolerance.has_value();
   };
-  return {K("preload", &S::preload, positive(), "P = mu p_0/k_B; of sectors, see limit_per_preload",
-            needed("required, unless P varies", needs_preload), only(in_geometry, without_geometry),
-            parameter("P")),
-          K::table(
-              "damping", [](auto& settings) -> auto& { return settings; }, damping, "",
-              "a table { base = ..., damper = ... }", "damping ratios"),
-          K::special("harmonics", "odd integer, list or \"auto\"",
-                     "the harmonics in which friction is balanced: all odd ones up to this, or those listed",
-                     read_orders, resolved([](const S&) { return 1; })),
-          K("harmonics_tolerance", &S::harmonics_tolerance, within(1e-9, 0.1, " >= 1e-9 and <= 0.1"),
-            "the largest harmonic left out, relative to R",
-            only(R"(only beside harmonics = "auto")", is_auto), otherwise("1e-4"))};
+  return {
+      K("preload", &S::preload, positive(), "P = mu p_0/k_B; of sectors, see limit_per_preload",
+        needed("required, unless P varies", needs_preload), only(in_geometry, without_geometry),
+        parameter("P")),
+      K::table(
+          "damping", [](auto& settings) -> auto& { return settings; }, damping, "",
+          "a table { base = ..., damper = ... }", "damping ratios"),
+      K::special("harmonics", "odd integer, list or \"auto\"",
+                 "the harmonics in which friction is balanced: all odd ones up to this, or those listed",
+                 read_orders, resolved([](const S&) { return 1; })),
+      K("harmonics_tolerance", &S::harmonics_tolerance, within(1e-9, 0.1, " >= 1e-9 and <= 0.1"),
+        "the largest harmonic left out, relative to R", only(R"(only beside harmonics = "auto")", is_auto),
+        otherwise(fmt::format("{}", usual_harmonics_tolerance)))};
 }
 
 const KeyTable<FrictionSettings>& ring_keys() {
@@ -246,8 +248,8 @@ const KeyTable<FrictionSettings>& ring_keys() {
          needed("required of rods", needs_stiffness), not_both),
        K("force", &S::force, positive(), "F = f_0/k_B", group)},
       shared_keys(),
-      {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper", in_groups, otherwise("0.3"),
-         resolved(poisson_ratio)),
+      {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper", in_groups,
+         otherwise(fmt::format("{}", S{}.poisson_ratio)), resolved(poisson_ratio)),
        preload_growth_key(),
        K("cubic_stiffness", &S::cubic_stiffness, {"", cubic_rule},
          "N k_3/K* of springs k_3 y^3 between the base's nodes and ground; 0 in a study"),
@@ -276,20 +278,14 @@ std::vector<std::string> model_names() {
 }
 
 std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryModel* model) {
-  if (model != nullptr) return arcslip::listed_keys(library_keys(*model).words(), "system");
-  if (is_sector(document)) return arcslip::listed_keys(sector_keys().words(), "system");
-  std::vector<ListedKey> keys = arcslip::listed_keys(ring_keys().words(), "system");
-  if (!has_geometry(document)) return keys;
-  const std::vector<ListedKey> sizes = arcslip::listed_keys(geometry_keys().words(), "geometry");
+  std::vector<ListedKey> keys = listed_keys(model != nullptr      ? library_keys(*model).words()
+                                            : is_sector(document) ? sector_keys().words()
+                                                                  : ring_keys().words(),
+                                            "system");
+  if (model != nullptr || is_sector(document) || !has_geometry(document)) return keys;
+  const std::vector<ListedKey> sizes = listed_keys(geometry_keys().words(), "geometry");
   keys.insert(keys.end(), sizes.begin(), sizes.end());
   return keys;
-}
-
-void check_keys(const TomlDocument& document, const LibraryModel* model) {
-  TomlSection(document, "system")
-      .allow_only(model != nullptr      ? library_keys(*model).names()
-                  : is_sector(document) ? sector_keys().names()
-                                        : ring_keys().names());
 }
 
 NumberRule poisson_rule() {

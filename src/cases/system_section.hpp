@@ -48,9 +48,6 @@ struct LibrarySettings {
 };
 const KeyTable<LibrarySettings>& library_keys(const problems::LibraryModel& model);
 
-/// Refuses keys that [system] does not have.
-void check_keys(const TomlDocument& document, const problems::LibraryModel* model);
-
 /// What for_each may list in [system] and [geometry].
 std::vector<ListedKey> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);
 
