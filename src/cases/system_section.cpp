@@ -161,8 +161,8 @@ Key<LibrarySettings> key_of(const problems::Setting& setting, std::size_t i) {
   const NumberRule rule = rule_of(setting);
   const auto value = [i](auto& settings) -> auto& { return settings.values[i]; };
   if (!setting.is_integer)
-    return L(setting.name, value, rule, setting.meaning, continued, otherwise(standard),
-             parameter(setting.name));
+    return {setting.name,           value, rule, setting.meaning, continued, otherwise(standard),
+            parameter(setting.name)};
   const auto read = [=, name = setting.name](LibrarySettings& settings, const TomlSection& section) {
     value(settings) = static_cast<double>(section.integer(name, rule));
   };
@@ -174,7 +174,7 @@ Key<LibrarySettings> key_of(const problems::Setting& setting, std::size_t i) {
 }  // namespace
 
 K preload_growth_key() {
-  return K("preload_growth", &S::preload_growth, any_number(), "P_2 of the preload P + P_2 eta^2");
+  return {"preload_growth", &S::preload_growth, any_number(), "P_2 of the preload P + P_2 eta^2"};
 }
 
 std::vector<K> shared_keys() {
