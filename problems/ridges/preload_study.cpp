@@ -11,15 +11,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arcslip/problems/ridges/free_response.hpp"
 #include "arcslip/problems/ridges/peak_envelope.hpp"
 #include "arcslip/problems/ridges/peak_search.hpp"
 
 namespace arcslip::problems {
 namespace {
-
-using continuation::Branch;
-using continuation::BranchPoint;
-using continuation::PointType;
 
 template <std::size_t count>
 std::string_view name_of(const std::array<std::string_view, count>& names, int which) {
@@ -39,66 +36,6 @@ void check(const SystemParameters& system, const PreloadRange& range) {
     if (!(preload >= range.from && preload <= range.to))
       throw std::invalid_argument(fmt::format("study_preload: stop_at: {} is not in the range", preload));
   }
-}
-
-/// A contact without stiffness.
-FrictionSystem without_damper(FrictionSystem system) {
-  system.contact_stiffness = 0;
-  return system;
-}
-
-/// The highest amplitude of the base alone in the window, its ends included.
-Peak free_peak(const FrictionSystem& system, const PreloadRange& range,
-               const continuation::TraceOptions& options) {
-  constexpr double out_of_reach = 1e200;  // a preload at which everything sticks
-  const ForcedResponse problem(without_damper(system));
-  continuation::TraceOptions over_eta = options;
-  over_eta.parameter = "eta";
-  over_eta.from = range.eta_low;
-  over_eta.to = range.eta_high;
-  over_eta.stop_at.clear();
-  over_eta.extrema_of = {"Y"};
-  const Branch branch = trace(problem, problem.guess(range.eta_low, out_of_reach), over_eta);
-  if (!branch.complete())
-    throw std::runtime_error("the response without damper could not be traced: " + branch.explanation);
-  Peak highest;
-  for (const BranchPoint& point : branch.points) {
-    const double Y = std::exp(point.unknowns(0));  // R = Y where no force acts
-    if (point.type == PointType::regular || !(Y > highest.Y)) continue;
-    highest.Y = Y;
-    highest.eta = point.parameters(ContactProblem::eta);
-    highest.site = point.type == PointType::peak ? PeakSite::stick : PeakSite::edge;
-  }
-  return highest;
-}
-
-/// zeta_B of the base alone whose highest peak is Y, by the secant method: the peak is about inverse to the
-/// damping.
-double equivalent_damping(const FrictionSystem& system, double zeta, const PreloadRange& range,
-                          const Peak& free, double Y, const continuation::TraceOptions& options) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (free.site == PeakSite::edge) return none;
-  FrictionSystem damped = system;
-  const auto excess = [&](double log_zeta) {
-    if (!(log_zeta < 0)) return none;
-    damped.base = system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
-    const Peak peak = free_peak(damped, range, options);
-    return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
-  };
-  double last = std::log(zeta);
-  double last_excess = std::log(free.Y / Y);
-  double log_zeta = last + last_excess;
-  constexpr double rounding = 1e-11;
-  for (int i = 0; i < 30 && std::abs(last_excess) > rounding; ++i) {
-    const double value = excess(log_zeta);
-    if (!std::isfinite(value)) return none;
-    const double next =
-        std::abs(value) > rounding ? log_zeta - value * (log_zeta - last) / (value - last_excess) : log_zeta;
-    last = log_zeta;
-    last_excess = value;
-    log_zeta = next;
-  }
-  return std::abs(last_excess) <= rounding ? std::exp(last) : none;
 }
 
 /// Preloads at which the frequency response is looked at, then those halfway between them (on the scale of

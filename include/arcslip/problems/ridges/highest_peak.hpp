@@ -1,0 +1,85 @@
+#pragma once
+
+// The height of the highest peak of a response, M(x) = max over its peaks of L, x = ln b, and where it is
+// lowest. Responses are sampled at some x; their peaks have exact slopes dL/dx, and those of neighbouring
+// samples that belong together are joined by cubics. Where these leave room for a lower M, by what their
+// errors are at the samples already there, another response is taken, until none is left.
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "arcslip/problems/ridges/envelope_curve.hpp"
+#include "arcslip/problems/ridges/response_peaks.hpp"
+
+namespace arcslip::problems {
+
+/// The peaks of one response.
+struct PeakSample {
+  double x = 0;      ///< ln b
+  double value = 0;  ///< b
+  std::vector<ResponsePeak> peaks;
+  std::size_t top = 0;  ///< the highest
+
+  const ResponsePeak& highest() const { return peaks[top]; }
+};
+
+/// Pairs (of a, of b) of peaks of two samples that are one ridge, in the order of the response, in which
+/// ridges cannot change places.
+std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b);
+
+class HighestPeak {
+ public:
+  /// Samples b = from .. to, both > 0, and the values `wanted` between them. Throws std::runtime_error where a
+  /// response cannot be traced or has no peak.
+  HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted);
+
+  /// Where M is lowest.
+  struct Lowest {
+    OptimumKind kind = OptimumKind::smooth;
+    double x = 0;                      ///< of a sample
+    std::size_t peak = 0;              ///< its highest, or that which is so just below x
+    std::optional<std::size_t> other;  ///< of an exchange, that which takes over
+    double low = 0;                    ///< M <= M(x) + ln 2 from here, in x, ...
+    double high = 0;                   ///< ... to here; an end of the range where it holds beyond it
+  };
+  Lowest lowest();
+
+  /// Takes samples where two peaks change places as the highest.
+  void settle_exchanges();
+
+  /// Takes more samples until the cubics that form M are good to `tolerance`, as their errors show, or there
+  /// are `most`. Returns the largest error that is left.
+  double refine(double tolerance, std::size_t most);
+
+  /// All that were taken, by rising x.
+  const std::vector<PeakSample>& samples() const { return samples_; }
+  const PeakSample& sample(double x) const { return samples_[position(x)]; }
+
+  /// Cubics of all ridges between neighbouring samples.
+  std::vector<EnvelopePiece> pieces() const;
+
+ private:
+  struct Interval;
+
+  const PeakSample& add(double x);
+  const PeakSample& add(double x, double value);
+  std::size_t position(double x) const;
+  Interval interval(std::size_t i) const;
+  double fourth_order(std::size_t i) const;
+  std::optional<double> room_below(double level) const;
+  void bound();
+  double least() const;
+  double next_place(std::size_t low, bool stagnates) const;
+  std::pair<double, double> valley();
+  void settle(Lowest& lowest);
+  void settle_corner(double low, double high, Lowest& lowest) const;
+  bool settle_exchange(const PeakSample& here, Lowest& lowest) const;
+  bool settle_flat(Lowest& lowest);
+  double leaves(double x, double level, int way, double precision);
+
+  ResponsePeaks& responses_;
+  std::vector<PeakSample> samples_;
+};
+
+}  // namespace arcslip::problems

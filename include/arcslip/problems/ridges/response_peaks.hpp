@@ -1,0 +1,83 @@
+#pragma once
+
+// The peaks of an observable g over one parameter of a problem, and how high they are as a second one varies:
+//
+//   L(a, b) = ln g(u(a, b), a, b),   F(u, a, b) = 0
+//
+// At a smooth peak dL/da = 0, so that its height changes by the partial derivative dL/db alone. On a corner,
+// where dL/da jumps from L_a- > 0 to L_a+ < 0 along a curve a = c(b), L is the same on both sides, hence
+//
+//   L_a- c' + L_b- = L_a+ c' + L_b+,   dL/db = L_b- + L_a- c':
+//
+// nothing has to be known of what makes the corner. Every response is traced whole, so that a peak is found
+// whether or not a neighbouring b has it.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::problems {
+
+/// What is traced, over `along` from one value to another, and whose peaks are followed over `across`.
+struct PeakedResponse {
+  std::shared_ptr<const continuation::Problem> problem;
+  std::string along;
+  std::string across;
+  double from = 0;                      ///< of `along`, > 0
+  double to = 0;                        ///< > from
+  std::string objective;                ///< an observable > 0 with a gradient
+  continuation::Guess start;            ///< a solution at `from`, for some value > 0 of `across`
+  continuation::TraceOptions options;   ///< tolerance and limits of steps
+};
+
+enum class ResponsePeakSite {
+  smooth,  ///< dL/da = 0
+  corner,  ///< dL/da changes its sign by a jump
+  edge     ///< on an end of the window, towards which L rises
+};
+
+struct ResponsePeak {
+  ResponsePeakSite site = ResponsePeakSite::smooth;
+  continuation::Guess at;  ///< the solution there; at a corner in the regime before it
+  double place = 0;        ///< a
+  double log_height = 0;   ///< L
+  double slope = 0;        ///< dL/d ln b of the peak
+};
+
+/// To be used from one thread.
+class ResponsePeaks {
+ public:
+  /// Throws std::invalid_argument where the objective has no gradient, std::out_of_range without such names.
+  explicit ResponsePeaks(PeakedResponse response);
+
+  /// All peaks at a value of `across`, in the order of the response. Throws std::runtime_error, or Unfinished
+  /// for want of time, where it cannot be traced from end to end.
+  std::vector<ResponsePeak> at(double across);
+
+  /// How many responses were traced.
+  long traced() const { return traced_; }
+
+  const PeakedResponse& response() const { return response_; }
+
+ private:
+  class Slopes;
+
+  const continuation::Guess& start(double across);
+  continuation::Branch trace_over(double across, double longest);
+  void add_peak(const continuation::Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks);
+  void add_edge(const continuation::BranchPoint& point, double way, std::vector<ResponsePeak>& peaks);
+  ResponsePeak corner(const continuation::Guess& before, const continuation::Guess& behind);
+  continuation::Guess beside(const continuation::BranchPoint& point, double change) const;
+
+  PeakedResponse response_;
+  Index along_;
+  Index across_;
+  std::shared_ptr<Slopes> slopes_;
+  std::vector<continuation::Guess> starts_;  ///< solutions at `from`, by rising values of `across`
+  long traced_ = 0;
+};
+
+}  // namespace arcslip::problems

@@ -1,0 +1,245 @@
+#include "arcslip/problems/ridges/response_peaks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/problem/linearization.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::Guess;
+using continuation::PointType;
+
+Guess guess_at(const BranchPoint& point) { return {point.unknowns, point.parameters, point.regime, {}}; }
+
+bool same_place(const BranchPoint& a, const BranchPoint& b) {
+  return a.parameters == b.parameters && a.unknowns == b.unknowns;
+}
+
+}  // namespace
+
+/// Derivatives of L = ln g on the solutions, by both parameters.
+class ResponsePeaks::Slopes {
+ public:
+  struct Values {
+    double log_height;
+    double along;   ///< dL/da at fixed b, or dL/ds where a tangent is given
+    double across;  ///< dL/db at fixed a, or normal to the tangent
+  };
+
+  Slopes(const continuation::Problem& problem, Index along, Index across, Index objective)
+      : problem_(problem),
+        along_(along),
+        across_(across),
+        objective_(objective),
+        at_(problem),
+        solver_(continuation::make_bordered_solver(problem.size(), 1, problem.sparse())),
+        ones_(Vector::Ones(problem.size())) {
+    gradient_.unknowns.setZero(problem.size());
+    gradient_.parameters.setZero(static_cast<Index>(problem.parameter_names().size()));
+  }
+
+  /// With the tangent d(u, a)/ds of the response (n + 1) it may be vertical there; at a smooth peak dL/db is
+  /// the same in all directions across it.
+  Values at(const Guess& guess, const Vector* tangent = nullptr) {
+    const Index n = problem_.size();
+    const double height =
+        problem_.observe(guess.unknowns, guess.parameters, guess.regime, objective_, gradient_);
+    if (!(height > 0)) throw std::runtime_error("the objective is not positive");
+    if (!at_.evaluate(guess.unknowns, guess.parameters, guess.regime))
+      throw std::runtime_error("a peak cannot be evaluated");
+    at_.fill(*solver_, ones_);
+    solver_->columns().col(0) = at_.parameter_jacobian().col(along_);
+    if (tangent == nullptr) {
+      solver_->rows().setZero();
+      solver_->corner()(0, 0) = 1;
+    } else {
+      solver_->rows().row(0) = tangent->head(n).transpose();
+      solver_->corner()(0, 0) = (*tangent)(n);
+    }
+    if (solver_->factor() == 0) throw std::runtime_error("the response is singular at a peak");
+    const double along = rate(tangent == nullptr ? solved(Vector::Unit(n + 1, n)) : *tangent);
+    return {std::log(height), along / height,
+            (rate(solved(crossing())) + gradient_.parameters(across_)) / height};
+  }
+
+ private:
+  Vector solved(Vector right) {
+    solver_->solve(right);
+    return right;
+  }
+
+  /// That of g as (u, a) change.
+  double rate(const Vector& change) const {
+    const Index n = problem_.size();
+    return gradient_.unknowns.dot(change.head(n)) + gradient_.parameters(along_) * change(n);
+  }
+
+  Vector crossing() const {
+    Vector right(problem_.size() + 1);
+    right << -at_.parameter_jacobian().col(across_), 0;
+    return right;
+  }
+
+  const continuation::Problem& problem_;
+  Index along_;
+  Index across_;
+  Index objective_;
+  continuation::Linearization at_;
+  std::unique_ptr<continuation::BorderedSolver> solver_;
+  Vector ones_;
+  continuation::Gradient gradient_;
+};
+
+ResponsePeaks::ResponsePeaks(PeakedResponse response)
+    : response_(std::move(response)),
+      along_(continuation::index_of(response_.problem->parameter_names(), response_.along)),
+      across_(continuation::index_of(response_.problem->parameter_names(), response_.across)) {
+  const std::vector<continuation::Observable> all = response_.problem->observables();
+  const Index objective =
+      continuation::index_of(continuation::observable_names(*response_.problem), response_.objective);
+  if (!all[static_cast<std::size_t>(objective)].has_gradient)
+    throw std::invalid_argument(fmt::format("ResponsePeaks: {} has no gradient", response_.objective));
+  slopes_ = std::make_shared<Slopes>(*response_.problem, along_, across_, objective);
+  response_.options.stop_at.clear();
+  response_.options.stop_after.clear();
+  response_.options.extrema_of = {response_.objective};
+  starts_.push_back(response_.start);
+}
+
+/// The solution at the first value of `along`, traced over `across` from the nearest one that is known.
+const Guess& ResponsePeaks::start(double across) {
+  const auto value = [&](const Guess& guess) { return guess.parameters(across_); };
+  auto place = std::lower_bound(starts_.begin(), starts_.end(), across,
+                                [&](const Guess& guess, double wanted) { return value(guess) < wanted; });
+  if (place != starts_.end() && value(*place) == across) return *place;
+  auto near = place;
+  if (place == starts_.end() ||
+      (place != starts_.begin() && across / value(*(place - 1)) < value(*place) / across))
+    near = place - 1;
+  constexpr double beside = 1e-6;  // too near for steps between the two
+  if (std::abs(across / value(*near) - 1) < beside) {
+    Guess guess = *near;
+    guess.parameters(across_) = across;
+    const continuation::Solution solution = continuation::solve(*response_.problem, guess);
+    if (solution.outcome == continuation::Correction::converged) {
+      guess.unknowns = solution.unknowns;
+      return *starts_.insert(place, std::move(guess));
+    }
+  }
+  continuation::TraceOptions options = response_.options;
+  options.parameter = response_.across;
+  options.from = value(*near);
+  options.to = across;
+  options.extrema_of.clear();
+  const Branch way = trace(*response_.problem, *near, options);
+  if (way.stop == continuation::Stop::time_limit || way.stop == continuation::Stop::interrupted)
+    throw continuation::Unfinished(way.stop, way.explanation);
+  if (!way.complete() || way.points.back().parameters(across_) != across) {
+    throw std::runtime_error(fmt::format("at {} = {:.10g} no way to {} = {:.10g}: {}", response_.along,
+                                         response_.from, response_.across, across, way.explanation));
+  }
+  return *starts_.insert(place, guess_at(way.points.back()));
+}
+
+Branch ResponsePeaks::trace_over(double across, double longest) {
+  continuation::TraceOptions options = response_.options;
+  options.parameter = response_.along;
+  options.from = response_.from;
+  options.to = response_.to;
+  options.max_step = longest;
+  ++traced_;
+  return trace(*response_.problem, start(across), options);
+}
+
+std::vector<ResponsePeak> ResponsePeaks::at(double across) {
+  Branch branch = trace_over(across, response_.options.max_step);
+  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+    throw continuation::Unfinished(branch.stop, branch.explanation);
+  constexpr double finer = 0.2;  // of the longest step: other points, so that a chance is not met again
+  if (!branch.complete()) branch = trace_over(across, finer * response_.options.max_step);
+  if (!branch.complete() || branch.points.back().parameters(along_) != response_.to) {
+    throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}",
+                                         response_.across, across, branch.explanation));
+  }
+  std::vector<ResponsePeak> peaks;
+  add_edge(branch.points.front(), -1, peaks);
+  for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {
+    if (branch.points[i].type == PointType::peak) add_peak(branch, i, peaks);
+  }
+  add_edge(branch.points.back(), 1, peaks);
+  return peaks;
+}
+
+void ResponsePeaks::add_edge(const BranchPoint& point, double way, std::vector<ResponsePeak>& peaks) {
+  const Guess at = guess_at(point);
+  const Slopes::Values slopes = slopes_->at(at);
+  if (!(way * slopes.along > 0)) return;
+  const double across = point.parameters(across_);
+  peaks.push_back({ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height,
+                   slopes.across * across});
+}
+
+/// A solution beside a point, with its parameter changed by a part of itself.
+Guess ResponsePeaks::beside(const BranchPoint& point, double change) const {
+  Guess guess = guess_at(point);
+  const double moved = change * point.parameters(along_);
+  const Index n = guess.unknowns.size();
+  guess.parameters(along_) += moved;
+  guess.unknowns += point.tangent.head(n) * (moved / point.tangent(n));
+  const continuation::Solution solution = continuation::solve(*response_.problem, guess);
+  if (solution.outcome != continuation::Correction::converged)
+    throw std::runtime_error("no solution beside a corner");
+  guess.unknowns = solution.unknowns;
+  return guess;
+}
+
+ResponsePeak ResponsePeaks::corner(const Guess& before, const Guess& behind) {
+  const Slopes::Values left = slopes_->at(before);
+  const Slopes::Values right = slopes_->at(behind);
+  const double jump = right.along - left.along;
+  const double moves = jump == 0 ? 0 : -(right.across - left.across) / jump;
+  return {ResponsePeakSite::corner, before, before.parameters(along_), left.log_height,
+          (left.across + left.along * moves) * before.parameters(across_)};
+}
+
+void ResponsePeaks::add_peak(const Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks) {
+  const BranchPoint& point = branch.points[i];
+  const Guess at = guess_at(point);
+  const auto is_switch = [&](std::size_t k) {
+    return branch.points[k].type == PointType::regime_switch && same_place(branch.points[k], point);
+  };
+  // On a border: the regimes of both sides give the slopes of both.
+  for (const std::size_t k : {i - 1, i + 1}) {
+    if (k == 0 || k >= branch.points.size() || !is_switch(k)) continue;
+    Guess before = at;
+    before.regime = branch.points[std::min(i, k) - 1].regime;
+    Guess behind = at;
+    behind.regime = branch.points[k].regime;
+    peaks.push_back(corner(before, behind));
+    return;
+  }
+  const Slopes::Values slopes = slopes_->at(at, &point.tangent);
+  // Along the branch, in its own scale, in which nothing changes by much within a step of 1.
+  constexpr double flat = 1e-5;
+  if (!(std::abs(slopes.along) > flat)) {
+    peaks.push_back({ResponsePeakSite::smooth, at, point.parameters(along_), slopes.log_height,
+                     slopes.across * point.parameters(across_)});
+    return;
+  }
+  constexpr double near = 1e-9;
+  ResponsePeak found = corner(beside(point, -near), beside(point, near));
+  found.at = at;
+  found.place = point.parameters(along_);
+  found.log_height = slopes.log_height;
+  peaks.push_back(found);
+}
+
+}  // namespace arcslip::problems
