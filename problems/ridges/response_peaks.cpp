@@ -159,7 +159,7 @@ Branch ResponsePeaks::trace_over(double across, double longest) {
   return trace(*response_.problem, start(across), options);
 }
 
-std::vector<ResponsePeak> ResponsePeaks::at(double across) {
+Branch ResponsePeaks::response_at(double across) {
   Branch branch = trace_over(across, response_.options.max_step);
   if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
     throw continuation::Unfinished(branch.stop, branch.explanation);
@@ -169,6 +169,11 @@ std::vector<ResponsePeak> ResponsePeaks::at(double across) {
     throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}",
                                          response_.across, across, branch.explanation));
   }
+  return branch;
+}
+
+std::vector<ResponsePeak> ResponsePeaks::at(double across) {
+  const Branch branch = response_at(across);
   std::vector<ResponsePeak> peaks;
   add_edge(branch.points.front(), -1, peaks);
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {

@@ -130,23 +130,34 @@ UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRa
                                  const continuation::TraceOptions& options) {
   if (system.preload_growth != 0)
     throw std::invalid_argument("study_uncertainty: the preload must not grow with the frequency");
+  return study_uncertainty(range, uncertainty, nominal, [&](double from, double to) {
+    PreloadRange wide = range;
+    wide.from = from;
+    wide.to = to;
+    wide.stop_at.clear();
+    EnvelopeCurve envelope = study_envelope(system, wide, envelope_tolerance, options);
+    const double error = envelope.error();
+    return std::pair(std::move(envelope), error);
+  });
+}
+
+UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& uncertainty,
+                                 const PreloadStudy& nominal, const EnvelopeOver& envelope_over) {
   UncertainPeaks result;
   const PeakDistribution peaks(uncertainty);
-  PreloadRange wide = range;
-  wide.from *= std::exp(peaks.lowest());
-  wide.to *= std::exp(peaks.highest());
-  wide.stop_at.clear();
   result.failure = nominal.failure;
   if (!nominal.optimum) return result;
   std::optional<EnvelopeCurve> studied;
   try {
-    studied = study_envelope(system, wide, envelope_tolerance, options);
+    auto [curve, error] =
+        envelope_over(range.from * std::exp(peaks.lowest()), range.to * std::exp(peaks.highest()));
+    studied.emplace(std::move(curve));
+    result.error = error;
   } catch (const std::runtime_error& error) {
     result.failure = error.what();
     return result;
   }
   const EnvelopeCurve& envelope = *studied;
-  result.error = envelope.error();
 
   const auto quantiles = [&](double preload, const std::vector<double>& probabilities) {
     std::vector<double> values = peaks.log_quantiles(envelope, std::log(preload), probabilities);

@@ -63,17 +63,19 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
 
 /// What a study that is done gives: files, the table, the designs that failed.
 int conclude(const StudyOptions& options, const StudyCase& study, const std::string& folder,
-             StudyStore& store, const StudyWork& work) {
+             StudyStore& store, StudyWork& work) {
+  work.checks = check_best_preloads(study, store, [] { return !interrupted(); });
   write_results(folder, study, store, work);
   store.tidy();
   if (!options.quiet) {
     const std::size_t before = study.count - work.computed;
-    print((study.title.empty() ? "" : printable(study.title) + "\n\n") + study_table(study, store) +
+    print((study.title.empty() ? "" : printable(study.title) + "\n\n") + study_table(study, store, work) +
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
                       plural(study.count, "design"), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
                       list_of_files(study)));
   }
+  for (const std::string& warning : warnings_of(work.checks)) complain("arcslip: warning: " + warning);
   return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
 }
 

@@ -50,7 +50,7 @@ void serialize(Archive& archive, Optimum& optimum, unsigned /*version*/) {
 
 template <class Archive>
 void serialize(Archive& archive, PreloadStudy& study, unsigned /*version*/) {
-  archive& study.free_eta& study.free_Y& study.branches& study.failure;
+  archive& study.free_eta& study.free_Y& study.branches& study.failure& study.harmonics;
   serialize_optional(archive, study.optimum);
 }
 

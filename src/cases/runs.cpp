@@ -277,8 +277,8 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
   return traced;
 }
 
-/// The harmonics that `problem` leaves out although their force would move a contact by more than `tolerance`
-/// times R at some point of the branch. Looked for up to about twice its highest one.
+}  // namespace
+
 std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance,
                                 const TimeBudget& time) {
   const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
@@ -315,6 +315,14 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
   return missing;
 }
 
+void add_orders(std::vector<int>& orders, const std::vector<int>& more) {
+  orders.insert(orders.end(), more.begin(), more.end());
+  std::sort(orders.begin(), orders.end());
+  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+}
+
+namespace {
+
 /// The branch with as many harmonics as its own points ask for.
 std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudget& time,
                                          const continuation::Observer& observer) {
@@ -334,9 +342,7 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
       one.branch.explanation = "ended before it was known whether its harmonics suffice";
     }
     if (!time.goes_on() || missing.empty()) return traced;
-    orders.insert(orders.end(), missing.begin(), missing.end());
-    std::sort(orders.begin(), orders.end());
-    orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+    add_orders(orders, missing);
   }
 }
 

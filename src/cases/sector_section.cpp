@@ -237,7 +237,7 @@ void check_path(const S& settings, const TomlSection& section) {
   if (settings.path == SectorPath::full && !forced)
     section.fail(
         "path",
-        R"(expected "reduced" for a study, nonlinear modes, limit cycles and one-way responses, got "full")");
+        R"(expected "reduced" for nonlinear modes, limit cycles and one-way responses, got "full")");
 }
 
 /// What is held to the modes and contacts that there are.
@@ -246,7 +246,7 @@ void check_use(const TomlDocument& document, const TomlSection& section, const S
   if (count > 1 && !settings.use->balanced)
     TomlSection(document, "system.base")
         .fail("contact",
-              fmt::format("expected one dof for a study, limit cycles and one-way responses, got {}", count));
+              fmt::format("expected one dof for limit cycles and one-way responses, got {}", count));
   try {
     settings.sectors->check({settings.wave_number, settings.elements});
   } catch (const SectorError& error) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "arcslip/cases/runs.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/geometry_section.hpp"
@@ -24,18 +25,19 @@ struct Source {
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
-    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high}, problem);
+    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high, true},
+                problem);
     return problem;
   }
 
   StudyDesign design(std::size_t index) const {
     auto [values, replacements, made] = for_each->at(index);
     const ProblemRequest problem = this->problem(replacements);
-    if (problem.system.preload_growth != 0 && scatters)
-      TomlSection(*file, "system", &replacements)
-          .fail("preload_growth",
-                "not beside [study.uncertain], whose response is proportional to the force");
-    return {std::move(values), problem.system, problem.geometry};
+    const TomlSection section(*file, "system", &replacements);
+    const char* why = "not beside [study.uncertain], whose response is proportional to the force";
+    if (problem.system.preload_growth != 0 && scatters) section.fail("preload_growth", why);
+    if (problem.system.cubic_stiffness != 0 && scatters) section.fail("cubic_stiffness", why);
+    return {std::move(values), problem.system, problem.geometry, problem.harmonics_tolerance};
   }
 };
 
@@ -43,9 +45,7 @@ struct Source {
 ordered_json resolve(const Source& source, const StudyCase& study) {
   ordered_json resolved = to_json(source.file->root());
   resolved.erase("branch");
-  ProblemRequest first;
-  first.system = study.design(0).system;
-  resolve_system(first, resolved["system"]);
+  resolve_system(study.design(0).problem(), resolved["system"]);
   fill(resolved["study"], study_keys().values(study));
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
   resolved["continuation"].update(continuation_keys().values(study.options));
@@ -53,6 +53,14 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
 }
 
 }  // namespace
+
+ProblemRequest StudyDesign::problem() const {
+  ProblemRequest request;
+  request.system = system;
+  request.geometry = geometry;
+  request.harmonics_tolerance = harmonics_tolerance;
+  return request;
+}
 
 StudyCase read_study(const std::string& path, const std::vector<std::string>& settings) {
   return read_study(CaseFile(path, settings));
@@ -93,6 +101,8 @@ StudyCase read_study(const CaseFile& file) {
   // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
+  if (section.has("objective"))
+    study.objective = section.text("objective", tracked_observables(study.design(0).problem()));
   study.resolved = resolve(*source, study);
   return study;
 }

@@ -79,6 +79,7 @@ const KeyTable<StudyCase>& study_keys() {
   const auto uncertain = [](const S& study) {
     return study.uncertain ? uncertain_keys().values(*study.uncertain) : nlohmann::ordered_json();
   };
+  const auto objective = [](const S& study) { return nlohmann::ordered_json(study.objective); };
   static const KeyTable<S> keys{
       {K::special(
            "parameter", "\"P\"", "what is swept",
@@ -90,6 +91,10 @@ const KeyTable<StudyCase>& study_keys() {
                   required),
        K::special("for_each", "table, or list of tables",
                   "the designs: values of keys of `[system]` and `[geometry]`, each with each", {}),
+       K::special(
+           "objective", "name", "the quantity whose highest peak is to be low, one with a gradient",
+           [](S& study, const TomlSection& section) { study.objective = section.text("objective", {}); },
+           resolved(objective), otherwise("`\"Y\"`")),
        K::flag("sweep", &S::sweep, "whether `sweep.csv` and `quantiles.csv` are wanted"),
        K::special(
            "uncertain", "table", "what scatters",

@@ -48,10 +48,6 @@ NumberRule element_rule(const S& settings) {
   return within(static_cast<double>(least + 1), most_elements,
                 fmt::format(" > 2 wave_number = {} and <= 1e9", least));
 }
-NumberRule cubic_rule(const S& settings) {
-  if (!settings.use->linear_passive) return any_number();
-  return {[](double k) { return k == 0; }, " that is 0, as a study has it"};
-}
 
 /// Refuses numbers so extreme that what follows from them is beyond what a double holds.
 void check_groups(const TomlDocument& document, const TomlSection& section, const SystemParameters& system) {
@@ -132,7 +128,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   }
   if (settings.harmonics.size() > 1 || settings.harmonics_tolerance) {
     if (!use.balanced)
-      section.fail("harmonics", "expected 1 for a study, limit cycles and one-way responses");
+      section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
     if (settings.cubic_stiffness != 0) section.fail("harmonics", "expected 1 beside cubic_stiffness");
   }
   check_waves(section, settings);
@@ -251,8 +247,8 @@ const KeyTable<FrictionSettings>& ring_keys() {
       {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper", in_groups,
          otherwise(fmt::format("{}", S{}.poisson_ratio)), resolved(poisson_ratio)),
        preload_growth_key(),
-       K("cubic_stiffness", &S::cubic_stiffness, {"", cubic_rule},
-         "N k_3/K* of springs k_3 y^3 between the base's nodes and ground; 0 in a study"),
+       K("cubic_stiffness", &S::cubic_stiffness, any_number(),
+         "N k_3/K* of springs k_3 y^3 between the base's nodes and ground"),
        K::flag("fixed_damper", &S::fixed_damper, "friction against a rigid ring")}};
   return keys;
 }

@@ -14,7 +14,7 @@ namespace arcslip {
 struct SystemUse {
   const problems::LibraryModel* model;  ///< null for a system with friction
   std::string parameter;                ///< the continuation parameter, which needs no value
-  bool linear_passive = false;          ///< only damping > 0 and no cubic stiffness, as in studies
+  bool linear_passive = false;          ///< only damping > 0, as in studies
 
   std::shared_ptr<const SectorPair> sectors = {};  ///< null for other models
   double eta_low = 0;                              ///< the eta that matter to them; 0: not known

@@ -27,7 +27,7 @@ std::string insertion(const std::string& table, std::size_t columns) {
 StudyExtras::StudyExtras(const StudyCase& study) : study_(study) {}
 
 std::string StudyExtras::tables() const {
-  std::string sql;
+  std::string sql = "CREATE TABLE harmonics (curve INTEGER PRIMARY KEY, count INTEGER, orders TEXT);";
   if (study_.is_physical)
     sql += "CREATE TABLE units (curve INTEGER PRIMARY KEY, frequency, length, preload, energy);";
   if (has_robust()) sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error);";
@@ -40,6 +40,7 @@ std::string StudyExtras::tables() const {
 }
 
 void StudyExtras::open(const Database& database) {
+  insert_harmonics_ = database.prepare(insertion("harmonics", 3));
   if (study_.is_physical) insert_units_ = database.prepare(insertion("units", 5));
   if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 5));
   if (has_quantiles())
@@ -47,13 +48,19 @@ void StudyExtras::open(const Database& database) {
 }
 
 void StudyExtras::close() {
+  insert_harmonics_.reset();
   insert_units_.reset();
   insert_robust_.reset();
   insert_quantiles_.reset();
 }
 
-void StudyExtras::add(std::size_t curve, const problems::UncertainPeaks* uncertain) {
+void StudyExtras::add(std::size_t curve, const problems::PreloadStudy& result,
+                      const problems::UncertainPeaks* uncertain) {
   const auto key = static_cast<std::int64_t>(curve);
+  if (!result.harmonics.empty()) {
+    insert_harmonics_->bind(key).bind(static_cast<std::int64_t>(result.harmonics.size()));
+    insert_harmonics_->bind(fmt::format("{}", fmt::join(result.harmonics, " "))).run();
+  }
   if (study_.is_physical) {
     const StudyDesign design = study_.design(curve);
     const PhysicalScale scale(design.geometry.value(), design.system);

@@ -1,7 +1,8 @@
 #pragma once
 
 // What a study stores of each design beside its optimum and its peaks. Tables: `units`, of designs given in
-// SI units what one of each nondimensional quantity is; `robust` and `quantiles`, of designs that scatter the
+// SI units what one of each nondimensional quantity is; `harmonics`, of designs with harmonics = "auto" those
+// that were taken; `robust` and `quantiles`, of designs that scatter the
 // preload at which the 95 % quantile of the highest peak is lowest, and quantiles at many preloads.
 
 #include <optional>
@@ -27,7 +28,8 @@ class StudyExtras {
   void open(const Database& database);
   void close();
   /// Stores what belongs to a design.
-  void add(std::size_t curve, const problems::UncertainPeaks* uncertain);
+  void add(std::size_t curve, const problems::PreloadStudy& result,
+           const problems::UncertainPeaks* uncertain);
 
   bool has_robust() const { return study_.uncertain.has_value(); }
   bool has_quantiles() const { return study_.uncertain && study_.sweep; }
@@ -43,6 +45,7 @@ class StudyExtras {
 
  private:
   StudyCase study_;
+  std::optional<Statement> insert_harmonics_;
   std::optional<Statement> insert_units_;
   std::optional<Statement> insert_robust_;
   std::optional<Statement> insert_quantiles_;

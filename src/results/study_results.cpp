@@ -29,7 +29,8 @@ std::string places(const std::vector<std::size_t>& curves, std::size_t count) {
 }
 
 /// What the numbers do not say of themselves, in sentences.
-std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store) {
+std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store,
+                                 const std::vector<HarmonicsCheck>& checks) {
   const problems::PreloadRange& range = study.range;
   std::vector<std::size_t> without_resonance, at_end;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
@@ -49,6 +50,8 @@ std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store
     sentences.push_back(fmt::format(
         "Y_max is lowest on an end of the range P = {:g} to {:g}{}: beyond it may lie a better preload.",
         range.from, range.to, places(at_end, study.count)));
+  const std::vector<std::string> of_checks = sentences_of(checks, study.count);
+  sentences.insert(sentences.end(), of_checks.begin(), of_checks.end());
   return sentences;
 }
 
@@ -60,9 +63,17 @@ ordered_json summarize(const StudyCase& study, const StudyStore& store, const St
                       {"failure", design.failure}});
     return true;
   });
-  return {{"arcslip", ARCSLIP_VERSION}, {"title", study.title},    {"case", study.resolved},
-          {"designs", study.count},     {"failed", failed},        {"remarks", remarks(study, store)},
-          {"computed", work.computed},  {"seconds", work.seconds}, {"designs_per_second", work.rate()}};
+  return {{"arcslip", ARCSLIP_VERSION},
+          {"title", study.title},
+          {"case", study.resolved},
+          {"designs", study.count},
+          {"failed", failed},
+          {"harmonics", harmonics_of(study, store)},
+          {"more_harmonics", to_json(work.checks)},
+          {"remarks", remarks(study, store, work.checks)},
+          {"computed", work.computed},
+          {"seconds", work.seconds},
+          {"designs_per_second", work.rate()}};
 }
 
 std::size_t width(const std::string& key) { return std::max<std::size_t>(key.size(), 10); }
@@ -97,7 +108,7 @@ void write_results(const std::string& folder, const StudyCase& study, const Stud
   for (const auto& file : files) file->commit();
 }
 
-std::string study_table(const StudyCase& study, const StudyStore& store) {
+std::string study_table(const StudyCase& study, const StudyStore& store, const StudyWork& work) {
   std::string text = fmt::format("{:>6}", "curve");
   for (const std::string& key : study.keys) text += fmt::format(" {:>{}}", key, width(key));
   text += fmt::format(" {:>13} {:>13} {:>13} {:>13}", "P_opt", "eta_opt", "Y_opt", "ratio_opt");
@@ -106,7 +117,7 @@ std::string study_table(const StudyCase& study, const StudyStore& store) {
   text += "  kind\n";
   std::size_t rows = 0;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
-    const auto [values, system, geometry] = study.design(design.curve);
+    const auto [values, system, geometry, tolerance] = study.design(design.curve);
     text += fmt::format("{:>6}", design.curve);
     for (const auto& [key, value] : values.items()) text += fmt::format(" {:>{}}", shown(value), width(key));
     text += fmt::format(" {:>13.8g} {:>13.8g} {:>13.8g} {:>13.6g}", design.preload, design.eta, design.Y,
@@ -122,7 +133,7 @@ std::string study_table(const StudyCase& study, const StudyStore& store) {
     return ++rows < most_rows;
   });
   if (study.count > most_rows) text += fmt::format("... and {} more\n", study.count - most_rows);
-  for (const std::string& sentence : remarks(study, store)) text += "\n" + sentence + "\n";
+  for (const std::string& sentence : remarks(study, store, work.checks)) text += "\n" + sentence + "\n";
   return text;
 }
 

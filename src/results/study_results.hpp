@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "results/study_store.hpp"
+#include "results/study_harmonics.hpp"
 
 namespace arcslip {
 
@@ -13,6 +13,7 @@ namespace arcslip {
 struct StudyWork {
   std::size_t computed = 0;  ///< designs
   double seconds = 0;
+  std::vector<HarmonicsCheck> checks = {};  ///< of best preloads in more harmonics
 
   double rate() const { return seconds > 0 ? static_cast<double>(computed) / seconds : 0; }
 };
@@ -23,6 +24,6 @@ void write_results(const std::string& folder, const StudyCase& study, const Stud
                    const StudyWork& work);
 
 /// One row for each design up to a few dozen.
-std::string study_table(const StudyCase& study, const StudyStore& store);
+std::string study_table(const StudyCase& study, const StudyStore& store, const StudyWork& work);
 
 }  // namespace arcslip

@@ -4,17 +4,17 @@
 #include <new>
 #include <utility>
 
+#include "cases/design_study.hpp"
+
 namespace arcslip {
 
 FinishedDesign study_design(const StudyCase& study, std::size_t curve) {
   StudyDesign design = study.design(curve);
   FinishedDesign finished{curve, std::move(design.values), {}, {}};
   try {
-    finished.result = problems::study_preload(design.system, study.range, study.options);
-    if (study.uncertain && finished.result.failure.empty()) {
-      finished.uncertain = problems::study_uncertainty(design.system, study.range, *study.uncertain,
-                                                       finished.result, study.options);
-    }
+    finished.result = study_preload(study, design);
+    if (study.uncertain && finished.result.failure.empty())
+      finished.uncertain = study_uncertainty(study, design, finished.result);
   } catch (const std::bad_alloc&) {
     throw;  // no property of the design
   } catch (const std::exception& error) {

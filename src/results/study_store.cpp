@@ -308,7 +308,7 @@ void StudyStore::add(std::size_t curve, const ordered_json& values, const proble
   if (!failed && uncertain != nullptr) failure = uncertain->failure;
   row.bind(failure).bind(result.free_eta).bind(run_).bind_null().run();
   if (sweep_) add_sweep(curve, result);
-  extras_.add(curve, failed ? nullptr : uncertain);
+  extras_.add(curve, result, failed ? nullptr : uncertain);
   checksums_->store(static_cast<std::int64_t>(curve));
   database_->execute("COMMIT");
 }
@@ -331,15 +331,14 @@ void StudyStore::add_sweep(std::size_t curve, const problems::PreloadStudy& resu
 void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const {
   const bool robust = extras_.has_robust();
   Statement row = database_->prepare(fmt::format(
-      "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, d.free_eta, {} FROM "
-      "designs d {} {} "
-      "ORDER BY "
-      "d.curve",
+      "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, d.free_eta, {}, "
+      "h.orders FROM designs d LEFT JOIN harmonics h ON h.curve = d.curve {} {} ORDER BY d.curve",
       robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
       which == Which::failed ? "WHERE d.failure <> ''" : ""));
   while (row.step()) {
     if (!visitor({static_cast<std::size_t>(row.integer(0)), row.text(1), row.text(2), row.real(3),
-                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8), row.real(9)}))
+                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8), row.real(9),
+                  row.text(10)}))
       return;
   }
 }

@@ -30,6 +30,7 @@ struct StoredDesign {
   double free_eta = 0;        ///< of the highest amplitude without damper
   double robust_preload = 0;  ///< P_q95; nan of a study without scatter
   double robust_ratio = 0;    ///< Y_q95/Y_nd_max
+  std::string harmonics;      ///< that were added as the best preload asked for, "1 3 5"; else empty
 };
 
 class StudyStore {

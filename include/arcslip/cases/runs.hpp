@@ -57,6 +57,15 @@ struct TracedBranch {
 /// Never throws for a branch that fails: its `stop` tells.
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer = {});
 
+/// The harmonics that a system leaves out although their force would move a contact by more than `tolerance`
+/// times R at some point of its forced response, looked for up to about twice its highest one; none where
+/// there is no time left.
+std::vector<int> missing_orders(const SystemParameters& system, const continuation::Branch& branch,
+                                double tolerance, const continuation::TimeBudget& time);
+
+/// Adds orders to ascending ones, each once.
+void add_orders(std::vector<int>& orders, const std::vector<int>& more);
+
 /// Why no branch of this request can be certified, or empty.
 std::string why_not_certifiable(const CaseBranch& request);
 

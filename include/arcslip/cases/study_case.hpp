@@ -17,6 +17,7 @@ struct StudyDesign {
   nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
   SystemParameters system;
   std::optional<Geometry> geometry;  ///< where the system is given in SI units
+  std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
 };
 
 /// A study of `count` designs, which are made when asked for, from several threads: there may be millions.
@@ -25,6 +26,7 @@ struct StudyCase {
   nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
   std::vector<std::string> keys;    ///< of for_each, in the order of the columns of optimum.csv
   problems::PreloadRange range;
+  std::string objective = "Y";  ///< the observable whose peaks are to be low
   continuation::TraceOptions options;
   bool sweep = true;                               ///< whether sweep.csv is wanted beside optimum.csv
   std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does

@@ -102,6 +102,7 @@ struct PreloadStudy {
   std::vector<PeakBranch> branches;
   std::optional<Optimum> optimum;
   std::string failure;  ///< why the study is not whole, or empty
+  std::vector<int> harmonics = {};  ///< those that were added as the best preload asked for; else empty
 };
 
 /// Studies a linear, passive system (cubic_stiffness = 0, damping > 0); its `preload` is not used. Of

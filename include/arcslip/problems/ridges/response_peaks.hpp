@@ -57,6 +57,9 @@ class ResponsePeaks {
   /// for want of time, where it cannot be traced from end to end.
   std::vector<ResponsePeak> at(double across);
 
+  /// The whole response there; what `at` throws.
+  continuation::Branch response_at(double across);
+
   /// How many responses were traced.
   long traced() const { return traced_; }
 

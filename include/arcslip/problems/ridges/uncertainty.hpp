@@ -13,7 +13,9 @@
 // by a Latin hypercube, the factors being inverse distribution functions of stratified numbers.
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arcslip/problems/ridges/envelope_curve.hpp"
@@ -89,6 +91,14 @@ struct UncertainPeaks {
   double error = 0;               ///< estimate of the relative error of all Y by the envelope's interpolation
   std::string failure;            ///< why there are no rows, or empty
 };
+
+/// The envelope over preloads from .. to, with its estimated error in ln Y_max. May throw std::runtime_error.
+using EnvelopeOver = std::function<std::pair<EnvelopeCurve, double>(double from, double to)>;
+
+/// Samples the scatter of a design that `nominal` is the study of, over the same range; its response must be
+/// proportional to force and preload together.
+UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& uncertainty,
+                                 const PreloadStudy& nominal, const EnvelopeOver& envelope_over);
 
 /// Studies a design that `nominal` is the study of, over the same range. Throws std::invalid_argument for
 /// systems that study_preload refuses and for preload_growth != 0, where homogeneity does not hold.

@@ -1,0 +1,178 @@
+#include "cases/design_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/cases/runs.hpp"
+#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/problems/ridges/free_response.hpp"
+#include "arcslip/problems/ridges/response_study.hpp"
+#include "arcslip/assembly/sector_pair.hpp"
+
+namespace arcslip {
+namespace {
+
+using problems::PreloadRange;
+using problems::PreloadStudy;
+
+/// Whether closed slopes serve.
+bool is_closed(const StudyCase& study, const StudyDesign& design) {
+  const SystemParameters& system = design.system;
+  return study.objective == "Y" && !needs_contact_system(system) && system.harmonics.size() == 1 &&
+         !design.harmonics_tolerance && system.cubic_stiffness == 0;
+}
+
+/// The design's response, from where it is known at the range's highest preload.
+problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& design,
+                                  const std::vector<int>& harmonics) {
+  ProblemRequest request;
+  request.system = design.system;
+  request.system.harmonics = harmonics;
+  request.system.preload = study.range.to;
+  const Subject subject = build(request, "eta", study.range.eta_low, study.options);
+  if (!subject.failure.empty())
+    throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", study.range.eta_low,
+                                         study.range.to, subject.failure));
+  return problems::ResponsePeaks({subject.problem, "eta", "P", study.range.eta_low, study.range.eta_high,
+                                  study.objective, subject.guess, study.options});
+}
+
+problems::StudiedContacts contacts_of(const SystemParameters& system) {
+  return {build_wave(system).contacts, static_cast<double>(system.elements), system.preload_growth,
+          system.cubic_stiffness == 0};
+}
+
+/// What the base does without damper, which shares no objective with the damper but Y.
+void compare_to_free(const StudyCase& study, const SystemParameters& system, PreloadStudy& result) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  result.free_eta = result.free_Y = unknown;
+  if (study.objective != "Y") return;
+  problems::Peak free;
+  if (needs_contact_system(system)) {
+    free = problems::free_peak(build_wave(system).base, study.range, study.options);
+  } else {
+    const FrictionSystem pair = build_system(system);
+    free = problems::free_peak(pair, study.range, study.options);
+    if (result.optimum && system.cubic_stiffness == 0 && system.base_damping > 0) {
+      result.optimum->damping = problems::equivalent_damping(pair, system.base_damping, study.range, free,
+                                                             result.optimum->peak.Y, study.options);
+    }
+  }
+  result.free_eta = free.eta;
+  result.free_Y = free.Y;
+}
+
+/// Envelopes of designs that scatter.
+std::pair<problems::EnvelopeCurve, double> envelope_over(problems::ResponsePeaks& peaks, double from,
+                                                         double to) {
+  constexpr double tolerance = 1e-5;  // of ln Y: well below what samples of the scatter tell
+  constexpr std::size_t most = 300;
+  problems::HighestPeak highest(peaks, from, to, {});
+  const double error = highest.refine(tolerance, most);
+  return {problems::EnvelopeCurve(highest.pieces()), error};
+}
+
+/// All harmonics that the response at one preload asks for.
+void complete_orders(const StudyCase& study, const StudyDesign& design, double preload,
+                     std::vector<int>& orders) {
+  SystemParameters system = design.system;
+  const continuation::TimeBudget time(study.options);
+  for (;;) {
+    system.harmonics = orders;
+    problems::ResponsePeaks peaks = responses(study, design, orders);
+    const std::vector<int> missing =
+        missing_orders(system, peaks.response_at(preload), *design.harmonics_tolerance, time);
+    if (missing.empty()) return;
+    add_orders(orders, missing);
+  }
+}
+
+PreloadStudy study_with(const StudyCase& study, const StudyDesign& design, const std::vector<int>& orders) {
+  problems::ResponsePeaks peaks = responses(study, design, orders);
+  return problems::study_response(peaks, study.range, contacts_of(design.system));
+}
+
+/// The study in as many harmonics as the response at its own best preload asks for.
+PreloadStudy study_balanced(const StudyCase& study, const StudyDesign& design) {
+  std::vector<int> orders = odd_up_to(5);
+  for (;;) {
+    PreloadStudy result = study_with(study, design, orders);
+    result.harmonics = orders;
+    if (!result.optimum) return result;
+    complete_orders(study, design, result.optimum->peak.preload, orders);
+    if (orders == result.harmonics) return result;
+  }
+}
+
+}  // namespace
+
+PreloadStudy study_preload(const StudyCase& study, const StudyDesign& design) {
+  if (is_closed(study, design)) return problems::study_preload(design.system, study.range, study.options);
+  PreloadStudy result = design.harmonics_tolerance ? study_balanced(study, design)
+                                                   : study_with(study, design, design.system.harmonics);
+  compare_to_free(study, design.system, result);
+  return result;
+}
+
+problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDesign& design,
+                                           const PreloadStudy& nominal) {
+  if (is_closed(study, design))
+    return problems::study_uncertainty(design.system, study.range, *study.uncertain, nominal, study.options);
+  problems::ResponsePeaks peaks = responses(
+      study, design, nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics);
+  return problems::study_uncertainty(study.range, *study.uncertain, nominal, [&](double from, double to) {
+    return envelope_over(peaks, from, to);
+  });
+}
+
+namespace {
+
+const problems::ResponsePeak& highest_of(const std::vector<problems::ResponsePeak>& peaks) {
+  return *std::max_element(peaks.begin(), peaks.end(), [](const auto& a, const auto& b) {
+    return a.log_height < b.log_height;
+  });
+}
+
+/// Whether the peak nearest to a place is as high as the highest one, of several that are.
+bool is_near_highest(const std::vector<problems::ResponsePeak>& peaks, double place) {
+  constexpr double same = 1e-6;  // of ln Y: both peaks of an exchange, as the best preload is known
+  const auto distance = [&](const problems::ResponsePeak& peak) { return std::abs(std::log(peak.place / place)); };
+  const auto nearest = std::min_element(peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) {
+    return distance(a) < distance(b);
+  });
+  return nearest->log_height >= highest_of(peaks).log_height - same;
+}
+
+}  // namespace
+
+HarmonicsCheck check_harmonics(const StudyCase& study, const StudyDesign& design,
+                               const std::vector<int>& harmonics, double preload) {
+  constexpr int least = 9;
+  HarmonicsCheck check;
+  check.preload = preload;
+  check.harmonics = odd_up_to(std::clamp(2 * harmonics.back() + 1, least, 2 * most_harmonics - 1));
+  try {
+    if (design.system.cubic_stiffness != 0)
+      throw std::runtime_error("cubic springs are balanced in one harmonic");
+    const std::vector<problems::ResponsePeak> before = responses(study, design, harmonics).at(preload);
+    const std::vector<problems::ResponsePeak> after = responses(study, design, check.harmonics).at(preload);
+    const problems::ResponsePeak& highest = highest_of(after);
+    check.eta = highest.place;
+    check.Y = std::exp(highest.log_height);
+    check.moved_by = std::expm1(highest.log_height - highest_of(before).log_height);
+    check.same_peak = is_near_highest(before, highest.place);
+  } catch (const std::bad_alloc&) {
+    throw;  // no property of the design
+  } catch (const std::exception& error) {
+    check.failure = error.what();
+  }
+  return check;
+}
+
+}  // namespace arcslip
