@@ -60,6 +60,7 @@ void Stepper::rescale_determinant() {
 /// Whether what is known of the determinant leaves room for branch points in the step.
 bool Stepper::may_cross() const {
   if (there_.orientation * here_.orientation <= 0) return true;
+  if (!pairs_) return false;
   std::array<double, 2 + most_past> places{step_.norm(), 0};
   std::array<double, 2 + most_past> values{std::exp(there_.log_determinant - here_.log_determinant), 1};
   std::size_t count = 2;

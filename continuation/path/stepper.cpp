@@ -6,11 +6,13 @@
 
 namespace arcslip::continuation {
 
-Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step)
+Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
+                 bool pairs)
     : problem_(problem),
       corrector_(corrector),
       tracked_(std::move(tracked)),
       max_step_(max_step),
+      pairs_(pairs),
       here_(corrector.make_point()),
       there_(corrector.make_point()),
       probe_(corrector.make_point()),

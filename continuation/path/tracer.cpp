@@ -39,7 +39,8 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       observer_(observer),
       parameter_(index_of(problem.parameter_names(), options.parameter)),
       corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
-      stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step),
+      stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
+               options.branch_point_pairs),
       watch_(problem, options.events),
       targets_(problem, parameter_, options),
       seen_in_regime_(problem.regime_names().size()) {

@@ -86,7 +86,8 @@ continuation::Guess FreeResponse::guess(double eta) const {
   return {Vector::Constant(1, std::log(std::abs(base_.at(eta).free(0)))), Vector::Constant(1, eta), 0, {}};
 }
 
-Peak free_peak(const ContactModes& base, const PreloadRange& range, const continuation::TraceOptions& options) {
+Peak free_peak(const ContactModes& base, const PreloadRange& range,
+               const continuation::TraceOptions& options) {
   const FreeResponse problem(base);
   return highest_peak(problem, problem.guess(range.eta_low), range, options);
 }

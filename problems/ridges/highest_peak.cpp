@@ -14,7 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double per_decade = 8;       // samples at first
 constexpr std::size_t most = 400;      // samples in all
-constexpr double settled = 1e-7;       // of M: room below this is left, for the minimum has its own equation
+constexpr double settled = 1e-9;       // of M: as well as heights are known, with room for rounding
 constexpr double level_slope = 1e-9;   // dM/dx of a smooth minimum, as exact as peaks are known
 constexpr double same_height = 1e-10;  // of peaks, the tolerance of responses
 constexpr double narrow = 1e-11;       // in x: what is left of a minimum on a corner
@@ -153,8 +153,9 @@ HighestPeak::HighestPeak(ResponsePeaks& responses, double from, double to, const
 }
 
 std::size_t HighestPeak::position(double x) const {
-  const auto place = std::lower_bound(samples_.begin(), samples_.end(), x,
-                                      [](const PeakSample& sample, double value) { return sample.x < value; });
+  const auto place =
+      std::lower_bound(samples_.begin(), samples_.end(), x,
+                       [](const PeakSample& sample, double value) { return sample.x < value; });
   return static_cast<std::size_t>(place - samples_.begin());
 }
 
@@ -198,15 +199,15 @@ HighestPeak::Interval HighestPeak::interval(std::size_t i) const {
   const PeakSample& from = samples_[i];
   const PeakSample& to = samples_[i + 1];
   Interval interval{from, to, joined_peaks(from, to), {}, 0};
-  for (const auto& [k, l] : interval.pairs)
-    interval.pieces.push_back({node_of(from, k), node_of(to, l)});
+  for (const auto& [k, l] : interval.pairs) interval.pieces.push_back({node_of(from, k), node_of(to, l)});
   const double h = interval.length();
   const double coefficient = std::fmax(fourth_order(i), fourth_order(i + 1));  // the one that is known
   // Where a ridge changes its site its second derivative jumps, and errors fall as squares only.
   constexpr double safety = 4;
-  interval.error = std::isnan(coefficient)
-                       ? 0.1 * h * std::max({0.5, std::abs(from.highest().slope), std::abs(to.highest().slope)})
-                       : safety * coefficient * std::pow(0.5 * h, 4);
+  interval.error =
+      std::isnan(coefficient)
+          ? 0.1 * h * std::max({0.5, std::abs(from.highest().slope), std::abs(to.highest().slope)})
+          : safety * coefficient * std::pow(0.5 * h, 4);
   return interval;
 }
 
@@ -303,8 +304,7 @@ void HighestPeak::settle(Lowest& lowest) {
   int slow = 0;
   while (high - low > narrow) {
     const double width = high - low;
-    const double x =
-        add(slow % 4 == 3 ? 0.5 * (low + high) : next_place(position(low), slow % 4 == 2)).x;
+    const double x = add(slow % 4 == 3 ? 0.5 * (low + high) : next_place(position(low), slow % 4 == 2)).x;
     if (is_settled(x)) return;
     (sample(x).highest().slope < 0 ? low : high) = x;
     slow = high - low > 0.5 * width ? slow + 1 : 0;
@@ -379,9 +379,12 @@ bool HighestPeak::settle_flat(Lowest& lowest) {
 
 HighestPeak::Lowest HighestPeak::lowest() {
   constexpr double precise = 1e-6;  // of the range within a factor 2
-  bound();
   Lowest lowest;
-  if (!settle_flat(lowest)) settle(lowest);
+  // On the way to one minimum a lower one may show, in a valley between samples.
+  do {
+    bound();
+    if (!settle_flat(lowest)) settle(lowest);
+  } while (sample(least()).highest().log_height < sample(lowest.x).highest().log_height - settled);
   const double level = sample(lowest.x).highest().log_height + std::numbers::ln2;
   lowest.low = leaves(lowest.x, level, -1, precise);
   lowest.high = leaves(lowest.x, level, 1, precise);
@@ -395,7 +398,8 @@ void HighestPeak::settle_exchanges() {
     double low = samples_[i].x;
     double high = samples_[i + 1].x;
     const Interval at_first = interval(i);
-    const bool exchange = at_first.is_clear() && at_first.partner_of_from(samples_[i].top) != samples_[i + 1].top;
+    const bool exchange =
+        at_first.is_clear() && at_first.partner_of_from(samples_[i].top) != samples_[i + 1].top;
     if (!exchange || !(at_first.pieces.size() > 1)) continue;
     for (int tries = 0; tries < 12 && high - low > precise; ++tries) {
       const Interval between = interval(position(low));
@@ -438,7 +442,8 @@ std::vector<EnvelopePiece> HighestPeak::pieces() const {
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     const Interval between = interval(i);
     all.insert(all.end(), between.pieces.begin(), between.pieces.end());
-    if (between.pieces.empty()) all.push_back({node_of(between.from, between.from.top), node_of(between.to, between.to.top)});
+    if (between.pieces.empty())
+      all.push_back({node_of(between.from, between.from.top), node_of(between.to, between.to.top)});
   }
   return all;
 }

@@ -111,6 +111,7 @@ ResponsePeaks::ResponsePeaks(PeakedResponse response)
   response_.options.stop_at.clear();
   response_.options.stop_after.clear();
   response_.options.extrema_of = {response_.objective};
+  response_.options.branch_point_pairs = false;  // a response under a given load has no others beside it
   starts_.push_back(response_.start);
 }
 
@@ -188,8 +189,8 @@ void ResponsePeaks::add_edge(const BranchPoint& point, double way, std::vector<R
   const Slopes::Values slopes = slopes_->at(at);
   if (!(way * slopes.along > 0)) return;
   const double across = point.parameters(across_);
-  peaks.push_back({ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height,
-                   slopes.across * across});
+  peaks.push_back(
+      {ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height, slopes.across * across});
 }
 
 /// A solution beside a point, with its parameter changed by a part of itself.

@@ -111,9 +111,11 @@ class Ridges {
     if (is_optimum) return PeakType::optimum;
     if (s == 0) return PeakType::start;
     if (s + 1 == samples_.size()) return PeakType::end;
-    const bool is_exchange = is_highest(sample, k) && std::count_if(sample.peaks.begin(), sample.peaks.end(), [&](const ResponsePeak& peak) {
-                               return peak.log_height >= sample.highest().log_height - same_height;
-                             }) > 1;
+    const bool is_exchange =
+        is_highest(sample, k) &&
+        std::count_if(sample.peaks.begin(), sample.peaks.end(), [&](const ResponsePeak& peak) {
+          return peak.log_height >= sample.highest().log_height - same_height;
+        }) > 1;
     if (is_exchange) return PeakType::exchange;
     if (!goes_on) return PeakType::birth;
     const std::vector<double>& listed = range_.stop_at;
@@ -128,8 +130,9 @@ class Ridges {
 /// A bound of the range as it was given, not as its logarithm gives it back.
 double bound(double x, const HighestPeak& highest) {
   const std::vector<PeakSample>& samples = highest.samples();
-  const auto place = std::lower_bound(samples.begin(), samples.end(), x,
-                                      [](const PeakSample& sample, double value) { return sample.x < value; });
+  const auto place =
+      std::lower_bound(samples.begin(), samples.end(), x,
+                       [](const PeakSample& sample, double value) { return sample.x < value; });
   return place != samples.end() && place->x == x ? place->value : std::exp(x);
 }
 

@@ -209,10 +209,8 @@ void check_study(const CaseFile& file) {
     }
   }
   for (const std::size_t i : {std::size_t{0}, study.count - 1}) {
-    ProblemRequest problem;
     const StudyDesign design = study.design(i);
-    problem.system = design.system;
-    problem.geometry = design.geometry;
+    const ProblemRequest problem = design.problem();
     file.named("system", [&] { try_to_build(problem); });
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
                         arcslip::describe(design.values), describe(problem));

@@ -7,6 +7,7 @@
 #include "app/crew.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "arcslip/cases/runs.hpp"
 #include "keys/printable.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
@@ -130,7 +131,7 @@ int study_command(const StudyOptions& options) {
   try {
     const CaseFile file(options.case_path, options.settings);
     study = read_study(file);
-    file.named("system", [&] { build_system(study->design(0).system); });
+    file.named("system", [&] { try_to_build(study->design(0).problem()); });
   } catch (const std::exception& wrong) {
     error = wrong.what();
   }

@@ -9,11 +9,11 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 #include "arcslip/problems/ridges/free_response.hpp"
 #include "arcslip/problems/ridges/response_study.hpp"
-#include "arcslip/assembly/sector_pair.hpp"
 
 namespace arcslip {
 namespace {
@@ -31,8 +31,7 @@ bool is_closed(const StudyCase& study, const StudyDesign& design) {
 /// The design's response, from where it is known at the range's highest preload.
 problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& design,
                                   const std::vector<int>& harmonics) {
-  ProblemRequest request;
-  request.system = design.system;
+  ProblemRequest request = design.problem();
   request.system.harmonics = harmonics;
   request.system.preload = study.range.to;
   const Subject subject = build(request, "eta", study.range.eta_low, study.options);
@@ -124,28 +123,27 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
                                            const PreloadStudy& nominal) {
   if (is_closed(study, design))
     return problems::study_uncertainty(design.system, study.range, *study.uncertain, nominal, study.options);
-  problems::ResponsePeaks peaks = responses(
-      study, design, nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics);
-  return problems::study_uncertainty(study.range, *study.uncertain, nominal, [&](double from, double to) {
-    return envelope_over(peaks, from, to);
-  });
+  problems::ResponsePeaks peaks =
+      responses(study, design, nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics);
+  return problems::study_uncertainty(study.range, *study.uncertain, nominal,
+                                     [&](double from, double to) { return envelope_over(peaks, from, to); });
 }
 
 namespace {
 
 const problems::ResponsePeak& highest_of(const std::vector<problems::ResponsePeak>& peaks) {
-  return *std::max_element(peaks.begin(), peaks.end(), [](const auto& a, const auto& b) {
-    return a.log_height < b.log_height;
-  });
+  return *std::max_element(peaks.begin(), peaks.end(),
+                           [](const auto& a, const auto& b) { return a.log_height < b.log_height; });
 }
 
 /// Whether the peak nearest to a place is as high as the highest one, of several that are.
 bool is_near_highest(const std::vector<problems::ResponsePeak>& peaks, double place) {
   constexpr double same = 1e-6;  // of ln Y: both peaks of an exchange, as the best preload is known
-  const auto distance = [&](const problems::ResponsePeak& peak) { return std::abs(std::log(peak.place / place)); };
-  const auto nearest = std::min_element(peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) {
-    return distance(a) < distance(b);
-  });
+  const auto distance = [&](const problems::ResponsePeak& peak) {
+    return std::abs(std::log(peak.place / place));
+  };
+  const auto nearest = std::min_element(
+      peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   return nearest->log_height >= highest_of(peaks).log_height - same;
 }
 

@@ -81,14 +81,15 @@ std::vector<std::string> sentences_of(const std::vector<HarmonicsCheck>& checks,
     sentences.push_back(sentence(*done.front()));
     return sentences;
   }
-  const auto others = std::count_if(done.begin(), done.end(), [](const auto* check) { return !check->same_peak; });
-  const auto worst = *std::max_element(done.begin(), done.end(), [](const auto* a, const auto* b) {
-    return severity(*a) < severity(*b);
-  });
-  sentences.push_back(fmt::format(
-      "More harmonics were tried at the best preloads of {} of {} designs; in {} another peak rules. The height "
-      "changes most in design {}: {}",
-      done.size(), count, others, worst->curve, sentence(*worst)));
+  const auto others =
+      std::count_if(done.begin(), done.end(), [](const auto* check) { return !check->same_peak; });
+  const auto worst = *std::max_element(
+      done.begin(), done.end(), [](const auto* a, const auto* b) { return severity(*a) < severity(*b); });
+  sentences.push_back(
+      fmt::format("More harmonics were tried at the best preloads of {} of {} designs; in {} another peak "
+                  "rules. The height "
+                  "changes most in design {}: {}",
+                  done.size(), count, others, worst->curve, sentence(*worst)));
   return sentences;
 }
 
@@ -98,12 +99,12 @@ std::vector<std::string> warnings_of(const std::vector<HarmonicsCheck>& checks) 
     if (is_misled(check)) misled.push_back(&check);
   }
   if (misled.empty()) return {};
-  const auto worst = *std::max_element(misled.begin(), misled.end(), [](const auto* a, const auto* b) {
-    return severity(*a) < severity(*b);
-  });
-  return {fmt::format("the harmonics of [system] mislead in {} of {} designs that were tried, most in design {}. "
-                      "{} harmonics = {} would tell.",
-                      misled.size(), checks.size(), worst->curve, sentence(*worst), worst->harmonics.back())};
+  const auto worst = *std::max_element(
+      misled.begin(), misled.end(), [](const auto* a, const auto* b) { return severity(*a) < severity(*b); });
+  return {
+      fmt::format("the harmonics of [system] mislead in {} of {} designs that were tried, most in design {}. "
+                  "{} harmonics = {} would tell.",
+                  misled.size(), checks.size(), worst->curve, sentence(*worst), worst->harmonics.back())};
 }
 
 ordered_json to_json(const std::vector<HarmonicsCheck>& checks) {
@@ -112,10 +113,8 @@ ordered_json to_json(const std::vector<HarmonicsCheck>& checks) {
     ordered_json entry = {
         {"curve", check.curve}, {"P", check.preload}, {"harmonics", check.harmonics.back()}};
     if (check.failure.empty()) {
-      entry.update(ordered_json{{"eta", check.eta},
-                                {"Y", check.Y},
-                                {"moved_by", check.moved_by},
-                                {"same_peak", check.same_peak}});
+      entry.update(ordered_json{
+          {"eta", check.eta}, {"Y", check.Y}, {"moved_by", check.moved_by}, {"same_peak", check.same_peak}});
     } else {
       entry["failure"] = check.failure;
     }

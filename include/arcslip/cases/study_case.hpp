@@ -16,8 +16,11 @@ namespace arcslip {
 struct StudyDesign {
   nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
   SystemParameters system;
-  std::optional<Geometry> geometry;  ///< where the system is given in SI units
+  std::optional<Geometry> geometry;                ///< where the system is given in SI units
   std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
+
+  /// Its forced response.
+  ProblemRequest problem() const;
 };
 
 /// A study of `count` designs, which are made when asked for, from several threads: there may be millions.

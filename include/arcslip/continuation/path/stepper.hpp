@@ -21,7 +21,9 @@ namespace arcslip::continuation {
 class Stepper {
  public:
   /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
-  Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step);
+  /// Without `pairs` no two branch points are looked for that one step may pass.
+  Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
+          bool pairs = true);
 
   const CurvePoint& here() const { return here_; }
   const CurvePoint& there() const { return there_; }
@@ -170,6 +172,7 @@ class Stepper {
   std::vector<Index> tracked_;
   std::vector<double> scales_;  // of those tracked
   double max_step_;
+  bool pairs_;  // of branch points are looked for
   StepLimits limits_;
 
   CurvePoint here_;

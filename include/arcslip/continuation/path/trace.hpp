@@ -39,6 +39,9 @@ struct TraceOptions {
   std::vector<std::string> extrema_of;  ///< observables whose extrema become `peak` and `trough` points
   std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
   std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
+  /// Whether two branch points within one step are looked for, where the Jacobian's determinant leaves room.
+  /// A problem that is known to have none is traced faster without, where its Jacobian jumps often.
+  bool branch_point_pairs = true;
   /// On the largest entry of F and on the correction that is left, in the problem's scale. Of a problem whose
   /// F is in units in which its terms are above 1e3, relative to these.
   double tolerance = 1e-10;

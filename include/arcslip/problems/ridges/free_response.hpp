@@ -8,8 +8,8 @@
 
 namespace arcslip::problems {
 
-/// The amplitude |y_0| of the first contact of a base that nothing touches: u - ln |y_0(eta)| = 0 with the one
-/// unknown u = ln Y and the parameter eta.
+/// The amplitude |y_0| of the first contact of a base that nothing touches: u - ln |y_0(eta)| = 0 with the
+/// one unknown u = ln Y and the parameter eta.
 class FreeResponse : public continuation::Problem {
  public:
   explicit FreeResponse(ContactModes base) : base_(std::move(base)) {}
@@ -33,7 +33,8 @@ class FreeResponse : public continuation::Problem {
 
 /// The highest amplitude of the base alone in the window, its ends included. Throws std::runtime_error where
 /// it cannot be traced.
-Peak free_peak(const ContactModes& base, const PreloadRange& range, const continuation::TraceOptions& options);
+Peak free_peak(const ContactModes& base, const PreloadRange& range,
+               const continuation::TraceOptions& options);
 
 /// That of one contact, whose base may have cubic springs.
 Peak free_peak(FrictionSystem system, const PreloadRange& range, const continuation::TraceOptions& options);

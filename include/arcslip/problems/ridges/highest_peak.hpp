@@ -30,8 +30,8 @@ std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& 
 
 class HighestPeak {
  public:
-  /// Samples b = from .. to, both > 0, and the values `wanted` between them. Throws std::runtime_error where a
-  /// response cannot be traced or has no peak.
+  /// Samples b = from .. to, both > 0, and the values `wanted` between them. Throws std::runtime_error where
+  /// a response cannot be traced or has no peak.
   HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted);
 
   /// Where M is lowest.

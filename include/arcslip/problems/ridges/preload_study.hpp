@@ -101,7 +101,7 @@ struct PreloadStudy {
   double free_Y = 0;    ///< Y_nd_max
   std::vector<PeakBranch> branches;
   std::optional<Optimum> optimum;
-  std::string failure;  ///< why the study is not whole, or empty
+  std::string failure;              ///< why the study is not whole, or empty
   std::vector<int> harmonics = {};  ///< those that were added as the best preload asked for; else empty
 };
 

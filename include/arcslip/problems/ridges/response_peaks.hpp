@@ -26,11 +26,11 @@ struct PeakedResponse {
   std::shared_ptr<const continuation::Problem> problem;
   std::string along;
   std::string across;
-  double from = 0;                      ///< of `along`, > 0
-  double to = 0;                        ///< > from
-  std::string objective;                ///< an observable > 0 with a gradient
-  continuation::Guess start;            ///< a solution at `from`, for some value > 0 of `across`
-  continuation::TraceOptions options;   ///< tolerance and limits of steps
+  double from = 0;                     ///< of `along`, > 0
+  double to = 0;                       ///< > from
+  std::string objective;               ///< an observable > 0 with a gradient
+  continuation::Guess start;           ///< a solution at `from`, for some value > 0 of `across`
+  continuation::TraceOptions options;  ///< tolerance and limits of steps
 };
 
 enum class ResponsePeakSite {
