@@ -51,44 +51,6 @@ double slope_of(const EnvelopePiece& piece, double x) {
 
 }  // namespace
 
-/// How unlike two peaks are: by how far the place moves, and by how far the heights are from what the slopes
-/// say.
-std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b) {
-  constexpr double alone = 0.1;  // of ln: as bad as two peaks that belong to no other
-  const std::size_t n = a.peaks.size();
-  const std::size_t m = b.peaks.size();
-  const auto unlike = [&](std::size_t i, std::size_t k) {
-    const ResponsePeak& p = a.peaks[i];
-    const ResponsePeak& q = b.peaks[k];
-    const double rise = 0.5 * (b.x - a.x) * (p.slope + q.slope);
-    return std::abs(std::log(p.place / q.place)) + std::abs(q.log_height - p.log_height - rise);
-  };
-  // Least costs of the first i and k peaks.
-  std::vector<double> cost((n + 1) * (m + 1));
-  const auto at = [&](std::size_t i, std::size_t k) -> double& { return cost[i * (m + 1) + k]; };
-  for (std::size_t i = 0; i <= n; ++i) {
-    for (std::size_t k = 0; k <= m; ++k) {
-      double least = i + k == 0 ? 0 : infinity;
-      if (i > 0) least = std::min(least, at(i - 1, k) + alone);
-      if (k > 0) least = std::min(least, at(i, k - 1) + alone);
-      if (i > 0 && k > 0) least = std::min(least, at(i - 1, k - 1) + unlike(i - 1, k - 1));
-      at(i, k) = least;
-    }
-  }
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = n, k = m; i > 0 && k > 0;) {
-    if (at(i, k) == at(i - 1, k) + alone) {
-      --i;
-    } else if (at(i, k) == at(i, k - 1) + alone) {
-      --k;
-    } else {
-      pairs.emplace_back(--i, --k);
-    }
-  }
-  std::reverse(pairs.begin(), pairs.end());
-  return pairs;
-}
-
 /// What is known between two neighbouring samples.
 struct HighestPeak::Interval {
   const PeakSample& from;
@@ -263,7 +225,9 @@ double HighestPeak::next_place(std::size_t low, bool stagnates) const {
 bool HighestPeak::settle_exchange(const PeakSample& here, Lowest& lowest) const {
   for (std::size_t k = 0; k < here.peaks.size(); ++k) {
     if (k == here.top) continue;
-    const bool equal = here.highest().log_height - here.peaks[k].log_height <= same_height;
+    const double steepness = std::abs(here.peaks[k].slope - here.highest().slope);
+    const double above = here.highest().log_height - here.peaks[k].log_height;
+    const bool equal = above <= same_height * std::min(1.0, steepness);
     if (!equal || !(here.peaks[k].slope * here.highest().slope < 0)) continue;
     const bool falls = here.highest().slope < 0;
     lowest = {OptimumKind::exchange, here.x, falls ? here.top : k, falls ? k : here.top, 0, 0};
@@ -282,7 +246,7 @@ std::pair<double, double> HighestPeak::valley() {
     if (rises ? at == 0 : at + 1 == samples_.size()) return {x, x};
     const PeakSample& low = samples_[rises ? at - 1 : at];
     const PeakSample& high = samples_[rises ? at : at + 1];
-    const bool found = low.highest().slope < 0 && high.highest().slope > 0;
+    const bool found = low.highest().slope <= 0 && high.highest().slope >= 0;
     if (found || high.x - low.x <= narrow) return {low.x, high.x};
     add(0.5 * (low.x + high.x));
   }
@@ -293,6 +257,8 @@ void HighestPeak::settle(Lowest& lowest) {
   const auto is_settled = [&](double x) {
     const PeakSample& here = sample(x);
     lowest = {OptimumKind::smooth, x, here.top, std::nullopt, 0, 0};
+    // What is level may be a range that sticks, above the minimum.
+    if (here.highest().log_height > sample(least()).highest().log_height + same_height) return false;
     return settle_exchange(here, lowest) || std::abs(here.highest().slope) <= level_slope;
   };
   if (is_settled(least())) return;
@@ -306,7 +272,8 @@ void HighestPeak::settle(Lowest& lowest) {
     const double width = high - low;
     const double x = add(slow % 4 == 3 ? 0.5 * (low + high) : next_place(position(low), slow % 4 == 2)).x;
     if (is_settled(x)) return;
-    (sample(x).highest().slope < 0 ? low : high) = x;
+    const double slope = sample(x).highest().slope;
+    (slope < 0 || (slope == 0 && x < least()) ? low : high) = x;
     slow = high - low > 0.5 * width ? slow + 1 : 0;
   }
   settle_corner(low, high, lowest);
@@ -316,7 +283,7 @@ void HighestPeak::settle(Lowest& lowest) {
 void HighestPeak::settle_corner(double low, double high, Lowest& lowest) const {
   const PeakSample& from = sample(low);
   const PeakSample& to = sample(high);
-  constexpr double rounding = 1e-6;  // slopes that differ by no more are those of one smooth minimum
+  constexpr double rounding = 1e-5;  // of slopes, as that of a peak close beside a corner
   const Interval between = interval(position(low));
   lowest = {OptimumKind::corner, low, from.top, std::nullopt, 0, 0};
   if (to.highest().slope - from.highest().slope <= rounding) {
@@ -381,10 +348,12 @@ HighestPeak::Lowest HighestPeak::lowest() {
   constexpr double precise = 1e-6;  // of the range within a factor 2
   Lowest lowest;
   // On the way to one minimum a lower one may show, in a valley between samples.
-  do {
+  constexpr int most_valleys = 10;
+  for (int i = 0; i < most_valleys; ++i) {
     bound();
     if (!settle_flat(lowest)) settle(lowest);
-  } while (sample(least()).highest().log_height < sample(lowest.x).highest().log_height - settled);
+    if (sample(least()).highest().log_height >= sample(lowest.x).highest().log_height - settled) break;
+  }
   const double level = sample(lowest.x).highest().log_height + std::numbers::ln2;
   lowest.low = leaves(lowest.x, level, -1, precise);
   lowest.high = leaves(lowest.x, level, 1, precise);

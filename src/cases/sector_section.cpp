@@ -235,9 +235,8 @@ NumberRule wave_rule(const S& settings) {
 void check_path(const S& settings, const TomlSection& section) {
   const bool forced = settings.use == nullptr || (settings.use->balanced && settings.use->parameter != "R");
   if (settings.path == SectorPath::full && !forced)
-    section.fail(
-        "path",
-        R"(expected "reduced" for nonlinear modes, limit cycles and one-way responses, got "full")");
+    section.fail("path",
+                 R"(expected "reduced" for nonlinear modes, limit cycles and one-way responses, got "full")");
 }
 
 /// What is held to the modes and contacts that there are.

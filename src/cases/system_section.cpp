@@ -127,8 +127,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, settings, problem);
   }
   if (settings.harmonics.size() > 1 || settings.harmonics_tolerance) {
-    if (!use.balanced)
-      section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
+    if (!use.balanced) section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
     if (settings.cubic_stiffness != 0) section.fail("harmonics", "expected 1 beside cubic_stiffness");
   }
   check_waves(section, settings);

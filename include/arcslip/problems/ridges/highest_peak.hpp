@@ -10,23 +10,9 @@
 #include <vector>
 
 #include "arcslip/problems/ridges/envelope_curve.hpp"
-#include "arcslip/problems/ridges/response_peaks.hpp"
+#include "arcslip/problems/ridges/peak_sample.hpp"
 
 namespace arcslip::problems {
-
-/// The peaks of one response.
-struct PeakSample {
-  double x = 0;      ///< ln b
-  double value = 0;  ///< b
-  std::vector<ResponsePeak> peaks;
-  std::size_t top = 0;  ///< the highest
-
-  const ResponsePeak& highest() const { return peaks[top]; }
-};
-
-/// Pairs (of a, of b) of peaks of two samples that are one ridge, in the order of the response, in which
-/// ridges cannot change places.
-std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b);
 
 class HighestPeak {
  public:

@@ -1,0 +1,26 @@
+#pragma once
+
+// The peaks of a response at one value of its second parameter b, and which of them go on at another one.
+
+#include <utility>
+#include <vector>
+
+#include "arcslip/problems/ridges/response_peaks.hpp"
+
+namespace arcslip::problems {
+
+/// The peaks of one response.
+struct PeakSample {
+  double x = 0;      ///< ln b
+  double value = 0;  ///< b
+  std::vector<ResponsePeak> peaks;
+  std::size_t top = 0;  ///< the highest
+
+  const ResponsePeak& highest() const { return peaks[top]; }
+};
+
+/// Pairs (of a, of b) of peaks of two samples that are one ridge, in the order of the response, in which
+/// ridges cannot change places.
+std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b);
+
+}  // namespace arcslip::problems
