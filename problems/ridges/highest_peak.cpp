@@ -17,6 +17,7 @@ constexpr std::size_t most = 400;      // samples in all
 constexpr double settled = 1e-9;       // of M: as well as heights are known, with room for rounding
 constexpr double level_slope = 1e-9;   // dM/dx of a smooth minimum, as exact as peaks are known
 constexpr double same_height = 1e-10;  // of peaks, the tolerance of responses
+constexpr double rounding = 1e-12;     // of L
 constexpr double narrow = 1e-11;       // in x: what is left of a minimum on a corner
 
 EnvelopeNode node_of(const PeakSample& sample, std::size_t peak) {
@@ -240,10 +241,15 @@ bool HighestPeak::settle_exchange(const PeakSample& here, Lowest& lowest) const 
 /// where M falls as far as the range goes, or does so to no more than the width of a corner.
 std::pair<double, double> HighestPeak::valley() {
   for (;;) {
-    const double x = least();
-    const std::size_t at = position(x);
+    std::size_t at = position(least());
     const bool rises = samples_[at].highest().slope > 0;
-    if (rises ? at == 0 : at + 1 == samples_.size()) return {x, x};
+    const auto is_last = [&] { return rises ? at == 0 : at + 1 == samples_.size(); };
+    const auto goes_on = [&](const PeakSample& next) {  // of heights that differ by rounding the slopes tell
+      return next.highest().slope * samples_[at].highest().slope > 0 &&
+             next.highest().log_height <= samples_[at].highest().log_height + rounding;
+    };
+    while (!is_last() && goes_on(samples_[rises ? at - 1 : at + 1])) at = rises ? at - 1 : at + 1;
+    if (is_last()) return {samples_[at].x, samples_[at].x};
     const PeakSample& low = samples_[rises ? at - 1 : at];
     const PeakSample& high = samples_[rises ? at : at + 1];
     const bool found = low.highest().slope <= 0 && high.highest().slope >= 0;
@@ -283,10 +289,10 @@ void HighestPeak::settle(Lowest& lowest) {
 void HighestPeak::settle_corner(double low, double high, Lowest& lowest) const {
   const PeakSample& from = sample(low);
   const PeakSample& to = sample(high);
-  constexpr double rounding = 1e-5;  // of slopes, as that of a peak close beside a corner
+  constexpr double unlike = 1e-5;  // of slopes, as that of a peak close beside a corner
   const Interval between = interval(position(low));
   lowest = {OptimumKind::corner, low, from.top, std::nullopt, 0, 0};
-  if (to.highest().slope - from.highest().slope <= rounding) {
+  if (to.highest().slope - from.highest().slope <= unlike) {
     lowest.kind = OptimumKind::smooth;
   } else if (between.partner_of_from(from.top) != to.top) {
     lowest.kind = OptimumKind::exchange;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace arcslip {
 namespace {
 
@@ -24,10 +26,15 @@ std::string insertion(const std::string& table, std::size_t columns) {
 
 }  // namespace
 
-StudyExtras::StudyExtras(const StudyCase& study) : study_(study) {}
+StudyExtras::StudyExtras(const StudyCase& study) : study_(study) {
+  has_harmonics_ = std::count(study.keys.begin(), study.keys.end(), "harmonics") > 0 ||
+                   study.design(0).harmonics_tolerance.has_value();
+}
 
 std::string StudyExtras::tables() const {
-  std::string sql = "CREATE TABLE harmonics (curve INTEGER PRIMARY KEY, count INTEGER, orders TEXT);";
+  std::string sql;
+  if (has_harmonics_)
+    sql += "CREATE TABLE harmonics (curve INTEGER PRIMARY KEY, count INTEGER, orders TEXT);";
   if (study_.is_physical)
     sql += "CREATE TABLE units (curve INTEGER PRIMARY KEY, frequency, length, preload, energy);";
   if (has_robust()) sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error);";
@@ -40,7 +47,7 @@ std::string StudyExtras::tables() const {
 }
 
 void StudyExtras::open(const Database& database) {
-  insert_harmonics_ = database.prepare(insertion("harmonics", 3));
+  if (has_harmonics_) insert_harmonics_ = database.prepare(insertion("harmonics", 3));
   if (study_.is_physical) insert_units_ = database.prepare(insertion("units", 5));
   if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 5));
   if (has_quantiles())

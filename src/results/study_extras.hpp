@@ -31,6 +31,7 @@ class StudyExtras {
   void add(std::size_t curve, const problems::PreloadStudy& result,
            const problems::UncertainPeaks* uncertain);
 
+  bool has_harmonics() const { return has_harmonics_; }
   bool has_robust() const { return study_.uncertain.has_value(); }
   bool has_quantiles() const { return study_.uncertain && study_.sweep; }
 
@@ -45,6 +46,7 @@ class StudyExtras {
 
  private:
   StudyCase study_;
+  bool has_harmonics_;
   std::optional<Statement> insert_harmonics_;
   std::optional<Statement> insert_units_;
   std::optional<Statement> insert_robust_;

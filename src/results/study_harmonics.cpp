@@ -35,9 +35,9 @@ std::string size_of(double moved_by) {
   return fmt::format("{:.3g} % {}", 100 * std::abs(moved_by), moved_by > 0 ? "higher" : "lower");
 }
 
-std::string sentence(const HarmonicsCheck& check) {
+std::string told(const HarmonicsCheck& check, const char* with) {
   return fmt::format(
-      "With the harmonics 1, 3, ..., {} the highest peak at P = {:.8g} is {}: {:.6g}, at eta = {:.6g}{}.",
+      "{} the harmonics 1, 3, ..., {} the highest peak at P = {:.8g} is {}: {:.6g}, at eta = {:.6g}{}.", with,
       check.harmonics.back(), check.preload, size_of(check.moved_by), check.Y, check.eta,
       check.same_peak ? "" : ", and is another peak");
 }
@@ -78,7 +78,7 @@ std::vector<std::string> sentences_of(const std::vector<HarmonicsCheck>& checks,
   }
   if (done.empty()) return sentences;
   if (count == 1) {
-    sentences.push_back(sentence(*done.front()));
+    sentences.push_back(told(*done.front(), "With"));
     return sentences;
   }
   const auto others =
@@ -89,7 +89,7 @@ std::vector<std::string> sentences_of(const std::vector<HarmonicsCheck>& checks,
       fmt::format("More harmonics were tried at the best preloads of {} of {} designs; in {} another peak "
                   "rules. The height "
                   "changes most in design {}: {}",
-                  done.size(), count, others, worst->curve, sentence(*worst)));
+                  done.size(), count, others, worst->curve, told(*worst, "with")));
   return sentences;
 }
 
@@ -104,7 +104,7 @@ std::vector<std::string> warnings_of(const std::vector<HarmonicsCheck>& checks) 
   return {
       fmt::format("the harmonics of [system] mislead in {} of {} designs that were tried, most in design {}. "
                   "{} harmonics = {} would tell.",
-                  misled.size(), checks.size(), worst->curve, sentence(*worst), worst->harmonics.back())};
+                  misled.size(), checks.size(), worst->curve, told(*worst, "with"), worst->harmonics.back())};
 }
 
 ordered_json to_json(const std::vector<HarmonicsCheck>& checks) {

@@ -332,8 +332,10 @@ void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&
   const bool robust = extras_.has_robust();
   Statement row = database_->prepare(fmt::format(
       "SELECT d.curve, d.kind, d.failure, d.P_opt, d.eta_opt, d.Y_opt, d.ratio_opt, d.free_eta, {}, "
-      "h.orders FROM designs d LEFT JOIN harmonics h ON h.curve = d.curve {} {} ORDER BY d.curve",
-      robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
+      "{} FROM designs d {} {} {} ORDER BY d.curve",
+      robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", extras_.has_harmonics() ? "h.orders" : "''",
+      extras_.has_harmonics() ? "LEFT JOIN harmonics h ON h.curve = d.curve" : "",
+      robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
       which == Which::failed ? "WHERE d.failure <> ''" : ""));
   while (row.step()) {
     if (!visitor({static_cast<std::size_t>(row.integer(0)), row.text(1), row.text(2), row.real(3),

@@ -98,7 +98,7 @@ TEST_CASE("Figure 8 has its best preload in three and five harmonics where an ex
 }
 
 TEST_CASE("In one harmonic whole responses have the best preloads that closed slopes have", "[random]") {
-  for (const int seed : {5, 11, 26, 200, 201, 202, 203, 204}) {
+  for (const int seed : {5, 11, 14, 200, 201, 202, 203, 204}) {
     INFO("system " << seed);
     RandomSystems random(static_cast<std::uint64_t>(seed));
     const SystemParameters system = random.system();
