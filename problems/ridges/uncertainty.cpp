@@ -48,6 +48,14 @@ std::vector<double> steps(double from, double to, double step) {
   return numbers;
 }
 
+/// Of values, which are put in another order, the one at position ceil(rank), counted from one.
+double ranked(std::vector<double>& values, double rank) {
+  const double place = std::clamp(std::ceil(rank), 1.0, static_cast<double>(values.size()));
+  const auto position = values.begin() + static_cast<std::ptrdiff_t>(place) - 1;
+  std::nth_element(values.begin(), position, values.end());
+  return *position;
+}
+
 }  // namespace
 
 double Scatter::log_quantile(double u) const {
@@ -61,6 +69,7 @@ PeakDistribution::PeakDistribution(const Uncertainty& uncertainty) {
   Uniform uniform(uncertainty.seed);
   samples_.assign(uncertainty.samples, {0, 0});
   const auto scatter = [&](const Scatter& factor, double shift_sign, bool is_force) {
+    if (factor.kind != Scatter::Kind::none) ++factors_;
     const std::vector<double> numbers = uniform.strata(samples_.size());
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const double log_factor = factor.log_quantile(numbers[i]);
@@ -75,18 +84,34 @@ PeakDistribution::PeakDistribution(const Uncertainty& uncertainty) {
             [](const Sample& a, const Sample& b) { return a.shift < b.shift; });
 }
 
-std::vector<double> PeakDistribution::log_quantiles(const EnvelopeCurve& envelope, double x,
-                                                    const std::vector<double>& probabilities) const {
+std::vector<double> PeakDistribution::values(const EnvelopeCurve& envelope, double x) const {
   std::vector<double> values;
   values.reserve(samples_.size());
   EnvelopeCurve::Walk walk(envelope);
   for (const Sample& sample : samples_) values.push_back(sample.log_force + walk.at(x + sample.shift));
+  return values;
+}
+
+std::vector<double> PeakDistribution::log_quantiles(const EnvelopeCurve& envelope, double x,
+                                                    const std::vector<double>& probabilities) const {
+  std::vector<double> all = values(envelope, x);
   std::vector<double> quantiles;
-  for (const double probability : probabilities) {
-    const double rank = std::ceil(probability * static_cast<double>(values.size()));
-    const auto position = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-    std::nth_element(values.begin(), values.begin() + position, values.end());
-    quantiles.push_back(values[static_cast<std::size_t>(position)]);
+  for (const double probability : probabilities)
+    quantiles.push_back(ranked(all, probability * static_cast<double>(all.size())));
+  return quantiles;
+}
+
+std::vector<PeakDistribution::Quantile> PeakDistribution::quantiles(
+    const EnvelopeCurve& envelope, double x, const std::vector<double>& probabilities) const {
+  std::vector<double> all = values(envelope, x);
+  const auto count = static_cast<double>(all.size());
+  std::vector<Quantile> quantiles;
+  for (const double p : probabilities) {
+    // The strata of one factor alone hold one sample each.
+    const double deviation = factors_ > 1 ? std::max(1.0, std::sqrt(count * p * (1 - p))) : 1;
+    const double below = ranked(all, p * count - deviation);
+    const double above = ranked(all, p * count + deviation);
+    quantiles.push_back({ranked(all, p * count), 0.5 * (above - below)});
   }
   return quantiles;
 }
@@ -160,16 +185,16 @@ UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& u
   const EnvelopeCurve& envelope = *studied;
 
   const auto quantiles = [&](double preload, const std::vector<double>& probabilities) {
-    std::vector<double> values = peaks.log_quantiles(envelope, std::log(preload), probabilities);
-    for (double& value : values) value = std::exp(value);
-    return values;
+    return peaks.quantiles(envelope, std::log(preload), probabilities);
   };
   constexpr double p = UncertainPeaks::probability;
   const double optimum = nominal.optimum->peak.preload;
   const double lowest = peaks.lowest_quantile(envelope, std::log(range.from), std::log(range.to), p);
   result.preload = std::clamp(std::exp(lowest), range.from, range.to);
-  result.Y = quantiles(result.preload, {p}).front();
-  result.Y_nominal = quantiles(optimum, {p}).front();
+  const PeakDistribution::Quantile best = quantiles(result.preload, {p}).front();
+  result.Y = std::exp(best.log_value);
+  result.sampling_error = best.error;
+  result.Y_nominal = std::exp(quantiles(optimum, {p}).front().log_value);
   std::vector<double> preloads = {range.from, range.to, result.preload, optimum};
   for (const double x : steps(0, std::log(range.to / range.from), row_step)) {
     const double preload = range.from * std::exp(x);
@@ -177,8 +202,13 @@ UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& u
   }
   std::sort(preloads.begin(), preloads.end());
   preloads.erase(std::unique(preloads.begin(), preloads.end()), preloads.end());
-  for (const double preload : preloads)
-    result.rows.push_back({preload, quantiles(preload, uncertainty.quantiles)});
+  for (const double preload : preloads) {
+    QuantileRow& row = result.rows.emplace_back(QuantileRow{preload, {}, {}});
+    for (const PeakDistribution::Quantile& quantile : quantiles(preload, uncertainty.quantiles)) {
+      row.Y.push_back(std::exp(quantile.log_value));
+      row.errors.push_back(quantile.error);
+    }
+  }
   return result;
 }
 

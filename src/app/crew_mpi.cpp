@@ -26,12 +26,13 @@ void serialize(Archive& archive, Peak& peak, unsigned /*version*/) {
 
 template <class Archive>
 void serialize(Archive& archive, QuantileRow& row, unsigned /*version*/) {
-  archive& row.preload& row.Y;
+  archive& row.preload& row.Y& row.errors;
 }
 
 template <class Archive>
 void serialize(Archive& archive, UncertainPeaks& peaks, unsigned /*version*/) {
-  archive& peaks.rows& peaks.preload& peaks.Y& peaks.Y_nominal& peaks.error& peaks.failure;
+  archive& peaks.rows& peaks.preload& peaks.Y& peaks.Y_nominal& peaks.error& peaks.sampling_error& peaks
+      .failure;
 }
 
 template <class Archive, class Value>

@@ -9,9 +9,10 @@ namespace arcslip {
 namespace {
 
 /// The columns of the table `quantiles`, which are named by per cents: q5.
-std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty) {
+std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty, const char* prefix = "") {
   std::vector<std::string> names;
-  for (const double quantile : uncertainty.quantiles) names.push_back(fmt::format("q{:g}", 100 * quantile));
+  for (const double quantile : uncertainty.quantiles)
+    names.push_back(fmt::format("{}q{:g}", prefix, 100 * quantile));
   return names;
 }
 
@@ -37,11 +38,13 @@ std::string StudyExtras::tables() const {
     sql += "CREATE TABLE harmonics (curve INTEGER PRIMARY KEY, count INTEGER, orders TEXT);";
   if (study_.is_physical)
     sql += "CREATE TABLE units (curve INTEGER PRIMARY KEY, frequency, length, preload, energy);";
-  if (has_robust()) sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error);";
+  if (has_robust())
+    sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error, sampling_error);";
   if (has_quantiles()) {
     sql += fmt::format(
-        "CREATE TABLE quantiles (curve, point, P, \"{}\", PRIMARY KEY (curve, point)) WITHOUT ROWID;",
-        fmt::join(quantile_names(*study_.uncertain), "\", \""));
+        "CREATE TABLE quantiles (curve, point, P, \"{}\", \"{}\", PRIMARY KEY (curve, point)) WITHOUT ROWID;",
+        fmt::join(quantile_names(*study_.uncertain), "\", \""),
+        fmt::join(quantile_names(*study_.uncertain, "error_"), "\", \""));
   }
   return sql;
 }
@@ -49,9 +52,9 @@ std::string StudyExtras::tables() const {
 void StudyExtras::open(const Database& database) {
   if (has_harmonics_) insert_harmonics_ = database.prepare(insertion("harmonics", 3));
   if (study_.is_physical) insert_units_ = database.prepare(insertion("units", 5));
-  if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 5));
+  if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 6));
   if (has_quantiles())
-    insert_quantiles_ = database.prepare(insertion("quantiles", 3 + study_.uncertain->quantiles.size()));
+    insert_quantiles_ = database.prepare(insertion("quantiles", 3 + 2 * study_.uncertain->quantiles.size()));
 }
 
 void StudyExtras::close() {
@@ -76,12 +79,13 @@ void StudyExtras::add(std::size_t curve, const problems::PreloadStudy& result,
   }
   if (uncertain == nullptr || !uncertain->failure.empty()) return;
   insert_robust_->bind(key).bind(uncertain->preload).bind(uncertain->Y);
-  insert_robust_->bind(uncertain->Y_nominal).bind(uncertain->error).run();
+  insert_robust_->bind(uncertain->Y_nominal).bind(uncertain->error).bind(uncertain->sampling_error).run();
   if (!has_quantiles()) return;
   std::int64_t point = 0;
   for (const problems::QuantileRow& row : uncertain->rows) {
     insert_quantiles_->bind(key).bind(point++).bind(row.preload);
     for (const double Y : row.Y) insert_quantiles_->bind(Y);
+    for (const double error : row.errors) insert_quantiles_->bind(error);
     insert_quantiles_->run();
   }
 }
@@ -109,10 +113,14 @@ std::string StudyExtras::join_units() const {
 }
 
 std::vector<ExtraColumn> StudyExtras::robust_columns() const {
-  std::vector<ExtraColumn> columns = {
-      {"P_q95", "r.P"},     {"Y_q95", "r.Y"},         {"ratio_q95", "r.Y/d.Y_nd_max"},
-      {"P_opt", "d.P_opt"}, {"Y_q95_opt", "r.Y_opt"}, {"ratio_q95_opt", "r.Y_opt/d.Y_nd_max"},
-      {"error", "r.error"}};
+  std::vector<ExtraColumn> columns = {{"P_q95", "r.P"},
+                                      {"Y_q95", "r.Y"},
+                                      {"ratio_q95", "r.Y/d.Y_nd_max"},
+                                      {"P_opt", "d.P_opt"},
+                                      {"Y_q95_opt", "r.Y_opt"},
+                                      {"ratio_q95_opt", "r.Y_opt/d.Y_nd_max"},
+                                      {"error", "r.error"},
+                                      {"sampling_error", "r.sampling_error"}};
   append(columns, study_.is_physical, {{"preload_N_per_m", "r.P*u.preload"}, {"Y_q95_m", "r.Y*u.length"}});
   return columns;
 }
@@ -123,6 +131,8 @@ std::vector<ExtraColumn> StudyExtras::quantile_columns() const {
   for (const std::string& name : names) columns.push_back({"Y_" + name, fmt::format("q.\"{}\"", name)});
   for (const std::string& name : names)
     columns.push_back({"ratio_" + name, fmt::format("q.\"{}\"/d.Y_nd_max", name)});
+  for (const std::string& name : quantile_names(*study_.uncertain, "error_"))
+    columns.push_back({name, fmt::format("q.\"{}\"", name)});
   append(columns, study_.is_physical, {{"preload_N_per_m", "q.P*u.preload"}});
   return columns;
 }

@@ -174,6 +174,33 @@ TEST_CASE("The same seed gives the same samples with every standard library", "[
   CHECK(quantile(PeakDistribution(uncertainty), wedge(), 0.1, 0.9) != same);
 }
 
+TEST_CASE("Quantiles differ from seed to seed by the error that they are told with, at a cliff too",
+          "[uncertainty]") {
+  // A cliff of slope -20 that 5 % of the samples are beyond, and next to it a gentle rise.
+  const EnvelopeCurve envelope(std::vector<EnvelopePiece>{line(-9, 0, 180, -20), line(0, 9, 0, 0.5)});
+  Uncertainty uncertainty = of_friction(0.2, 400);
+  uncertainty.preload = uniform(0.8, 1.25);
+  uncertainty.force = lognormal(0.1);
+  for (const double x : {0.35, 1.5}) {
+    double sum = 0;
+    double squares = 0;
+    double told = 0;
+    constexpr int seeds = 200;
+    for (int seed = 0; seed < seeds; ++seed) {
+      uncertainty.seed = static_cast<std::uint64_t>(seed);
+      const auto quantile = PeakDistribution(uncertainty).quantiles(envelope, x, {0.95}).front();
+      sum += quantile.log_value;
+      squares += std::pow(quantile.log_value, 2);
+      told += quantile.error / seeds;
+    }
+    const double deviation = std::sqrt(squares / seeds - std::pow(sum / seeds, 2));
+    INFO("x = " << x << ": " << deviation << ", told " << told);
+    // A Latin hypercube does better than random numbers, least where one quantile has to do with all factors.
+    CHECK(deviation < 1.2 * told);
+    CHECK(deviation > 0.3 * told);
+  }
+}
+
 TEST_CASE("Quantiles of a power law under one lognormal factor lie in their stratum", "[uncertainty]") {
   const auto [samples, p] =
       GENERATE(table<std::size_t, double>({{10, 0.5}, {999, 0.95}, {1000, 0.05}, {7, 0.999}}));

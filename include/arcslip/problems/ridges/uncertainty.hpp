@@ -61,6 +61,17 @@ class PeakDistribution {
   std::vector<double> log_quantiles(const EnvelopeCurve& envelope, double x,
                                     const std::vector<double>& probabilities) const;
 
+  /// The same with the standard error that each has as one of so many samples: half the distance of the
+  /// values one standard deviation of the rank, sqrt(N p (1 - p)), before and behind it, or one rank where
+  /// one factor scatters, of which each stratum has a sample. At a cliff of the envelope, where few samples
+  /// lie, these are far apart.
+  struct Quantile {
+    double log_value;
+    double error;  ///< of log_value
+  };
+  std::vector<Quantile> quantiles(const EnvelopeCurve& envelope, double x,
+                                  const std::vector<double>& probabilities) const;
+
   /// The x within from .. to at which a quantile is lowest. It is looked for in steps of 0.02 and at the ends
   /// of the envelope's pieces, then refined where it is lowest.
   double lowest_quantile(const EnvelopeCurve& envelope, double from, double to, double probability) const;
@@ -71,6 +82,10 @@ class PeakDistribution {
     double log_force;  ///< ln f
   };
 
+  /// ln of the highest peaks of all samples.
+  std::vector<double> values(const EnvelopeCurve& envelope, double x) const;
+
+  int factors_ = 0;              ///< that scatter
   std::vector<Sample> samples_;  ///< by rising shift
 };
 
@@ -78,6 +93,7 @@ class PeakDistribution {
 struct QuantileRow {
   double preload;
   std::vector<double> Y;
+  std::vector<double> errors = {};  ///< standard errors of sampling, relative
 };
 
 /// One design's peaks under scatter.
@@ -89,6 +105,7 @@ struct UncertainPeaks {
   double Y = 0;                   ///< that quantile there
   double Y_nominal = 0;           ///< that quantile at the optimum that scatter knows nothing of
   double error = 0;               ///< estimate of the relative error of all Y by the envelope's interpolation
+  double sampling_error = 0;      ///< relative standard error of Y as a quantile of the samples
   std::string failure;            ///< why there are no rows, or empty
 };
 
