@@ -134,16 +134,28 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
   thread_local Rows rows;
+  fill_rows(friction, u, p, regime, rows, out.parameter_jacobian);
+  if (out.residual != nullptr) *out.residual = rows.residual;
+  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
+  return true;
+}
+
+void HarmonicResponse::fill_rows(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+                                 int regime, Rows& rows, Matrix* parameter_jacobian) const {
   rows.residual.resize(size());
   rows.weight.resize(harmonics());
   rows.own.resize(harmonics(), contacts() * contacts());
   for (Index a = 0; a < harmonics(); ++a) {
     set_order(a, p(eta), regime, rows.order);
-    fill_order(rows.order, friction, u, p, rows, out.parameter_jacobian);
+    fill_order(rows.order, friction, u, p, rows, parameter_jacobian);
   }
-  if (out.residual != nullptr) *out.residual = rows.residual;
-  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
-  return true;
+}
+
+void HarmonicResponse::fill(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+                            int regime, Matrix& jacobian, Matrix& parameter_jacobian) const {
+  Rows rows;
+  fill_rows(friction, u, p, regime, rows, &parameter_jacobian);
+  fill_jacobian(rows, friction, u, regime, jacobian);
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
@@ -169,7 +181,6 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>&
       rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
   }
   if (parameter_jacobian == nullptr) return;
-
   ContactVector& column = order.gap;
   Complex slope = 0;  // of the weight's logarithm, over its square
   for (Index j = 0; j < m; ++j) {
@@ -266,8 +277,7 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
   const std::vector<ContactForce>& friction = forces(u, p, regime, false);
   values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs) + (n > 1 ? 3 * n : 0));
   Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
-  HarmonicVector base(n);  // of the first contact
-  HarmonicVector damper(n);
+  HarmonicVector base(n), damper(n);  // of the first contact
   ContactVector f(m);
   const HarmonicVector first = motion(u, 0);
   for (Index a = 0; a < n; ++a) {

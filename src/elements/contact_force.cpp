@@ -32,4 +32,31 @@ void ContactForce::set(std::span<const int> orders, const HarmonicVector& r, dou
   by_log_threshold.noalias() -= conjugate * r.conjugate();
 }
 
+ContactForce ContactForce::change(std::span<const int> orders, const HarmonicVector& r, double stiffness,
+                                  double threshold, bool slips, const HarmonicVector& motion,
+                                  double log_threshold) const {
+  ContactForce change;
+  change.harmonics = linear * motion + conjugate * motion.conjugate() + by_log_threshold * log_threshold;
+  if (slips) {
+    const OddMotion moved(orders, r);
+    HysteresisLoop(moved, threshold)
+        .second(motion, threshold * log_threshold, change.linear, change.conjugate);
+    change.linear *= stiffness;
+    change.conjugate *= stiffness;
+  } else {
+    change.linear.setZero(r.size(), r.size());
+    change.conjugate.setZero(r.size(), r.size());
+  }
+  change.by_log_threshold =
+      by_log_threshold * log_threshold - change.linear * r - change.conjugate * r.conjugate();
+  return change;
+}
+
+void ContactForce::add(const ContactForce& change, double part) {
+  harmonics += part * change.harmonics;
+  by_log_threshold += part * change.by_log_threshold;
+  linear += part * change.linear;
+  conjugate += part * change.conjugate;
+}
+
 }  // namespace arcslip

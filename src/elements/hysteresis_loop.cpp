@@ -69,6 +69,7 @@ void HysteresisLoop::march() {
 
   double force = slip_threshold_;
   double anchor = begin_;
+  double before = 1;
   bool sticking = true;
   for (int i = 0; i < found.count; ++i) {
     const double longest = turn(i + 1) - turn(i);
@@ -80,13 +81,14 @@ void HysteresisLoop::march() {
       force += change;
       continue;
     }
-    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room)};
+    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room), before, sign};
+    before = sign;
     slipped_ += std::abs(change) - std::abs(room);
     ++slips_;
     force = sign * slip_threshold_;
     anchor = turn(i + 1);
   }
-  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi - anchor};
+  if (sticking) stick_[sticks_++] = {anchor, begin_ + pi - anchor, before, 0};
   mismatch_ = force + slip_threshold_;
 }
 
@@ -125,6 +127,37 @@ void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate)
         const int h = orders[static_cast<std::size_t>(a)];
         linear(a, b) += integral[l - h] - turn * integral[-h];
         conjugate(a, b) += std::conj(integral[l + h] - turn * integral[h]);
+      }
+    }
+  }
+  linear *= 1 / pi;
+  conjugate *= 1 / pi;
+}
+
+void HysteresisLoop::second(const HarmonicVector& motion, double threshold, ComplexMatrix& linear,
+                            ComplexMatrix& conjugate) const {
+  const std::span<const int> orders = motion_.orders();
+  const Index count = motion.size();
+  const OddMotion change(orders, motion);
+  linear.setZero(count, count);
+  conjugate.setZero(count, count);
+  for (std::size_t arc = 0; arc < sticks_; ++arc) {
+    const auto [begin, width, before, behind] = stick_[arc];
+    const ArcIntegrals integral(begin, width, orders.back());
+    const double shift = change.slopes(begin).first / motion_.slopes(begin).second;
+    const double end = begin + width;
+    const double slip = behind == 0 ? 0
+                                    : (change.change(begin, width) + (before - behind) * threshold) /
+                                          motion_.slopes(end).first;
+    for (Index b = 0; b < count; ++b) {
+      const double l = orders[static_cast<std::size_t>(b)];
+      const Complex turn = std::polar(1.0, l * begin);
+      const Complex way = std::polar(1.0, l * end) - turn;
+      for (Index a = 0; a < count; ++a) {
+        const int h = orders[static_cast<std::size_t>(a)];
+        const Complex fades = slip * std::polar(1.0, -h * end);
+        linear(a, b) += j * l * turn * shift * integral[-h] - way * fades;
+        conjugate(a, b) += std::conj(j * l * turn) * shift * integral[-h] - std::conj(way) * fades;
       }
     }
   }

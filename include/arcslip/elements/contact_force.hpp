@@ -21,6 +21,14 @@ struct ContactForce {
   /// before.
   void set(std::span<const int> orders, const HarmonicVector& r, double stiffness, double threshold,
            bool slips, bool derivatives);
+
+  /// How the harmonics and their derivatives, as they were last set with these arguments, change with r and
+  /// with ln S. Of the energy and the maximum nothing is said.
+  ContactForce change(std::span<const int> orders, const HarmonicVector& r, double stiffness,
+                      double threshold, bool slips, const HarmonicVector& motion, double log_threshold) const;
+
+  /// Adds so much of a change.
+  void add(const ContactForce& change, double part);
 };
 
 }  // namespace arcslip

@@ -18,6 +18,14 @@
 //             = sum_l G_hl delta r_l + Q_hl conj(delta r_l).
 //
 // With one harmonic f_1 = phi(R/S) r_1 of contact.hpp.
+//
+// An arc of stick from b to e, before which the force is g S and behind which it is n S, begins elsewhere as
+// the motion changes, by -delta r'(b)/r"(b), and slip begins elsewhere, by -D/r'(e), D = delta r(e) - delta
+// r(b) + (g - n) delta S. Two changes, 1 and 2, together change f_h by
+//
+//   (2/pi) sum_arcs [ delta_1 r'(b) delta_2 r'(b)/r"(b) int e^{-jh theta} dtheta - D_1 D_2 e^{-jhe}/r'(e) ],
+//
+// the last term only where slip follows. It is one-sided where the number of slips changes.
 
 #include "arcslip/motion/odd_motion.hpp"
 
@@ -38,6 +46,10 @@ class HysteresisLoop {
   /// G and Q. The derivative in S follows by homogeneity: df_h/dS = (f_h - (G r + Q conj(r))_h)/S.
   void derivative(ComplexMatrix& linear, ComplexMatrix& conjugate) const;
 
+  /// How G and Q change with r and S: the derivatives along `motion` (of the same harmonics) and `threshold`.
+  void second(const HarmonicVector& motion, double threshold, ComplexMatrix& linear,
+              ComplexMatrix& conjugate) const;
+
   /// Energy lost per cycle over k: 2 S times the distance slipped in half a period.
   double energy() const { return 2 * slip_threshold_ * slipped_; }
 
@@ -47,6 +59,8 @@ class HysteresisLoop {
   struct Arc {
     double begin;
     double width;
+    double before = 1;  ///< force over S where it begins
+    double behind = 0;  ///< the same where it ends in slip; 0 where it goes on as the next half period begins
   };
 
   /// Those of half a period.

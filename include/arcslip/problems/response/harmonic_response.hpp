@@ -39,6 +39,10 @@ class HarmonicResponse : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
+  /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
+  /// smooth and differentiated by differences.
+  bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
+              const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
@@ -97,10 +101,16 @@ class HarmonicResponse : public continuation::Problem {
   };
   void set_order(Index which, double eta_value, int regime, Order& order) const;
   struct Rows;
+  void fill_rows(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p, int regime,
+                 Rows& rows, Matrix* parameter_jacobian) const;
   void fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
                   Rows& rows, Matrix* parameter_jacobian) const;
   void fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u, int regime,
                      Matrix& jacobian) const;
+
+  /// The derivatives of F with these forces of the contacts.
+  void fill(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p, int regime,
+            Matrix& jacobian, Matrix& parameter_jacobian) const;
 
   OddMotion::Maximum maximum(const Vector& u, Index contact) const;
   double load(const Vector& p) const;  // P + P_2 eta^2

@@ -1,0 +1,48 @@
+// Second derivatives of the harmonic response: with the forces and their derivatives moved as the loops say,
+// F is a smooth function of the way along the direction, whatever happens within the loops.
+
+#include <cmath>
+
+#include "arcslip/continuation/problem/second_derivative.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+
+namespace arcslip::problems {
+
+bool HarmonicResponse::second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
+                              const Vector& dp, Vector& out) const {
+  if (!evaluate(u, p, regime, {})) return false;
+  const std::vector<ContactForce> friction = forces(u, p, regime, true);
+  const double log_threshold = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / load(p);
+  std::vector<ContactForce> changes;
+  for (Index i = 0; i < contacts(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    changes.push_back(friction[k].change(system_.orders, motion(u, i), system_.contacts[k].stiffness,
+                                         slip_threshold(i, p), slips(regime, i), motion(du, i),
+                                         log_threshold));
+  }
+  Matrix jacobian(size(), size());
+  Matrix parameter_jacobian(size(), 2);
+  const auto along = [&](double h, Vector& value) {
+    const Vector moved = p + h * dp;
+    if (!(moved(eta) > 0 && moved(preload) > 0 && load(moved) > 0)) return false;
+    std::vector<ContactForce> there = friction;
+    for (std::size_t k = 0; k < there.size(); ++k) there[k].add(changes[k], h);
+    fill(there, u + h * du, moved, regime, jacobian, parameter_jacobian);
+    value.resize(size() + 2);
+    value << jacobian.transpose() * w, parameter_jacobian.transpose() * w;
+    return value.allFinite();
+  };
+  Vector unknown_scale(size());
+  Vector parameter_scale(2);
+  scale(u, p, unknown_scale, parameter_scale);
+  const double length = std::max(du.cwiseQuotient(unknown_scale).lpNorm<Eigen::Infinity>(),
+                                 dp.cwiseQuotient(parameter_scale).lpNorm<Eigen::Infinity>());
+  if (!(length > 0)) {
+    out.setZero(size() + 2);
+    return true;
+  }
+  constexpr double first = 0.02;  // step, of the scale: resonances are resolved by those that follow
+  return std::isfinite(continuation::differentiate(along, first / length, out).error);
+}
+
+}  // namespace arcslip::problems
