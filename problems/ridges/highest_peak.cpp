@@ -20,18 +20,6 @@ constexpr double same_height = 1e-10;  // of peaks, the tolerance of responses
 constexpr double rounding = 1e-12;     // of L
 constexpr double narrow = 1e-11;       // in x: what is left of a minimum on a corner
 
-EnvelopeNode node_of(const PeakSample& sample, std::size_t peak) {
-  return {sample.x, sample.peaks[peak].log_height, sample.peaks[peak].slope};
-}
-
-/// As far as the tangent at one end tells.
-EnvelopePiece line(const EnvelopeNode& node, double from, double to) {
-  const auto at = [&](double x) {
-    return EnvelopeNode{x, node.value + (x - node.x) * node.slope, node.slope};
-  };
-  return {at(from), at(to)};
-}
-
 /// The zero of a function that is positive at `low` and negative at `high`.
 template <class Function>
 double falls_to_zero(const Function& function, double low, double high) {
@@ -51,59 +39,6 @@ double slope_of(const EnvelopePiece& piece, double x) {
 }
 
 }  // namespace
-
-/// What is known between two neighbouring samples.
-struct HighestPeak::Interval {
-  const PeakSample& from;
-  const PeakSample& to;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  std::vector<EnvelopePiece> pieces;
-  double error = 0;  ///< of the pieces at its middle
-
-  double length() const { return to.x - from.x; }
-
-  /// The highest of the pieces; -infinity without any.
-  double height(double x) const {
-    double highest = -infinity;
-    for (const EnvelopePiece& piece : pieces) highest = std::max(highest, piece.at(x));
-    return highest;
-  }
-
-  /// Errors of cubics go to zero at both ends as squares.
-  double error_at(double x) const {
-    const double t = (x - from.x) / length();
-    return 16 * error * t * t * (1 - t) * (1 - t);
-  }
-
-  std::optional<std::size_t> partner_of_from(std::size_t peak) const {
-    for (const auto& [i, k] : pairs) {
-      if (i == peak) return k;
-    }
-    return std::nullopt;
-  }
-
-  std::optional<std::size_t> partner_of_to(std::size_t peak) const {
-    for (const auto& [i, k] : pairs) {
-      if (k == peak) return i;
-    }
-    return std::nullopt;
-  }
-
-  /// Whether the highest peaks at both ends go on.
-  bool is_clear() const { return partner_of_from(from.top) && partner_of_to(to.top); }
-
-  EnvelopePiece ahead(std::size_t peak) const {
-    const auto partner = partner_of_from(peak);
-    const EnvelopeNode node = node_of(from, peak);
-    return partner ? EnvelopePiece{node, node_of(to, *partner)} : line(node, from.x, to.x);
-  }
-
-  EnvelopePiece back(std::size_t peak) const {
-    const auto partner = partner_of_to(peak);
-    const EnvelopeNode node = node_of(to, peak);
-    return partner ? EnvelopePiece{node_of(from, *partner), node} : line(node, from.x, to.x);
-  }
-};
 
 HighestPeak::HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted)
     : responses_(responses) {
@@ -158,10 +93,10 @@ double HighestPeak::fourth_order(std::size_t i) const {
   return unknown;
 }
 
-HighestPeak::Interval HighestPeak::interval(std::size_t i) const {
+PeakInterval HighestPeak::interval(std::size_t i) const {
   const PeakSample& from = samples_[i];
   const PeakSample& to = samples_[i + 1];
-  Interval interval{from, to, joined_peaks(from, to), {}, 0};
+  PeakInterval interval{from, to, joined_peaks(from, to), {}, 0};
   for (const auto& [k, l] : interval.pairs) interval.pieces.push_back({node_of(from, k), node_of(to, l)});
   const double h = interval.length();
   const double coefficient = std::fmax(fourth_order(i), fourth_order(i + 1));  // the one that is known
@@ -180,7 +115,7 @@ std::optional<double> HighestPeak::room_below(double level) const {
   constexpr double shortest = 1e-6;  // an end of a ridge is not followed further
   std::optional<double> place;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-    const Interval between = interval(i);
+    const PeakInterval between = interval(i);
     const double h = between.length();
     if (h < shortest) continue;
     for (int k = 1; k < parts; ++k) {
@@ -208,7 +143,7 @@ void HighestPeak::bound() {
 /// Where the minimum between two samples seems to be; of a search that does not get nearer, where their
 /// tangents meet.
 double HighestPeak::next_place(std::size_t low, bool stagnates) const {
-  const Interval between = interval(low);
+  const PeakInterval between = interval(low);
   const EnvelopePiece falling = between.ahead(between.from.top);
   const EnvelopePiece rising = between.back(between.to.top);
   const double a = between.from.x;
@@ -290,7 +225,7 @@ void HighestPeak::settle_corner(double low, double high, Lowest& lowest) const {
   const PeakSample& from = sample(low);
   const PeakSample& to = sample(high);
   constexpr double unlike = 1e-5;  // of slopes, as that of a peak close beside a corner
-  const Interval between = interval(position(low));
+  const PeakInterval between = interval(position(low));
   lowest = {OptimumKind::corner, low, from.top, std::nullopt, 0, 0};
   if (to.highest().slope - from.highest().slope <= unlike) {
     lowest.kind = OptimumKind::smooth;
@@ -311,7 +246,7 @@ double HighestPeak::leaves(double x, double level, int way, double precision) {
   double outside = samples_[inside].x;
   double within = samples_[way > 0 ? inside - 1 : inside + 1].x;
   for (int i = 1; std::abs(outside - within) > precision; ++i) {
-    const Interval between = interval(position(std::min(outside, within)));
+    const PeakInterval between = interval(position(std::min(outside, within)));
     double next = 0.5 * (outside + within);
     if (i % 4 != 0 && !between.pieces.empty()) {
       const double found =
@@ -372,12 +307,12 @@ void HighestPeak::settle_exchanges() {
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     double low = samples_[i].x;
     double high = samples_[i + 1].x;
-    const Interval at_first = interval(i);
+    const PeakInterval at_first = interval(i);
     const bool exchange =
         at_first.is_clear() && at_first.partner_of_from(samples_[i].top) != samples_[i + 1].top;
     if (!exchange || !(at_first.pieces.size() > 1)) continue;
     for (int tries = 0; tries < 12 && high - low > precise; ++tries) {
-      const Interval between = interval(position(low));
+      const PeakInterval between = interval(position(low));
       const auto difference = [&](double x) {
         return between.ahead(between.from.top).at(x) - between.back(between.to.top).at(x);
       };
@@ -388,7 +323,7 @@ void HighestPeak::settle_exchanges() {
         return peak.log_height >= here.highest().log_height - same_height;
       };
       if (std::count_if(here.peaks.begin(), here.peaks.end(), is_as_high) > 1) break;
-      const Interval below = interval(position(low));
+      const PeakInterval below = interval(position(low));
       const bool is_first = below.is_clear() && below.partner_of_from(below.from.top) == below.to.top;
       (is_first ? low : high) = place;
     }
@@ -401,7 +336,7 @@ double HighestPeak::refine(double tolerance, std::size_t most_samples) {
     double worst = 0;
     double place = 0;
     for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-      const Interval between = interval(i);
+      const PeakInterval between = interval(i);
       const bool ends = between.length() < 1e-6;
       if (ends || between.error <= worst) continue;
       worst = between.error;
@@ -415,7 +350,7 @@ double HighestPeak::refine(double tolerance, std::size_t most_samples) {
 std::vector<EnvelopePiece> HighestPeak::pieces() const {
   std::vector<EnvelopePiece> all;
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
-    const Interval between = interval(i);
+    const PeakInterval between = interval(i);
     all.insert(all.end(), between.pieces.begin(), between.pieces.end());
     if (between.pieces.empty())
       all.push_back({node_of(between.from, between.from.top), node_of(between.to, between.to.top)});

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "arcslip/problems/ridges/envelope_curve.hpp"
-#include "arcslip/problems/ridges/peak_sample.hpp"
+#include "arcslip/problems/ridges/peak_interval.hpp"
 
 namespace arcslip::problems {
 
@@ -46,12 +45,10 @@ class HighestPeak {
   std::vector<EnvelopePiece> pieces() const;
 
  private:
-  struct Interval;
-
   const PeakSample& add(double x);
   const PeakSample& add(double x, double value);
   std::size_t position(double x) const;
-  Interval interval(std::size_t i) const;
+  PeakInterval interval(std::size_t i) const;
   double fourth_order(std::size_t i) const;
   std::optional<double> room_below(double level) const;
   void bound();
