@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "arcslip/continuation/path/watch.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr double rounding = 1e-13;  // of a border function where it vanishes
-
-int sign_of(double value) { return (value > 0) - (value < 0); }
+constexpr double on_border = 1e-13;  // of a border function where it vanishes
 
 /// A function of the branch within the step: positive before its zero and negative behind it, or the other
 /// way round.
@@ -57,8 +56,8 @@ Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) 
                   [=](Stepper& s) { return s.probed()[m].value - level; });
   };
   const Zero zero = where_it_is(0);
-  const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= rounding;
-  return at_once && value > rounding ? where_it_is(rounding) : zero;
+  const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= on_border;
+  return at_once && value > on_border ? where_it_is(on_border) : zero;
 }
 
 }  // namespace
@@ -70,7 +69,7 @@ Zero border_crossing(Stepper& stepper, Index border) {
   const Monitor to = stepper.to()[m];
   double upper = stepper.distance();
   double value = to.value;
-  if (value <= rounding || (value <= touch && to.slope < 0)) {
+  if (value <= on_border || (value <= touch && to.slope < 0)) {
     if (!(from.slope > 0 && to.slope < 0)) return {Zero::State::absent};
     const Zero top = locate(stepper, {upper, from.slope, 1, to.slope},  // the border function's highest point
                             [m](Stepper& s) { return s.probed()[m].slope; });
@@ -79,7 +78,7 @@ Zero border_crossing(Stepper& stepper, Index border) {
     value = stepper.probed()[m].value;
     if (value <= touch) return {Zero::State::absent};
   }
-  const bool begins_beyond = from.value > rounding && from.value <= touch && from.slope > 0;
+  const bool begins_beyond = from.value > on_border && from.value <= touch && from.slope > 0;
   if (begins_beyond) return {Zero::State::found, 0};
   const Zero zero = locate_border(stepper, m, upper, value);
   // Beyond the border, yet nowhere across it.

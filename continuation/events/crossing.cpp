@@ -12,13 +12,13 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double one_place = 1e-9;   // of the step: branch points closer together are one
+constexpr double one_branch_point = 1e-9;  // of the step: branch points closer together are one
 constexpr double too_near = 1e-3;    // of the larger determinant at the ends: for other points to lean on
 constexpr double off_course = 0.05;  // of the way to its neighbours: a point is expected within
-constexpr double rounding = 1e-7;    // of the step: what rounding may add to that next to a branch point
-constexpr double widest = 0.05;      // of the step: from how far a branch point is looked at
-constexpr double nearest = 1e-6;     // the same, at the least
-constexpr double level = 1e-6;       // of mean rates around: the rate of a parameter that turns
+constexpr double off_by_rounding = 1e-7;  // of the step: what rounding may add to that next to a branch point
+constexpr double widest = 0.05;           // of the step: from how far a branch point is looked at
+constexpr double nearest = 1e-6;          // the same, at the least
+constexpr double level = 1e-6;            // of mean rates around: the rate of a parameter that turns
 constexpr int most_narrowings = 10;
 constexpr double a_little_way = 1e-3;  // of the largest step: on it the determinant changes from that of a
 constexpr double much_less = 1e-5;     // branch point by much
@@ -83,7 +83,7 @@ bool Stepper::search_crossing() {
   const std::optional<Node> from = at(0);
   const std::optional<Node> to = at(distance_);
   if (!from || !to) return false;
-  const FirstZero found = first_zero(*from, *to, at, one_place * distance_);
+  const FirstZero found = first_zero(*from, *to, at, one_branch_point * distance_);
   if (found.kind == FirstZero::Kind::none) return true;
   return found.kind != FirstZero::Kind::unknown && locate_crossing(found.before, found.behind);
 }
@@ -115,7 +115,7 @@ bool Stepper::probe_between(double s) {
   if (!probe(s)) return false;
   corrector_.difference(probe_, here_, work_);
   const double error = (work_ - expected_).norm() / step_.norm();
-  return error <= off_course * width / distance_ + rounding;
+  return error <= off_course * width / distance_ + off_by_rounding;
 }
 
 /// Keeps the point last probed, from which others are found.

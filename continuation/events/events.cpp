@@ -12,7 +12,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double one_place = 1e-12;   // of the step: events closer together fall on one point
-constexpr double just_passed = 1e-7;  // of its change over the step: what a function is just behind a zero
 constexpr double vanishes = 1e-10;    // the same, at another event: as well as both are located
 constexpr double on_axis = 1e-12;     // of the largest eigenvalue: a real part that is rounding all along
 constexpr double rough = 1e-10;       // the same: one in which rounding may show
@@ -210,8 +209,8 @@ class Search {
     for (Index i = 0; i < both; ++i)
       way = std::max(way, std::abs(eigenvalues_at_end_(i).real() - here[static_cast<std::size_t>(i)]));
     const double near = std::max(rough * eigenvalues_at_end_.cwiseAbs().maxCoeff(), coincides * way);
-    const auto above = [&](double level) {
-      return std::count_if(here.begin(), here.end(), [=](double rate) { return rate > level; });
+    const auto above = [&](double bound) {
+      return std::count_if(here.begin(), here.end(), [=](double rate) { return rate > bound; });
     };
     return std::clamp<Index>(signs_.unstable, above(near), above(-near));
   }

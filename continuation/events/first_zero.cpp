@@ -105,9 +105,10 @@ double zero_of_cubic(const Node& p, const Node& q) {
 
 namespace {
 
-class Search {
+class Subdivision {
  public:
-  Search(const Node& a, const Node& b, const std::function<std::optional<Node>(double)>& at, double least)
+  Subdivision(const Node& a, const Node& b, const std::function<std::optional<Node>(double)>& at,
+              double least)
       : at_(at), least_(least), size_(std::max(std::abs(a.value), std::abs(b.value))) {}
 
   FirstZero run(const Node& a, const Node& b) {
@@ -188,7 +189,7 @@ class Search {
 
 FirstZero first_zero(const Node& a, const Node& b, const std::function<std::optional<Node>(double s)>& at,
                      double least) {
-  return Search(a, b, at, least).run(a, b);
+  return Subdivision(a, b, at, least).run(a, b);
 }
 
 bool may_vanish_twice(std::span<const double> places, std::span<const double> values) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t count = RemoteZero::count;
 constexpr std::array<double, count> spread{-1, -0.6, -0.3, 0.3, 0.6, 1};  // of the radius
-constexpr double too_near = 0.1;                                          // the same
+constexpr double beside = 0.1;                                            // the same
 constexpr double agreement = 1e-9;  // of the range, with a polynomial whose error is by orders larger
 
 /// Of the values at `places`, from the first to the last of them, in the polynomial at x or in its
@@ -39,8 +39,8 @@ std::array<double, count> places_around(const ZeroRange& range, double radius) {
   std::array<double, count> places{};
   for (std::size_t i = 0; i < count; ++i) {
     places[i] = middle + spread[i] * radius;
-    if (std::abs(places[i] - range.guess) < too_near * radius)
-      places[i] = range.guess + std::copysign(too_near * radius, places[i] - range.guess);
+    if (std::abs(places[i] - range.guess) < beside * radius)
+      places[i] = range.guess + std::copysign(beside * radius, places[i] - range.guess);
   }
   return places;
 }

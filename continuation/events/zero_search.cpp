@@ -9,7 +9,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double least = 1e-9;        // of the step: zeros of one function closer together are one
-constexpr double just_passed = 1e-7;  // of its change over the step: what a function is just behind a zero
 constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
 constexpr double left_over = 0.01;    // of its values around: more is left of a function only where it jumps
 

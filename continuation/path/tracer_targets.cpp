@@ -10,14 +10,14 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double rounding = 1e-13;  // of the parameter, in its scale
+constexpr double on_target = 1e-13;  // of the parameter, in its scale
 
 }  // namespace
 
 /// A start on a special point lies on a value but for rounding, and no step of that length can be made from
 /// it.
 void Tracer::take_where_it_starts() {
-  for (const Target* target : targets_.around(value(), rounding * parameter_scale())) targets_.take(*target);
+  for (const Target* target : targets_.around(value(), on_target * parameter_scale())) targets_.take(*target);
 }
 
 bool Tracer::try_landing() {
@@ -40,7 +40,7 @@ bool Tracer::try_landing() {
 /// tried once whether it lies there at last. From a scale that shrinks with the parameter 0 is in no other
 /// reach.
 const Target* Tracer::next_target(double reach, double direction) const {
-  const double least = rounding * parameter_scale();
+  const double least = on_target * parameter_scale();
   const Target* next = targets_.ahead(value(), direction, reach, least);
   if (next != nullptr || landing_failed_) return next;
   const double near = same_value * std::max(parameter_scale(), start_scale());
@@ -62,7 +62,7 @@ bool Tracer::only_approaches(const Target& target) const {
 /// Where no step lands on a value that is within rounding, the branch has reached it; one that it only
 /// approaches it never will.
 void Tracer::rest_before(const Target& target) {
-  if (std::abs(target.value - value()) <= rounding * parameter_scale()) return take_target(target);
+  if (std::abs(target.value - value()) <= on_target * parameter_scale()) return take_target(target);
   if (!only_approaches(target)) return;
   // A branch may climb beside a landmark as if it never reached it, and needs no point on it.
   if (target.kind == Target::Kind::landmark) return targets_.take(target);
@@ -81,11 +81,11 @@ bool Tracer::passes_target(const CurvePoint& point, double tolerance) const {
 /// Takes the values at an event on which no point will be put: those that it lies on, that the step has
 /// passed, or that lie beyond a turn.
 void Tracer::take_targets_around(bool turns) {
-  if (turns) targets_.keep_taken(value(), rounding * parameter_scale());
+  if (turns) targets_.keep_taken(value(), on_target * parameter_scale());
   for (const Target* target : targets_.around(value(), same_value * parameter_scale())) {
     const double beyond = target->value - value();
     const bool is_bound = target->kind == Target::Kind::bound;
-    const bool is_here = std::abs(beyond) <= rounding * parameter_scale();
+    const bool is_here = std::abs(beyond) <= on_target * parameter_scale();
     const bool is_passed = (target->value - state_.last_value) * beyond < 0;
     const bool is_missed = turns && !is_bound && beyond * (value() - state_.last_value) > 0;
     if (is_passed || is_missed || (is_here && !(is_bound && turns))) take_target(*target);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <complex>
+#include <numbers>
 
 // Other settings would overrun or free wrongly what the library has allocated.
 static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 0,
@@ -19,5 +20,8 @@ using Matrix = Eigen::MatrixXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using ComplexVector = Eigen::VectorXcd;
 using ComplexMatrix = Eigen::MatrixXcd;
+
+inline constexpr double pi = std::numbers::pi;
+inline constexpr double two_pi = 2 * pi;
 
 }  // namespace arcslip

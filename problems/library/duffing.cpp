@@ -37,7 +37,7 @@ DuffingOscillator::DuffingOscillator(Index harmonics) {
   const Index samples = 4 * pairs - 1;
   basis_.resize(samples, 2 * pairs);
   for (Index j = 0; j < samples; ++j) {
-    const double t = std::numbers::pi * static_cast<double>(j) / static_cast<double>(samples);
+    const double t = pi * static_cast<double>(j) / static_cast<double>(samples);
     for (Index k = 0; k < pairs; ++k) {
       basis_(j, 2 * k) = std::cos(order(k) * t);
       basis_(j, 2 * k + 1) = std::sin(order(k) * t);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 
 #include "arcslip/continuation/linear/hill.hpp"
 #include "arcslip/problems/library/model.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 constexpr Index first_cosine = 1;
 constexpr Index first_sine = 2;
-constexpr double whole_turn = 2 * std::numbers::pi;
 
 /// Amplitude 0 marks a birth of the cycle that lies ahead.
 struct Birth {
@@ -46,7 +44,7 @@ std::vector<ComplexMatrix> variation(const Vector& u, const Vector& p) {
   return coefficients;
 }
 
-Index twice_order(const std::vector<ComplexMatrix>& coefficients) {
+Index twice_dense_order(const std::vector<ComplexMatrix>& coefficients) {
   return 2 * static_cast<Index>(coefficients.size()) - 2;
 }
 
@@ -57,7 +55,7 @@ LureCycle::LureCycle(Index harmonics) {
   const Index samples = 3 * harmonics + 1;
   basis_.resize(samples, 2 * harmonics + 1);
   for (Index j = 0; j < samples; ++j) {
-    const double t = whole_turn * static_cast<double>(j) / static_cast<double>(samples);
+    const double t = two_pi * static_cast<double>(j) / static_cast<double>(samples);
     basis_(j, 0) = 1;
     for (Index k = 1; k <= harmonics; ++k) {
       basis_(j, 2 * k - 1) = std::cos(static_cast<double>(k) * t);
@@ -104,7 +102,7 @@ bool LureCycle::evaluate(const Vector& u, const Vector& p, int /*regime*/,
 
 void LureCycle::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
   values.resize(2);
-  values << std::hypot(u(first_cosine), u(first_sine)), whole_turn / u(basis_.cols());
+  values << std::hypot(u(first_cosine), u(first_sine)), two_pi / u(basis_.cols());
 }
 
 double LureCycle::observe(const Vector& u, const Vector& p, int regime, Index which,
@@ -121,7 +119,8 @@ double LureCycle::observe(const Vector& u, const Vector& p, int regime, Index wh
 bool LureCycle::eigenvalues(const Vector& u, const Vector& p, int /*regime*/, ComplexVector& values) const {
   if (!u.allFinite() || !p.allFinite()) return false;
   const auto coefficients = variation(u, p);
-  const auto all = continuation::floquet_exponents(coefficients, u(basis_.cols()), twice_order(coefficients));
+  const auto all =
+      continuation::floquet_exponents(coefficients, u(basis_.cols()), twice_dense_order(coefficients));
   Index shift = 0;  // in time, which the truncated problem has exactly
   all.exponents.cwiseAbs().minCoeff(&shift);
   values.resize(2);
@@ -133,7 +132,8 @@ void LureCycle::test(const Vector& u, const Vector& p, int /*regime*/, Vector& v
   values.setConstant(1, std::nan(""));
   if (!u.allFinite() || !p.allFinite()) return;
   const auto coefficients = variation(u, p);
-  values(0) = continuation::doubling_determinant(coefficients, u(basis_.cols()), twice_order(coefficients));
+  values(0) =
+      continuation::doubling_determinant(coefficients, u(basis_.cols()), twice_dense_order(coefficients));
 }
 
 continuation::Guess LureCycle::guess(const Vector& p) const {

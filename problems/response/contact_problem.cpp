@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "arcslip/zero_between.hpp"
 
@@ -10,7 +9,7 @@ namespace arcslip::problems {
 namespace {
 
 template <class Function>
-double zero_between(const Function& function, double a, double b) {
+double root_between(const Function& function, double a, double b) {
   return arcslip::zero_between(function, a, b, function(a), function(b), 48);
 }
 
@@ -18,7 +17,7 @@ double zero_between(const Function& function, double a, double b) {
 
 double lag(Complex z) {
   const double angle = -std::arg(z);
-  return angle <= -std::numbers::pi ? std::numbers::pi : angle;
+  return angle <= -pi ? pi : angle;
 }
 
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
@@ -44,10 +43,10 @@ std::optional<double> first_root(const std::function<ValueAndSlope(double)>& fun
     const double b = std::min(a + step, to);
     const ValueAndSlope at_b = function(b);
     if (!std::isfinite(at_b.value)) return std::nullopt;
-    if (at_b.value >= 0) return zero_between(value, a, b);
+    if (at_b.value >= 0) return root_between(value, a, b);
     if (at_a.slope > 0 && at_b.slope < 0) {
-      const double top = zero_between(slope, a, b);
-      if (value(top) >= 0) return zero_between(value, a, top);
+      const double top = root_between(slope, a, b);
+      if (value(top) >= 0) return root_between(value, a, top);
     }
     a = b;
     at_a = at_b;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "arcslip/problems/response/more_harmonics.hpp"
@@ -121,8 +120,7 @@ FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p, 
     return a.exponent.real() < b.exponent.real();
   });
   if (most == all.end()) return {0, 0};
-  return {std::exp(2 * std::numbers::pi * most->exponent.real() / p(eta)),
-          disturbances_.wave_of(*most, p(eta), contacts)};
+  return {std::exp(two_pi * most->exponent.real() / p(eta)), disturbances_.wave_of(*most, p(eta), contacts)};
 }
 
 std::vector<continuation::Observable> FloquetResponse::observables() const {

@@ -13,8 +13,6 @@
 namespace arcslip::problems {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Puts values of the contacts into the rows of one of n harmonics.
 template <class Column>
 void store(const ContactVector& values, Index which, Index n, Column&& column) {

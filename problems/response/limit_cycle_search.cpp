@@ -4,7 +4,6 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 
 #include "arcslip/elements/contact.hpp"
@@ -12,8 +11,6 @@
 
 namespace arcslip::problems {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// -1/(k c) over eta at one zeta_B.
 class Search {

@@ -7,12 +7,6 @@
 #include <stdexcept>
 
 namespace arcslip::problems {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 /// One harmonic of the linear part, with derivatives in eta and zeta.
 struct NonlinearMode::Order {
   Index which;

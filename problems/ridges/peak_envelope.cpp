@@ -16,7 +16,7 @@ constexpr int deepest = 40;
 
 /// The zero of a function of ln P that changes its sign between two preloads.
 template <class Function>
-double zero_between(const Function& function, double from, double to) {
+double preload_between(const Function& function, double from, double to) {
   const double at_from = function(from);
   const double at_to = function(to);
   if (at_from == 0 || from == to) return from;
@@ -93,7 +93,7 @@ void PeakEnvelope::resolve(const std::vector<std::size_t>& alive, double from, s
   const auto lead = [&](double preload) {
     return std::log(pieces_[first].at(preload).Y / pieces_[last].at(preload).Y);
   };
-  const double exchange = zero_between(lead, from, to);
+  const double exchange = preload_between(lead, from, to);
   const std::size_t third = top(alive, exchange);
   if (third == first || third == last || depth > deepest || exchange == from || exchange == to) {
     append(from, exchange, first);
@@ -118,7 +118,7 @@ void PeakEnvelope::check_between(const std::vector<std::size_t>& alive, double f
     const ValueAndSlope at_from = lead(from);
     const ValueAndSlope at_to = lead(to);
     if (!(at_from.slope < 0 && at_to.slope > 0)) continue;
-    const double least = zero_between([&](double preload) { return lead(preload).slope; }, from, to);
+    const double least = preload_between([&](double preload) { return lead(preload).slope; }, from, to);
     if (least == from || least == to || lead(least).value > doubt) continue;
     const std::size_t between = top(alive, least);
     if (between == owner) continue;
@@ -139,7 +139,7 @@ void PeakEnvelope::append(double from, double to, std::size_t piece) {
 }
 
 double PeakEnvelope::extremum(const PeakPiece& piece, double from, double to) const {
-  return zero_between([&](double preload) { return piece.at(preload).sensitivity.preload; }, from, to);
+  return preload_between([&](double preload) { return piece.at(preload).sensitivity.preload; }, from, to);
 }
 
 void PeakEnvelope::place_knots() {
@@ -187,8 +187,8 @@ double PeakEnvelope::leaves(std::size_t knot, double log_level, bool upwards) co
     if (outside.log_Y <= log_level) continue;
     const PeakPiece& piece = pieces_[spans_[outside.span].piece];
     const auto above = [&](double preload) { return std::log(piece.at(preload).Y) - log_level; };
-    return zero_between(above, std::min(inside.preload, outside.preload),
-                        std::max(inside.preload, outside.preload));
+    return preload_between(above, std::min(inside.preload, outside.preload),
+                           std::max(inside.preload, outside.preload));
   }
   return knots_[i].preload;
 }

@@ -19,7 +19,6 @@ using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::PointType;
 
-constexpr double out_of_reach = 1e200;  // a preload at which everything sticks
 /// P_border at eta.
 PeakNode border_node(const FrictionSystem& system, double eta) {
   const ResponseSlopes at = ResponseSlopes::on_border(system, eta);

@@ -55,12 +55,12 @@ void look_everywhere(PeakSearch& search, double from, double to) {
   };
   std::vector<Gap> gaps;
   for (std::size_t i = 0; i + 1 < places.size(); ++i) gaps.push_back({places[i], places[i + 1], 0});
-  constexpr int deepest = 12;
+  constexpr int most_halvings = 12;
   while (!gaps.empty()) {
     const Gap gap = gaps.back();
     gaps.pop_back();
     const double middle = std::sqrt(gap.from * gap.to);
-    if (!search.look_at(middle) || gap.depth == deepest) continue;
+    if (!search.look_at(middle) || gap.depth == most_halvings) continue;
     gaps.push_back({gap.from, middle, gap.depth + 1});
     gaps.push_back({middle, gap.to, gap.depth + 1});
   }

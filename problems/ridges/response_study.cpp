@@ -10,7 +10,7 @@ namespace arcslip::problems {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double same_height = 1e-9;  // of ln Y: peaks that are both the highest
+constexpr double equally_high = 1e-9;  // of ln Y: peaks that are both the highest
 
 /// What is read of the observables at a peak.
 class Readings {
@@ -102,7 +102,7 @@ class Ridges {
 
  private:
   static bool is_highest(const PeakSample& sample, std::size_t k) {
-    return sample.peaks[k].log_height >= sample.highest().log_height - same_height;
+    return sample.peaks[k].log_height >= sample.highest().log_height - equally_high;
   }
 
   PeakType type_of(std::size_t s, std::size_t k, bool goes_on) const {
@@ -114,7 +114,7 @@ class Ridges {
     const bool is_exchange =
         is_highest(sample, k) &&
         std::count_if(sample.peaks.begin(), sample.peaks.end(), [&](const ResponsePeak& peak) {
-          return peak.log_height >= sample.highest().log_height - same_height;
+          return peak.log_height >= sample.highest().log_height - equally_high;
         }) > 1;
     if (is_exchange) return PeakType::exchange;
     if (!goes_on) return PeakType::birth;

@@ -22,16 +22,6 @@
 namespace arcslip {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string plural(std::size_t count, const char* what, const char* ending) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : ending);
-}
-
 /// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
 /// as good as any, and of a branch traced both ways both parts must have one.
 std::string complaint(const continuation::Branch& branch) {
@@ -142,7 +132,7 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
     files.add_failed(request, error.what());
     complete_ = false;
     complain(fmt::format("{} (branch {}{}{})", error.what(), files.count() - 1,
-                         request.values.empty() ? "" : ": ", describe(request.values)));
+                         request.values.empty() ? "" : ": ", arcslip::describe(request.values)));
   }
   for (TracedBranch& one : traced) {
     {
@@ -167,7 +157,7 @@ void Run::report(const TracedBranch& traced, std::size_t number) {
 
 std::string Run::described(const TracedBranch& traced, std::size_t number) {
   std::string text = std::exchange(title_, "");
-  const std::string values = describe(traced.request->values);
+  const std::string values = arcslip::describe(traced.request->values);
   if (!values.empty()) text += fmt::format("{}{}\n", number == 0 ? "" : "\n", values);
   const ProblemRequest& problem = traced.request->problem;
   if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";

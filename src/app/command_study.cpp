@@ -16,12 +16,6 @@
 namespace arcslip {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 std::string duration(double seconds) {
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
   if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
@@ -37,10 +31,6 @@ std::string progress(std::size_t before, const StudyWork& work, std::size_t coun
                             duration(static_cast<double>(count - done) / work.rate()));
 }
 
-std::string plural(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// The tables beside optimum.csv.
 std::string list_of_files(const StudyCase& study) {
   std::string files;
@@ -54,7 +44,7 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   std::size_t failures = 0;
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
     ++failures;
-    const std::string values = describe(study.design(design.curve).values);
+    const std::string values = arcslip::describe(study.design(design.curve).values);
     complain(fmt::format("arcslip: design {}{}: {}", design.curve, values.empty() ? "" : " (" + values + ")",
                          design.failure));
     return true;

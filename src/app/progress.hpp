@@ -1,6 +1,6 @@
 #pragma once
 
-// One line on stderr that follows the work, where that is a terminal.
+// What is told of work on its way: one line on stderr that follows it, where that is a terminal.
 
 #include <unistd.h>
 
@@ -9,6 +9,17 @@
 #include <string>
 
 namespace arcslip {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// "1 branch", "2 branches".
+inline std::string plural(std::size_t count, const std::string& what, const char* ending = "s") {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : ending);
+}
 
 class ProgressLine {
  public:

@@ -54,13 +54,13 @@ std::ifstream open_results(const fs::path& path) {
   return file;
 }
 
-ResultTable::ResultTable(fs::path path, const std::vector<std::string>& required, const char* holds)
+ResultTable::ResultTable(fs::path path, const std::vector<std::string>& columns, const char* holds)
     : path_(std::move(path)) {
   std::ifstream file = open_results(path_);
   std::string line;
   std::getline(file, line);
   columns_ = fields_of(line);
-  require(required);
+  require(columns);
   if (!std::getline(file, line)) throw InputError(fmt::format("{}: holds no {}", path_.string(), holds));
 }
 

@@ -18,7 +18,7 @@ std::ifstream open_results(const std::filesystem::path& path);
 class ResultTable {
  public:
   /// `holds` is what a table without rows lacks. Throws InputError.
-  ResultTable(std::filesystem::path path, const std::vector<std::string>& required, const char* holds);
+  ResultTable(std::filesystem::path path, const std::vector<std::string>& columns, const char* holds);
 
   const std::vector<std::string>& columns() const { return columns_; }
   bool has(const std::string& name) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "arcslip/sectors/chain_sector.hpp"
 #include "arcslip/sectors/lowest_frequency.hpp"
@@ -71,7 +70,7 @@ void thin_out(std::vector<Index>& contacts, Index count, const char* elements) {
 /// Travelling force of unit amplitude in all on the base's outputs, which are equally spaced.
 void load_outputs(SectorCase& result) {
   const double propagation =
-      2 * std::numbers::pi * static_cast<double>(result.wave_number) / static_cast<double>(result.sectors);
+      two_pi * static_cast<double>(result.wave_number) / static_cast<double>(result.sectors);
   const std::vector<Index>& dofs = result.base.outputs;
   const auto count = static_cast<double>(dofs.size());
   for (std::size_t i = 0; i < dofs.size(); ++i) {
@@ -92,8 +91,7 @@ SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, co
   result.damper = ring_sector(ring);
   thin_out(result.damper.contacts, solid.contacts, "elements of the damper");
   const double shear = ring.youngs_modulus / (2 * (1 + ring.poisson_ratio));
-  const double spacing =
-      2 * std::numbers::pi * ring.radius / static_cast<double>(result.sectors * solid.contacts);
+  const double spacing = two_pi * ring.radius / static_cast<double>(result.sectors * solid.contacts);
   result.contact_stiffness =
       solid.contact_stiffness.value_or(shear * ring.width * spacing / (0.5 * ring.height));
   result.notes += fmt::format(

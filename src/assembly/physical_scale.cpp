@@ -1,7 +1,6 @@
 #include "arcslip/assembly/physical_scale.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace arcslip {
 
@@ -31,7 +30,7 @@ PhysicalScale::PhysicalScale(const Geometry& geometry, const SystemParameters& s
       interface_stiffness_(system.interface_stiffness) {
   const double damper_stiffness = geometry.damper.stiffness(system.model, circumference_);
   const double natural = std::sqrt(damper_stiffness / geometry.damper.mass(circumference_));
-  frequency_ = system.model == StructureModel::rods ? natural : 2 * std::numbers::pi * natural;
+  frequency_ = system.model == StructureModel::rods ? natural : two_pi * natural;
   preload_per_length_ = base_stiffness_ / geometry.friction_coefficient;
   energy_ = damper_stiffness * circumference_ * circumference_;
 }

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "arcslip/sectors/sector_reduction.hpp"
@@ -247,7 +246,6 @@ Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, co
   if (rest.norm() > rounding * c.norm()) {
     throw SectorError("the damping matrix is not a sum alpha M + beta K, which the modes of the sector need");
   }
-  constexpr double two_pi = 2 * std::numbers::pi;
   return {.viscous = two_pi * factors(1) / k_size, .mass = factors(0) / m_size / two_pi};
 }
 

@@ -6,23 +6,23 @@
 namespace arcslip {
 namespace {
 
-using S = GeometrySettings;
-using K = Key<S>;
+using GeometryKey = Key<GeometrySettings>;
 
-KeyTable<S> ring(RectangularRing Geometry::*which) {
+KeyTable<GeometrySettings> ring(RectangularRing Geometry::*which) {
   using R = RectangularRing;
-  const auto is_needed = [=](const S& settings, const TomlSection&) {
+  const auto is_needed = [=](const GeometrySettings& settings, const TomlSection&) {
     return settings.needs_shear && which == &Geometry::damper;
   };
-  return {{K("elastic_modulus", at(which, &R::elastic_modulus), positive(), "Young's modulus E", unit("Pa"),
-             required),
-           K("density", at(which, &R::density), positive(), "density rho", unit("kg/m^3"), required),
-           K("poisson_ratio", at(which, &R::poisson_ratio), poisson_rule(),
-             "Poisson's ratio nu; that of the base has no influence",
-             needed("required of the damper, unless `[system]` has interface_stiffness", is_needed)),
-           K("width", at(which, &R::width), positive(), "of the section, w", unit("m"), required),
-           K("height", at(which, &R::height), positive(),
-             "of the section, h, the direction in which transverse waves move", unit("m"), required)}};
+  return {
+      {GeometryKey("elastic_modulus", at(which, &R::elastic_modulus), positive(), "Young's modulus E",
+                   unit("Pa"), required),
+       GeometryKey("density", at(which, &R::density), positive(), "density rho", unit("kg/m^3"), required),
+       GeometryKey("poisson_ratio", at(which, &R::poisson_ratio), poisson_rule(),
+                   "Poisson's ratio nu; that of the base has no influence",
+                   needed("required of the damper, unless `[system]` has interface_stiffness", is_needed)),
+       GeometryKey("width", at(which, &R::width), positive(), "of the section, w", unit("m"), required),
+       GeometryKey("height", at(which, &R::height), positive(),
+                   "of the section, h, the direction in which transverse waves move", unit("m"), required)}};
 }
 
 /// Refuses sizes so extreme that the groups are beyond what a double holds.
@@ -41,24 +41,27 @@ void check(const TomlDocument& document, const Geometry& geometry, const SystemP
 
 const KeyTable<GeometrySettings>& geometry_keys() {
   constexpr const char* shape = "a table { elastic_modulus, density, poisson_ratio, width, height }";
-  static const KeyTable<S> base = ring(&Geometry::base);
-  static const KeyTable<S> damper = ring(&Geometry::damper);
+  static const KeyTable<GeometrySettings> base = ring(&Geometry::base);
+  static const KeyTable<GeometrySettings> damper = ring(&Geometry::damper);
   const auto whole = [](auto& settings) -> auto& { return settings; };
-  const auto is_needed = [](const S& settings, const TomlSection&) { return settings.needs_preload; };
-  static const KeyTable<S> keys{
-      {K::table("base", whole, base, shape, "a table", "a ring of solid rectangular section", required,
-                unlisted),
-       K::table("damper", whole, damper, shape, "a table", "another one, pressed against it", required,
-                unlisted),
-       K("circumference", &S::circumference, positive(), "L of both, the mean one", unit("m"),
-         otherwise("required, or radius")),
-       K("radius", &S::radius, positive(), "the mean one, L/(2 pi)", unit("m"),
-         otherwise("required, or circumference")),
-       K("friction_coefficient", &S::friction_coefficient, positive(), "mu of the contact", required),
-       K("preload_per_length", &S::preload_per_length, positive(), "p_0 between the rings", unit("N/m"),
-         needed("required, unless P varies", is_needed)),
-       K("force_per_length", &S::force_per_length, positive(),
-         "f_0, amplitude of the travelling force on the base", unit("N/m"), required)}};
+  const auto is_needed = [](const GeometrySettings& settings, const TomlSection&) {
+    return settings.needs_preload;
+  };
+  static const KeyTable<GeometrySettings> keys{
+      {GeometryKey::table("base", whole, base, shape, "a table", "a ring of solid rectangular section",
+                          required, unlisted),
+       GeometryKey::table("damper", whole, damper, shape, "a table", "another one, pressed against it",
+                          required, unlisted),
+       GeometryKey("circumference", &GeometrySettings::circumference, positive(), "L of both, the mean one",
+                   unit("m"), otherwise("required, or radius")),
+       GeometryKey("radius", &GeometrySettings::radius, positive(), "the mean one, L/(2 pi)", unit("m"),
+                   otherwise("required, or circumference")),
+       GeometryKey("friction_coefficient", &GeometrySettings::friction_coefficient, positive(),
+                   "mu of the contact", required),
+       GeometryKey("preload_per_length", &GeometrySettings::preload_per_length, positive(),
+                   "p_0 between the rings", unit("N/m"), needed("required, unless P varies", is_needed)),
+       GeometryKey("force_per_length", &GeometrySettings::force_per_length, positive(),
+                   "f_0, amplitude of the travelling force on the base", unit("N/m"), required)}};
   return keys;
 }
 

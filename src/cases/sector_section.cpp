@@ -204,7 +204,7 @@ SectorPart read(const TomlDocument& document, const std::string& path, SectorPat
 using S = FrictionSettings;
 using K = Key<S>;
 
-void read_window(S& settings, const TomlSection& section) {
+void read_reduction_window(S& settings, const TomlSection& section) {
   std::tie(settings.eta_low, settings.eta_high) =
       section.rising("reduction_window",
                      "two numbers, 0 < low < high: the eta for which the modes of the sectors are found");
@@ -296,7 +296,7 @@ const KeyTable<FrictionSettings>& sector_keys() {
          "relative change of the response at which modes are no longer added", unlisted),
        K::special("reduction_window", "two numbers",
                   "the eta for which the modes serve or, with `path = \"full\"`, are found as resonances",
-                  read_window,
+                  read_reduction_window,
                   needed("the range of `[branch]` or `[study]`; required of limit cycles", has_no_range),
                   resolved(window)),
        K::special("base", "table", "the base's sector", {}, otherwise("required"), unlisted, resolved(base)),

@@ -12,7 +12,7 @@ namespace {
 using problems::Scatter;
 using problems::Uncertainty;
 
-void read_window(StudyCase& study, const TomlSection& section) {
+void read_frequencies(StudyCase& study, const TomlSection& section) {
   std::tie(study.range.eta_low, study.range.eta_high) =
       section.rising("eta", "two numbers, 0 < low < high, between which peaks are sought");
 }
@@ -24,14 +24,14 @@ void read_uniform(Scatter& scatter, const TomlSection& section) {
 }
 
 const KeyTable<Scatter>& scatter_keys() {
-  using K = Key<Scatter>;
+  using ScatterKey = Key<Scatter>;
   const auto is_lognormal = [](Scatter& scatter, const TomlSection&) {
     scatter.kind = Scatter::Kind::lognormal;
   };
   static const KeyTable<Scatter> keys{
-      {K("lognormal", &Scatter::deviation, up_to(1), "standard deviation of the logarithm, whose median is 0",
-         then(is_lognormal), unresolved),
-       K::special("uniform", "two numbers", "range, in place of lognormal", read_uniform)}};
+      {ScatterKey("lognormal", &Scatter::deviation, up_to(1),
+                  "standard deviation of the logarithm, whose median is 0", then(is_lognormal), unresolved),
+       ScatterKey::special("uniform", "two numbers", "range, in place of lognormal", read_uniform)}};
   return keys;
 }
 
@@ -56,49 +56,53 @@ void check_quantiles(const Uncertainty& uncertainty, const TomlSection& section)
 }  // namespace
 
 const KeyTable<Uncertainty>& uncertain_keys() {
-  using S = Uncertainty;
-  using K = Key<S>;
-  static const KeyTable<S> keys{
-      {factor("mu", &S::friction, needed("1; one of the three is needed", lacks("preload", "force"))),
-       factor("preload", &S::preload), factor("force", &S::force),
-       K("samples", &S::samples, within(100, 1e6, " >= 100 and <= 1e6"), "of a Latin hypercube"),
-       K("seed", &S::seed, at_least(0), "the same one gives the same samples everywhere"),
-       K("quantiles", &S::quantiles, inside(0, 1), "of the highest peak, at every preload",
-         then(check_quantiles))}};
+  using UncertainKey = Key<Uncertainty>;
+  static const KeyTable<Uncertainty> keys{
+      {factor("mu", &Uncertainty::friction,
+              needed("1; one of the three is needed", lacks("preload", "force"))),
+       factor("preload", &Uncertainty::preload), factor("force", &Uncertainty::force),
+       UncertainKey("samples", &Uncertainty::samples, within(100, 1e6, " >= 100 and <= 1e6"),
+                    "of a Latin hypercube"),
+       UncertainKey("seed", &Uncertainty::seed, at_least(0),
+                    "the same one gives the same samples everywhere"),
+       UncertainKey("quantiles", &Uncertainty::quantiles, inside(0, 1),
+                    "of the highest peak, at every preload", then(check_quantiles))}};
   return keys;
 }
 
 const KeyTable<StudyCase>& study_keys() {
-  using S = StudyCase;
-  using K = Key<S>;
+  using StudyKey = Key<StudyCase>;
   using problems::PreloadRange;
-  const auto above = [](const S& study) {
+  const auto above = [](const StudyCase& study) {
     return NumberRule{[from = study.range.from](double to) { return to > from; },
                       fmt::format(" > study.from = {:g}", study.range.from)};
   };
-  const auto uncertain = [](const S& study) {
+  const auto uncertain = [](const StudyCase& study) {
     return study.uncertain ? uncertain_keys().values(*study.uncertain) : nlohmann::ordered_json();
   };
-  const auto objective = [](const S& study) { return nlohmann::ordered_json(study.objective); };
-  static const KeyTable<S> keys{
-      {K::special(
+  const auto objective = [](const StudyCase& study) { return nlohmann::ordered_json(study.objective); };
+  static const KeyTable<StudyCase> keys{
+      {StudyKey::special(
            "parameter", "\"P\"", "what is swept",
-           [](S&, const TomlSection& section) { section.text("parameter", {"P"}); }, required),
-       K("from", at(&S::range, &PreloadRange::from), positive(), "lowest preload", required),
-       K("to", at(&S::range, &PreloadRange::to), {" > from", above}, "highest preload", required),
-       K::special("eta", "two numbers",
-                  "the window of frequencies in which peaks are sought; one on its edge counts", read_window,
-                  required),
-       K::special("for_each", "table, or list of tables",
-                  "the designs: values of keys of `[system]` and `[geometry]`, each with each", {}),
-       K::special(
+           [](StudyCase&, const TomlSection& section) { section.text("parameter", {"P"}); }, required),
+       StudyKey("from", at(&StudyCase::range, &PreloadRange::from), positive(), "lowest preload", required),
+       StudyKey("to", at(&StudyCase::range, &PreloadRange::to), {" > from", above}, "highest preload",
+                required),
+       StudyKey::special("eta", "two numbers",
+                         "the window of frequencies in which peaks are sought; one on its edge counts",
+                         read_frequencies, required),
+       StudyKey::special("for_each", "table, or list of tables",
+                         "the designs: values of keys of `[system]` and `[geometry]`, each with each", {}),
+       StudyKey::special(
            "objective", "name", "the quantity whose highest peak is to be low, one with a gradient",
-           [](S& study, const TomlSection& section) { study.objective = section.text("objective", {}); },
+           [](StudyCase& study, const TomlSection& section) {
+             study.objective = section.text("objective", {});
+           },
            resolved(objective), otherwise("`\"Y\"`")),
-       K::flag("sweep", &S::sweep, "whether `sweep.csv` and `quantiles.csv` are wanted"),
-       K::special(
+       StudyKey::flag("sweep", &StudyCase::sweep, "whether `sweep.csv` and `quantiles.csv` are wanted"),
+       StudyKey::special(
            "uncertain", "table", "what scatters",
-           [](S& study, const TomlSection& section) {
+           [](StudyCase& study, const TomlSection& section) {
              uncertain_keys().read(study.uncertain.emplace(), section.inside("uncertain", "a table"));
            },
            resolved(uncertain), otherwise("nothing"))}};

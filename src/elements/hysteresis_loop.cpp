@@ -1,7 +1,6 @@
 #include "arcslip/elements/hysteresis_loop.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -10,7 +9,6 @@
 namespace arcslip {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr Complex j{0, 1};
 
 /// I_m = int e^{jm theta} dtheta over an arc for m >= 0, to the rounding of each however short the arc is;

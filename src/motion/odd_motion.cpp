@@ -1,7 +1,6 @@
 #include "arcslip/motion/odd_motion.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -9,8 +8,6 @@
 
 namespace arcslip {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Calls `use` with each h, its coefficient and e^{jh theta}.
 template <class Use>

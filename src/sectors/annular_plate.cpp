@@ -1,7 +1,6 @@
 #include "arcslip/sectors/annular_plate.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "structure/shape_functions.hpp"
@@ -99,7 +98,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 void assemble(const AnnularPlate& plate, const Numbering& numbering, Triplets& mass, Triplets& stiffness) {
   const double length =
       (plate.outer_radius - plate.inner_radius) / static_cast<double>(plate.radial_elements);
-  const double angle = 2 * std::numbers::pi / static_cast<double>(plate.sectors * plate.angular_elements);
+  const double angle = two_pi / static_cast<double>(plate.sectors * plate.angular_elements);
   const Index circles = plate.radial_elements + 1;
   for (Index i = 0; i < plate.radial_elements; ++i) {
     const ElementMatrices matrices =

@@ -1,15 +1,11 @@
 #include "arcslip/sectors/dynamic_stiffness.hpp"
 
 #include <Eigen/LU>
-#include <numbers>
 
 #include "arcslip/structure/sector.hpp"
 
 namespace arcslip {
 namespace {
-
-constexpr double two_pi = 2 * std::numbers::pi;
-const Complex j{0, 1};
 
 template <class Precise>
 auto rounded(const Precise& values) {
@@ -22,7 +18,7 @@ auto rounded(const Precise& values) {
 
 ComplexMatrix DynamicStiffness::at(double eta) const {
   const double w = two_pi * eta;
-  return stiffness + j * w * damping - w * w * mass;
+  return stiffness + Complex(0, w) * damping - w * w * mass;
 }
 
 ComplexVector DynamicStiffness::solve(double eta, const ComplexVector& force) const {
@@ -31,7 +27,7 @@ ComplexVector DynamicStiffness::solve(double eta, const ComplexVector& force) co
 
 ContactResponse DynamicStiffness::contact_response(double eta, Index contact_dof) const {
   const ComplexMatrix z = at(eta);
-  const ComplexMatrix z_eta = two_pi * j * damping - 2 * two_pi * two_pi * eta * mass;
+  const ComplexMatrix z_eta = Complex(0, two_pi) * damping - 2 * two_pi * two_pi * eta * mass;
   const ComplexVector e = ComplexVector::Unit(z.rows(), contact_dof);
   const ComplexVector left = z.transpose().partialPivLu().solve(e);
   const Eigen::PartialPivLU<ComplexMatrix> lu(z);

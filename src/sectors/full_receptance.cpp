@@ -1,7 +1,6 @@
 #include "sectors/full_receptance.hpp"
 
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace arcslip {
@@ -53,7 +52,6 @@ ContactReceptance FullReceptance::with_output(Index output, double eta, double f
 }
 
 CycleWork FullReceptance::work(double eta, double force, const ContactVector& forces) const {
-  constexpr double pi = std::numbers::pi;
   const SectorResponse found = response(eta);
   ComplexVector all(forces.size() + 1);
   all << forces, force;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sectors/refined_solve.hpp"
 
@@ -13,7 +12,7 @@ namespace {
 constexpr double resolved = 1e-12;
 
 double square(double eta) {
-  const double w = 2 * std::numbers::pi * eta;
+  const double w = two_pi * eta;
   return w * w;
 }
 

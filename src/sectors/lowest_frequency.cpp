@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
-#include <numbers>
 
 #include "arcslip/sectors/sector_modes.hpp"
 #include "arcslip/sectors/sector_reduction.hpp"
@@ -51,7 +50,7 @@ double lowest_frequency(const FiniteSector& sector, Index wave_number, Index sec
     x = next / next.norm();
     if (std::abs(square - previous) <= 1e-10 * square) break;
   }
-  return square <= 2 * shift ? 0 : std::sqrt(square - shift) / (2 * std::numbers::pi);
+  return square <= 2 * shift ? 0 : std::sqrt(square - shift) / (two_pi);
 }
 
 FiniteSector joined(const FiniteSector& base, const FiniteSector& damper, double contact_stiffness) {

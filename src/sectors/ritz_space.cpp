@@ -65,10 +65,10 @@ bool RitzSpace::is_free(const NumberVector& shape, Real square, double eta_low) 
 
 SectorModes RitzSpace::modes(const ModesRequest& request) const {
   constexpr Real part = 0.1;  // of the window: a smaller shift makes what is divided by worse conditioned
-  const Real two_pi = 2 * std::numbers::pi_v<Real>;
+  const Real turn = 2 * std::numbers::pi_v<Real>;
   if (mass_.llt().info() != Eigen::Success)
     throw SectorError("the mass matrix is not positive definite under this wave");
-  Real shift = -std::pow(part * two_pi * static_cast<Real>(request.eta_high), 2);
+  Real shift = -std::pow(part * turn * static_cast<Real>(request.eta_high), 2);
   // Of this pencil the lowest modes are the largest and keep all their digits.
   const Eigen::GeneralizedSelfAdjointEigenSolver<NumberMatrix> solver(mass_, shifted(shift));
   if (solver.info() != Eigen::Success) throw SectorError("the modes of the sector were not found");
@@ -84,10 +84,10 @@ SectorModes RitzSpace::modes(const ModesRequest& request) const {
     const NumberVector shape = solver.eigenvectors().col(place) / std::sqrt(theta);
     const Real square = shift + 1 / theta;
     free = free && is_free(basis_.cast<Number>() * shape, square, request.eta_low);
-    if (free) found.free_squares.push_back(static_cast<double>(square / (two_pi * two_pi)));
-    found.frequencies.push_back(free ? 0 : static_cast<double>(std::sqrt(square) / two_pi));
-    found.shapes.col(k) = (observed * shape / two_pi).cast<Complex>();
-    found.loads(k) = Complex(shape.dot(load_) / two_pi);
+    if (free) found.free_squares.push_back(static_cast<double>(square / (turn * turn)));
+    found.frequencies.push_back(free ? 0 : static_cast<double>(std::sqrt(square) / turn));
+    found.shapes.col(k) = (observed * shape / turn).cast<Complex>();
+    found.loads(k) = Complex(shape.dot(load_) / turn);
   }
   return found;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "arcslip/sectors/sector_reduction.hpp"
 #include "sectors/krylov_space.hpp"
@@ -15,7 +14,6 @@
 namespace arcslip {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double worst_error = 1e-6;  // beyond which modes and matrices are not the same sector
 
 /// Motions of contacts and outputs (rows) under a unit force on each of `contacts` contacts and under the

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <stdexcept>
 
 #include "sectors/complex_factors.hpp"
@@ -37,7 +36,6 @@ SectorSolver::~SectorSolver() = default;
 int SectorSolver::factorisations() const { return factors_->factorisations(); }
 
 void SectorSolver::assemble(double eta) {
-  const double two_pi = 2 * std::numbers::pi;
   const double w = two_pi * eta;
   const auto [k, m] = MatrixFactors<double>(eta, loss_);
   const Complex k_eta(0, loss_.viscous);
@@ -88,8 +86,7 @@ void SectorSolver::collect_works(double eta) {
   product_.setZero();
   if (k.imag() != 0) product_.noalias() += reduction_.stiffness() * (k.imag() * right_);
   if (m.imag() != 0) product_.noalias() += reduction_.mass() * (m.imag() * right_);
-  if (reduction_.damping().size() != 0)
-    product_.noalias() += reduction_.damping() * (2 * std::numbers::pi * eta * right_);
+  if (reduction_.damping().size() != 0) product_.noalias() += reduction_.damping() * (two_pi * eta * right_);
   response_.damping.noalias() = right_.adjoint() * product_;
   response_.load_motion.noalias() = right_.transpose() * reduction_.load().conjugate();
 }

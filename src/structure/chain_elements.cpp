@@ -7,12 +7,12 @@ namespace {
 
 const PreciseComplex j{0, 1};
 
-PreciseReal pi() { return boost::math::constants::pi<PreciseReal>(); }
+PreciseReal precise_pi() { return boost::math::constants::pi<PreciseReal>(); }
 
 }  // namespace
 
 PreciseReal propagation_constant(Index wave_number, Index elements) {
-  return 2 * pi() * wave_number / elements;
+  return 2 * precise_pi() * wave_number / elements;
 }
 
 PreciseComplex travelling_moment(int power, const PreciseReal& a) {
@@ -57,11 +57,11 @@ Element beam_element(double mass_ratio, double stiffness_ratio, Index wave_numbe
 
   Element element;
   element.mass.resize(4, 4);
-  element.mass << 156, 22 * l, 54, -13 * l,            //
-      22 * l, 4 * l * l, 13 * l, -3 * l * l,           //
-      54, 13 * l, 156, -22 * l,                        //
-      -13 * l, -3 * l * l, -22 * l, 4 * l * l;         //
-  element.mass *= pi() * pi() * mass_ratio * l / 105;  // (2 pi)^2/420 of the consistent beam
+  element.mass << 156, 22 * l, 54, -13 * l,                            //
+      22 * l, 4 * l * l, 13 * l, -3 * l * l,                           //
+      54, 13 * l, 156, -22 * l,                                        //
+      -13 * l, -3 * l * l, -22 * l, 4 * l * l;                         //
+  element.mass *= precise_pi() * precise_pi() * mass_ratio * l / 105;  // (2 pi)^2/420 of the consistent beam
   element.stiffness.resize(4, 4);
   element.stiffness << 12, 6 * l, -12, 6 * l,  //
       6 * l, 4 * l * l, -6 * l, 2 * l * l,     //

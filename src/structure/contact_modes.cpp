@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 namespace arcslip {
@@ -94,7 +93,6 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
 
 CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
   if (receptance_) return receptance_work_(eta, forces);
-  constexpr double pi = std::numbers::pi;
   CycleWork sum;
   for (const ContactMode& mode : modes_) {
     const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;

@@ -25,13 +25,13 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, con
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<PreciseComplexMatrix> solver(structure.stiffness,
                                                                               structure.mass);
-  const PreciseReal& two_pi = boost::math::constants::two_pi<PreciseReal>();
+  const PreciseReal& turn = boost::math::constants::two_pi<PreciseReal>();
   for (Index k = 0; k < structure.load.size(); ++k) {
     const PreciseComplexVector shape = solver.eigenvectors().col(k);
-    const PreciseComplex at_contact = shape(contact_dof) / two_pi;
-    const PreciseComplex by_load = shape.dot(structure.load) / two_pi;  // v^H F
+    const PreciseComplex at_contact = shape(contact_dof) / turn;
+    const PreciseComplex by_load = shape.dot(structure.load) / turn;  // v^H F
     const PreciseReal eigenvalue = solver.eigenvalues()(k);
-    const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / two_pi) : PreciseReal(0);
+    const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / turn) : PreciseReal(0);
     const PreciseReal residue = at_contact.real() * at_contact.real() + at_contact.imag() * at_contact.imag();
     modes_.push_back(
         {static_cast<double>(frequency), static_cast<double>(residue), rounded(at_contact * by_load)});

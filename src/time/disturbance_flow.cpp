@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
 
 namespace arcslip {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // On an arc as long as half a period e^{jh theta} needs some h pi/2 points, and 16 more give it to rounding.
 Index points_for(int highest) { return 16 + 2 * highest; }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "arcslip/assembly/reduced_pair.hpp"
@@ -72,8 +71,7 @@ ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, I
   const Index dofs = first.size();
   ComplexVector load(nodes * dofs);
   for (Index i = 0; i < nodes; ++i) {
-    const double lag =
-        2 * std::numbers::pi * static_cast<double>(wave_number * i % nodes) / static_cast<double>(nodes);
+    const double lag = two_pi * static_cast<double>(wave_number * i % nodes) / static_cast<double>(nodes);
     for (Index d = 0; d < dofs; ++d) {
       const Complex at_first(static_cast<double>(first(d).real()), static_cast<double>(first(d).imag()));
       load(i * dofs + d) = at_first * std::polar(1.0, -lag);
@@ -101,7 +99,7 @@ Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   const ReducedPair pair = reduce(parameters);
   Ring ring;
   ring.stiffness = modes.stiffness.cast<double>();
-  ring.damping = base_damping_factor(parameters) / (2 * std::numbers::pi) * ring.stiffness;
+  ring.damping = base_damping_factor(parameters) / (two_pi)*ring.stiffness;
   ring.load =
       modes.shapes.cast<double>().transpose() * travelling(pair.base.load, parameters.wave_number, nodes);
   ring.base = at_contacts(modes.shapes, nodes);
@@ -127,7 +125,7 @@ void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damp
   ring.stiffness.conservativeResize(all);
   ring.stiffness.tail(elastic) = damper.stiffness.tail(elastic).cast<double>();
   ring.damping.conservativeResize(all);
-  ring.damping.tail(elastic) = damping_factor / (2 * std::numbers::pi) * ring.stiffness.tail(elastic);
+  ring.damping.tail(elastic) = damping_factor / (two_pi)*ring.stiffness.tail(elastic);
   ring.load.conservativeResize(all);
   ring.load.tail(elastic).setZero();
   ring.load(0) = 0;  // the travelling load has no mean

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace arcslip {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr Index most_cells = 16;   // side by side
 constexpr Index own_balance = -1;  // in place of a cell
 constexpr Index even_balance = -2;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "time/first_crossing.hpp"
@@ -65,7 +64,7 @@ Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip) {
 
 RingMotion::RingMotion(const Ring& ring, double eta, double preload)
     : ring_(ring),
-      frequency_(2 * std::numbers::pi * eta),
+      frequency_(two_pi * eta),
       period_(1 / eta),
       threshold_((preload + ring.preload_growth * eta * eta) * ring.slip_per_preload),
       rate_(ring.fastest_rate()),
@@ -98,7 +97,7 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
     ComplexVector wave(nodes);
     for (Index i = 0; i < nodes; ++i) {
       const auto turns = static_cast<double>(harmonic.order * ring_.wave_number * i % nodes);
-      wave(i) = std::polar(1.0, -2 * std::numbers::pi * turns / static_cast<double>(nodes));
+      wave(i) = std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
     }
     add(harmonic.order, -(ring_.relative.transpose() * wave) * harmonic.force);
     force += (wave * harmonic.force).real();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "arcslip/sectors/chain_sector.hpp"
@@ -80,7 +79,6 @@ void check(const SolidRing& ring) {
 double torsion_constant(double width, double height) {
   const double a = std::min(width, height);
   const double b = std::max(width, height);
-  const double pi = std::numbers::pi;
   // tanh(x) = 1 - 2/(e^{2x} + 1): the sum over the ones is 31 zeta(5)/32.
   double sum = 31.0 / 32.0 * 1.0369277551433699263;
   for (int k = 1; k < 60; k += 2) sum -= 2 / (std::exp(k * pi * b / a) + 1) / std::pow(k, 5);
@@ -89,7 +87,7 @@ double torsion_constant(double width, double height) {
 
 FiniteSector ring_sector(const SolidRing& ring) {
   check(ring);
-  const double angle = 2 * std::numbers::pi / static_cast<double>(ring.sectors * ring.elements);
+  const double angle = two_pi / static_cast<double>(ring.sectors * ring.elements);
   const Section weights = section(ring);
   Matrix mass = Matrix::Zero(element_dofs, element_dofs);
   Matrix stiffness = mass;

@@ -1,7 +1,6 @@
 #include "arcslip/time/stick_pattern.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace arcslip {
 namespace {
@@ -18,7 +17,7 @@ StickPattern stick_pattern(std::span<const int> orders, const HarmonicVector& mo
   StickPattern pattern{true, {loop.stick().begin(), loop.stick().end()}};
   for (std::size_t i = 0; i < pattern.arcs.size(); ++i) {
     const bool last = i + 1 == pattern.arcs.size();
-    const double next = last ? pattern.arcs.front().begin + std::numbers::pi : pattern.arcs[i + 1].begin;
+    const double next = last ? pattern.arcs.front().begin + pi : pattern.arcs[i + 1].begin;
     pattern.arcs[i].width = std::min(pattern.arcs[i].width, next - pattern.arcs[i].begin - least_slip);
   }
   std::erase_if(pattern.arcs, [](const HysteresisLoop::Arc& arc) { return !(arc.width > 0); });

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// x modulo `period`, from 0.
 double modulo(double x, double period) { return x - period * std::floor(x / period); }

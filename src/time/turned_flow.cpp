@@ -21,7 +21,6 @@ using Slot = StickSchedule::Slot;
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr double pi = std::numbers::pi;
 constexpr double forgotten = 1e-13;  // of what grows most: less is nothing, or only rounding
 
 /// What moves a contact of node k, of phase -pi k/M.

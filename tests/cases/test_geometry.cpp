@@ -17,8 +17,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// One motion of the rotor and its ring as continua, in SI units: with kappa = 2 pi n/L,
 ///
 ///   D = E I kappa^4 (1 + j loss) - rho A w^2,   (1 + k phi/L (1/D_B + 1/D_D)) r = -f_0/D_B

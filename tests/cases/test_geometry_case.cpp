@@ -13,8 +13,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 const std::string good = R"([system]
 model = "beams"
 wave_number = 2

@@ -17,8 +17,6 @@ namespace {
 
 using Coefficients = std::vector<ComplexMatrix>;
 
-constexpr double pi = std::numbers::pi;
-
 /// y'' + (a - 2 q cos 2t) y = 0, w = 2.
 Coefficients mathieu(double a, double q) {
   Coefficients A(2, ComplexMatrix::Zero(2, 2));

@@ -13,8 +13,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 HarmonicVector harmonics(const std::vector<Complex>& values) {
   return Eigen::Map<const ComplexVector>(values.data(), std::ssize(values));
 }

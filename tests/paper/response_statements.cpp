@@ -20,7 +20,6 @@ using continuation::PointType;
 using problems::ForcedResponse;
 
 constexpr std::array preloads = {0.1, 1.0, 5.0, 10.0, 50.0};
-constexpr double pi = std::numbers::pi;
 
 /// One of the responses of figure 8.
 class Response {

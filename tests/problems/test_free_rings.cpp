@@ -18,7 +18,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr Loss light{.structural = 2e-4};
 
 /// The ring of a brake rotor.

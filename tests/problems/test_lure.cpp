@@ -15,8 +15,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double amplitude(const BranchPoint& point) { return point.unknowns(1); }
 double period(const BranchPoint& point) { return 2 * pi / point.unknowns(point.unknowns.size() - 1); }
 

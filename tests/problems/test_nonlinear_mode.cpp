@@ -17,8 +17,6 @@ using problems::NonlinearMode;
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-
 /// m = 1, c, k = 1 with a Jenkins element of stiffness 0.25 and slip force 0.2 at P = 1, eta = w/(2 pi).
 HarmonicSystem jenkins_oscillator(int highest) {
   HarmonicSystem system;

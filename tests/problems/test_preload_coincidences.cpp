@@ -139,7 +139,6 @@ TEST_CASE("One mass with structural damping has its best preload in closed form,
                        "[study]\nparameter = \"P\"\nfrom = 0.01\nto = 10.0\neta = [2.0, 20.0]\n"
                        "for_each.contact_stiffness = { from = 100.0, to = 5000.0, count = 40 }\n"));
   REQUIRE(study.count == 40);
-  constexpr double pi = std::numbers::pi;
   constexpr double K = 1500;  // 1000 + 500 (2 - 2 cos(2 pi 4/24))
   for (std::size_t i = 0; i < study.count; ++i) {
     const SystemParameters system = study.design(i).system;

@@ -9,6 +9,9 @@
 
 namespace arcslip::continuation {
 
+/// Of its change over the step: what a function is just behind a zero.
+inline constexpr double just_passed = 1e-7;
+
 class ZeroSearch {
  public:
   ZeroSearch(const Stepper& stepper, Readings& readings) : stepper_(stepper), readings_(readings) {}

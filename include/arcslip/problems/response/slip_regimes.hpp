@@ -10,6 +10,8 @@
 
 namespace arcslip::problems {
 
+inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
 inline bool slips(int regime, Index contact) { return (regime >> contact & 1) != 0; }
 
 /// "stick", "slip", or "slip 1 3" where only these contacts slip, for all regimes of `contacts`.

@@ -16,6 +16,9 @@
 
 namespace arcslip::problems {
 
+/// A preload at which everything sticks.
+inline constexpr double out_of_reach = 1e200;
+
 class PeakSearch {
  public:
   /// Finds the peaks in stick, on the border and on the window's ends. Keeps references.
