@@ -9,10 +9,12 @@
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "catch.hpp"
+#include "mistakes.hpp"
 #include "program.hpp"
 
 using namespace arcslip;
 using testing::read;
+using testing::replaced;
 
 namespace {
 
@@ -30,12 +32,6 @@ std::vector<std::string> indented(const std::string& text) {
     if (inside) blocks.back() += line.substr(4) + "\n";
   }
   return blocks;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 /// The examples, copied into a folder in which commands are run.

@@ -11,11 +11,8 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::string figure_8 = case_named("figure_8");
-const std::set<std::string> results = {"branches.csv", "curves.csv", "summary.json"};
-
 std::vector<std::string> endless_run(const std::string& folder) {
-  return {"run",   figure_8,
+  return {"run",   figure_8_case,
           "-o",    folder,
           "--set", "system.harmonics=31",
           "--set", "continuation.max_step=1e-6",
@@ -35,8 +32,8 @@ TEST_CASE("A verification that is interrupted has status 3, and what is there of
   const TemporaryFolder folder;
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string r = folder.path(std::to_string(signal));
-    Background run({"run", figure_8, "--verify", "-o", r, "--set", "branch.for_each.preload=[1.0]", "--set",
-                    "system.elements=500"});
+    Background run({"run", figure_8_case, "--verify", "-o", r, "--set", "branch.for_each.preload=[1.0]",
+                    "--set", "system.elements=500"});
     // The table of a branch comes before its points are verified.
     REQUIRE(run.wait_until([&] { return !run.printed().empty(); }));
     run.signal(signal);
@@ -55,7 +52,7 @@ TEST_CASE("A verification that is interrupted has status 3, and what is there of
 
 TEST_CASE("A run without an interrupt says so", "[interrupt]") {
   const TemporaryFolder folder;
-  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  REQUIRE(arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r")).status == 0);
   CHECK(nlohmann::json::parse(read(folder.path("r/summary.json")))["interrupted"] == false);
 }
 
@@ -66,7 +63,7 @@ TEST_CASE("A terminal that is closed leaves what was traced, and no temporary fi
   REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
   run.signal(SIGHUP);
   CHECK(run.wait().status == 3);
-  CHECK(names_in(folder.path("r")) == results);
+  CHECK(names_in(folder.path("r")) == run_results);
   const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
   CHECK(summary["interrupted"] == true);
   CHECK(summary["branches"].size() == 1);
@@ -98,7 +95,7 @@ TEST_CASE("A program that is killed leaves nothing, or what the next one removes
   folder.write("r/branches.csv.999999999.tmp", "half of it");
   folder.write("r/study.sqlite.999999999.tmp-journal", "");
   folder.write("r/notes.999999999.tmp", "not ours");
-  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  REQUIRE(arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r")).status == 0);
   CHECK(names_in(folder.path("r")) ==
         std::set<std::string>{"branches.csv", "curves.csv", "notes.999999999.tmp", "summary.json"});
 }
@@ -133,7 +130,7 @@ TEST_CASE("A study is not held up by a design that takes long, and goes on later
 
 TEST_CASE("gnuplot ends with the program that wants its pictures, whatever ends that one", "[interrupt]") {
   const TemporaryFolder folder;
-  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") + " --set branch.to=1.5")
+  REQUIRE(arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r") + " --set branch.to=1.5")
               .status == 0);
   for (const int signal : {SIGINT, SIGHUP, SIGKILL}) {
     CAPTURE(signal);
@@ -149,6 +146,6 @@ TEST_CASE("gnuplot ends with the program that wants its pictures, whatever ends 
     for (std::string id; all >> id;) {
       while (lives(id)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    CHECK(names_in(folder.path("r")) == results);
+    CHECK(names_in(folder.path("r")) == run_results);
   }
 }

@@ -10,11 +10,10 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::set<std::string> results = {"branches.csv", "curves.csv", "summary.json"};
 const std::vector<std::string> pictures = {"amplitude", "relative", "phases", "phase_difference",
                                            "dissipated"};
 
-void run(const std::string& problem, const std::string& folder, const std::string& options = "") {
+void draw_case(const std::string& problem, const std::string& folder, const std::string& options = "") {
   const Outcome outcome =
       arcslip_program("run '" + case_named(problem) + "' --quiet -o \"" + folder + "\" " + options);
   REQUIRE(outcome.err.empty());
@@ -36,7 +35,7 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 8'000, drawn, results);
+  require_pictures(folder.path("r"), 8'000, drawn, run_results);
 }
 
 }  // namespace
@@ -46,11 +45,11 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
   const TemporaryFolder folder;
   const std::string results_folder = folder.path(R"(figure 8's "own")");
   const std::string quoted = folder.path(R"(figure 8's \"own\")");  // for the shell, between double quotes
-  run("figure_8", quoted);
+  draw_case("figure_8", quoted);
   const Outcome outcome = arcslip_program("plot \"" + quoted + "\"");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(results_folder, 40'000, pictures, results);
+  require_pictures(results_folder, 40'000, pictures, run_results);
   std::string listed;
   for (const std::string& picture : pictures) {
     for (const char* ending : {".png", ".svg"}) {
@@ -63,9 +62,9 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
 TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
-  run("preload_response", folder.path("r"));
+  draw_case("preload_response", folder.path("r"));
   REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
-  require_pictures(folder.path("r"), 20'000, pictures, results);
+  require_pictures(folder.path("r"), 20'000, pictures, run_results);
   const std::string svg = read(folder.path("r/amplitude.svg"));
   CHECK_THAT(svg, ContainsSubstring(">P<") && ContainsSubstring(">η<") && ContainsSubstring("3.68"));
 }
@@ -76,7 +75,8 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots]") {
   const auto drawn = [&](int branches) {
     std::string preloads = "0.5";
     for (int i = 1; i < branches; ++i) preloads.append(",").append(std::to_string(i));
-    run("figure_8", folder.path("r"), "--set branch.to=6 --set 'branch.for_each.preload=[" + preloads + "]'");
+    draw_case("figure_8", folder.path("r"),
+              "--set branch.to=6 --set 'branch.for_each.preload=[" + preloads + "]'");
     REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
     return read(folder.path("r/amplitude.svg"));
   };
@@ -94,7 +94,7 @@ TEST_CASE("plot draws what there is of a run that was cut short", "[plots]") {
   const std::size_t rows = GENERATE(1, 2, 3, 700);
   CAPTURE(rows);
   const TemporaryFolder folder;
-  run("figure_8", folder.path("r"));
+  draw_case("figure_8", folder.path("r"));
   const std::string table = read(folder.path("r/branches.csv"));
   std::size_t end = 0;
   for (std::size_t i = 0; i <= rows; ++i) end = table.find('\n', end) + 1;
@@ -102,13 +102,13 @@ TEST_CASE("plot draws what there is of a run that was cut short", "[plots]") {
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 2'000, pictures, results);
+  require_pictures(folder.path("r"), 2'000, pictures, run_results);
 }
 
 TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
-  run("figure_8", folder.path("r"), "--set branch.to=1.5");  // no slip: nothing is dissipated
+  draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");  // no slip: nothing is dissipated
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
@@ -118,7 +118,7 @@ TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]
 TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and leaves nothing behind",
           "[plots]") {
   const TemporaryFolder folder;
-  run("figure_8", folder.path("r"), "--set branch.to=1.5");
+  draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");
   const auto fails = [&](const std::string& path, const std::string& message) {
     CAPTURE(message);
     const Outcome outcome = shell(path + " '" + program + "' plot " + folder.path("r"));
@@ -126,7 +126,7 @@ TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and 
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(message));
     CHECK(outcome.out.empty());
-    CHECK(names_in(folder.path("r")) == results);
+    CHECK(names_in(folder.path("r")) == run_results);
   };
   fails("PATH=/nonexistent",
         "arcslip plot: gnuplot was not found; install it (Debian: apt-get install gnuplot-nox)\n");
@@ -138,7 +138,7 @@ TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and 
 
 TEST_CASE("plot refuses a folder without results, in one line that names the file", "[plots]") {
   const TemporaryFolder folder;
-  run("figure_8", folder.path("whole"), "--set branch.to=1.5");
+  draw_case("figure_8", folder.path("whole"), "--set branch.to=1.5");
   const std::string table = read(folder.path("whole/branches.csv"));
   const std::string summary = read(folder.path("whole/summary.json"));
   const std::string header = table.substr(0, table.find('\n') + 1);
@@ -173,12 +173,12 @@ TEST_CASE("plot draws the branches of every problem of the library", "[plots]") 
       GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing");
   CAPTURE(problem);
   const TemporaryFolder folder;
-  run(problem, folder.path("r"));
+  draw_case(problem, folder.path("r"));
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   CHECK(outcome.out == folder.path("r/branch.png") + "\n" + folder.path("r/branch.svg") + "\n");
-  require_pictures(folder.path("r"), 8'000, {"branch"}, results);
+  require_pictures(folder.path("r"), 8'000, {"branch"}, run_results);
   const std::string svg = read(folder.path("r/branch.svg"));
   const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2" ||
                                problem == "duffing" || problem == "lure";
@@ -266,7 +266,7 @@ TEST_CASE("plot leaves out a key that would be empty", "[plots]") {
 
 TEST_CASE("plot refuses a table without the columns that its case tells of", "[plots]") {
   const TemporaryFolder folder;
-  run("cusp", folder.path("r"));
+  draw_case("cusp", folder.path("r"));
   const std::string table = read(folder.path("r/branches.csv"));
   folder.write("r/branches.csv", "branch,point,type,regime,x,arclength" + table.substr(table.find('\n')));
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));

@@ -13,11 +13,7 @@
 
 using namespace arcslip::testing;
 
-namespace {
-
-const std::string figure_8 = case_named("figure_8");
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("check and run print the groups of a system in SI units, and run its special points in these") {
   const TemporaryFolder folder;
@@ -68,7 +64,7 @@ TEST_CASE("curves.csv has the points of branches.csv, more of the curve in betwe
 
 TEST_CASE("run writes both files whole, prints the special points and nothing on stderr") {
   const TemporaryFolder folder;
-  const Outcome outcome = arcslip_program("run " + figure_8 + " -o " + folder.path("r"));
+  const Outcome outcome = arcslip_program("run " + figure_8_case + " -o " + folder.path("r"));
   CHECK(outcome.status == 0);
   CHECK(outcome.err.empty());
   CHECK_THAT(outcome.out, ContainsSubstring("preload = 0.1") && ContainsSubstring("3.841129"));
@@ -106,7 +102,7 @@ TEST_CASE("run writes both files whole, prints the special points and nothing on
 
 TEST_CASE("Rows of a branch start and end exactly on the values asked for") {
   const TemporaryFolder folder;
-  const Outcome outcome = arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") +
+  const Outcome outcome = arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r") +
                                           " --set continuation.stop_at=[3.9,4.1] --set branch.from=120.0 "
                                           "--set branch.to=0.7");
   CHECK(outcome.status == 0);
@@ -122,8 +118,8 @@ TEST_CASE("Rows of a branch start and end exactly on the values asked for") {
 
 TEST_CASE("The results of two runs are the same to the last digit") {
   const TemporaryFolder folder;
-  arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("a"));
-  arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("b"));
+  arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("a"));
+  arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("b"));
   CHECK(read(folder.path("a/branches.csv")) == read(folder.path("b/branches.csv")));
 }
 
@@ -186,51 +182,53 @@ TEST_CASE("help lists the keys of case files and tells all of one, or the neares
 }
 
 TEST_CASE("check says what would run, and refuses what run would refuse") {
-  const Outcome outcome = arcslip_program("check " + figure_8);
+  const Outcome outcome = arcslip_program("check " + figure_8_case);
   CHECK(outcome.status == 0);
   CHECK_THAT(outcome.out,
              ContainsSubstring("branch 4: preload = 50") && ContainsSubstring("eta from 0.5 to 120"));
-  CHECK(arcslip_program("check " + figure_8 + " --set system.elements=1").status == 1);
+  CHECK(arcslip_program("check " + figure_8_case + " --set system.elements=1").status == 1);
 }
 
 TEST_CASE("A folder that cannot be written has status 4 and one line") {
   const TemporaryFolder folder;
   folder.write("file", "");
-  const Outcome blocked = arcslip_program("run " + figure_8 + " -o " + folder.path("file/below"));
+  const Outcome blocked = arcslip_program("run " + figure_8_case + " -o " + folder.path("file/below"));
   CHECK(blocked.status == 4);
   CHECK(is_one_line(blocked.err));
-  const Outcome taken = arcslip_program("run " + figure_8 + " -o " + folder.path("file"));
+  const Outcome taken = arcslip_program("run " + figure_8_case + " -o " + folder.path("file"));
   CHECK(taken.status == 4);
   CHECK(is_one_line(taken.err));
 }
 
 TEST_CASE("A disk that fills up has status 4 and leaves no partial file, nor harms an older result") {
   const TemporaryFolder folder;
-  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r")).status == 0);
+  REQUIRE(arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r")).status == 0);
   const std::string before = read(folder.path("r/branches.csv"));
   // A limit on the size of files stands for the full disk: writes fail in the same place.
   const Outcome outcome =
-      shell("ulimit -f 100; '" + program + "' run " + figure_8 + " -o " + folder.path("r"));
+      shell("ulimit -f 100; '" + program + "' run " + figure_8_case + " -o " + folder.path("r"));
   CHECK(outcome.status == 4);
   CHECK(is_one_line(outcome.err));
   CHECK_THAT(outcome.err, ContainsSubstring("branches.csv: cannot be written"));
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
   CHECK(read(folder.path("r/branches.csv")) == before);
-  const Outcome full = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("s") + " >/dev/full");
+  const Outcome full =
+      shell("'" + program + "' run " + figure_8_case + " -o " + folder.path("s") + " >/dev/full");
   CHECK(full.status == 4);
   CHECK(names_in(folder.path("s")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 }
 
 TEST_CASE("A reader that has seen enough of the table is no error") {
   const TemporaryFolder folder;
-  const Outcome outcome = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("r") + " | true");
+  const Outcome outcome =
+      shell("'" + program + "' run " + figure_8_case + " -o " + folder.path("r") + " | true");
   CHECK(outcome.err.empty());
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 }
 
 TEST_CASE("A branch that cannot be finished has status 3, its reason, and what was traced") {
   const TemporaryFolder folder;
-  const Outcome outcome = arcslip_program("run " + figure_8 + " --quiet -o " + folder.path("r") +
+  const Outcome outcome = arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r") +
                                           " --set continuation.max_points=50");
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.err, ContainsSubstring("branch 0: max_points"));
@@ -241,8 +239,8 @@ TEST_CASE("A branch that cannot be finished has status 3, its reason, and what w
 TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   const TemporaryFolder folder;
   Terminal terminal;
-  Background run({"run", figure_8, "-o", folder.path("r"), "--set", "continuation.max_step=1e-6", "--set",
-                  "continuation.max_points=1000000000"},
+  Background run({"run", figure_8_case, "-o", folder.path("r"), "--set", "continuation.max_step=1e-6",
+                  "--set", "continuation.max_points=1000000000"},
                  [&] { terminal.take(); });
   REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
   run.signal(SIGINT);

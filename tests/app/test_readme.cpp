@@ -51,7 +51,7 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
 }
 
 /// Blocks that are indented by four blanks, line by line without them.
-std::vector<std::vector<std::string>> indented(const std::string& text) {
+std::vector<std::vector<std::string>> indented_lines(const std::string& text) {
   std::vector<std::vector<std::string>> found;
   bool inside = false;
   bool fenced = false;
@@ -74,7 +74,7 @@ struct Sample {
 
 std::vector<Sample> samples(const std::string& text) {
   std::vector<Sample> found;
-  for (const auto& block : indented(text)) {
+  for (const auto& block : indented_lines(text)) {
     bool shown = false;
     for (const std::string& line : block) {
       const bool is_command = line.rfind("$ ", 0) == 0;
@@ -160,7 +160,7 @@ TEST_CASE(
   const std::set<std::string> made{"rotor/case.toml", "rotor", "study", "out/figure_8", "out/chart", "DIR"};
   const Checkout checkout;
   int commands = 0;
-  for (const auto& block : indented(read(source + "/README.md"))) {
+  for (const auto& block : indented_lines(read(source + "/README.md"))) {
     for (std::string line : block) {
       if (line.rfind("$ ", 0) == 0) line = line.substr(2);
       const std::vector<std::string> parts = words(line);

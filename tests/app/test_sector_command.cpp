@@ -72,7 +72,7 @@ std::vector<std::map<std::string, std::string>> special_points(const std::string
   return special;
 }
 
-void run(const std::string& case_path, const std::string& results) {
+void run_case(const std::string& case_path, const std::string& results) {
   const auto outcome = arcslip_program(fmt::format("run '{}' -o '{}' --quiet", case_path, results));
   CHECK(outcome.err.empty());
   REQUIRE(outcome.status == 0);
@@ -157,8 +157,9 @@ TEST_CASE("The beams that arcslip sector writes have the special points of the b
   const testing::TemporaryFolder folder;
   REQUIRE(arcslip_program("sector beams --wave-number 1 --from 3 --to 5 -o '" + folder.path("beams") + "'")
               .status == 0);
-  run(folder.path("beams/case.toml"), folder.path("written"));
-  run(folder.write(
+  run_case(folder.path("beams/case.toml"), folder.path("written"));
+  run_case(
+      folder.write(
           "case.toml",
           "[system]\nmodel = 'beams'\nwave_number = 1\nelements = 30\nmass_ratio = 5\nfrequency_ratio = 4\n"
           "slenderness = 33.3\nforce = 1\n[branch]\nparameter = 'eta'\nfrom = 3\nto = 5\n"

@@ -13,7 +13,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::set<std::string> results = {"optimum.csv", "summary.json", "sweep.csv"};
+const std::set<std::string> study_results = {"optimum.csv", "summary.json", "sweep.csv"};
 const std::set<std::string> without_sweep = {"optimum.csv", "summary.json"};
 
 constexpr const char* sweep_header =
@@ -70,12 +70,12 @@ struct Study {
   std::string picture(const std::string& name) const { return read(folder.path(name + ".svg")); }
 };
 
-void require_drawn(const Study& study, const std::vector<std::string>& pictures,
+void require_drawn(const Study& study, const std::vector<std::string>& drawn,
                    const std::set<std::string>& tables) {
   const Outcome outcome = study.plot();
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(study.folder.path("."), 5'000, pictures, tables);
+  require_pictures(study.folder.path("."), 5'000, drawn, tables);
 }
 
 void require_refused(const Study& study, const std::string& what) {
@@ -90,7 +90,7 @@ void require_refused(const Study& study, const std::string& what) {
 TEST_CASE("plot draws a study over the preload and the optimum over its key", "[plots]") {
   if (!has_gnuplot()) return;
   const Study study(optimum_of("mass_ratio", {"5", "20", "100"}), sweep_of(3));
-  require_drawn(study, {"ratio", "peaks", "optimum"}, results);
+  require_drawn(study, {"ratio", "peaks", "optimum"}, study_results);
   const std::string ratio = study.picture("ratio");
   CHECK_THAT(ratio,
              ContainsSubstring("highest peak") && ContainsSubstring(">P<") && ContainsSubstring(">optimum<"));
@@ -103,14 +103,14 @@ TEST_CASE("plot draws a study over the preload and the optimum over its key", "[
 TEST_CASE("plot draws designs listed one by one over the first of their keys", "[plots]") {
   if (!has_gnuplot()) return;
   const Study study(optimum_of("frequency_ratio,slenderness", {"1,8.3", "1.5,12.5", "2,16.7"}), sweep_of(3));
-  require_drawn(study, {"ratio", "peaks", "optimum"}, results);
+  require_drawn(study, {"ratio", "peaks", "optimum"}, study_results);
   CHECK_THAT(study.picture("ratio"), ContainsSubstring("16.7"));
 }
 
 TEST_CASE("plot draws a single design without a key of curves", "[plots]") {
   if (!has_gnuplot()) return;
   const Study study(optimum_of("", {""}), sweep_of(1));
-  require_drawn(study, {"ratio", "peaks"}, results);
+  require_drawn(study, {"ratio", "peaks"}, study_results);
   CHECK_THAT(study.picture("ratio"), !ContainsSubstring("mass"));
 }
 

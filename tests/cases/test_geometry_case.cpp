@@ -5,6 +5,7 @@
 
 #include "arcslip/results/results.hpp"
 #include "case_runs.hpp"
+#include "case_texts.hpp"
 #include "round_rings.hpp"
 #include "temporary_folder.hpp"
 
@@ -13,7 +14,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::string good = R"([system]
+const std::string in_metres = R"([system]
 model = "beams"
 wave_number = 2
 elements = 30
@@ -32,21 +33,11 @@ from = 0.5
 to = 120.0
 )";
 
-Case read_text(const std::string& text, const Settings& settings = {}) {
-  const TemporaryFolder folder;
-  return read_case(folder.write("case.toml", text), settings);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  REQUIRE(text.find(from) != std::string::npos);
-  return text.replace(text.find(from), from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("A geometry is read from a case file and may be varied by for_each and --set", "[geometry]") {
   const SystemParameters expected = groups_of(round_numbers(), StructureModel::beams);
-  const SystemParameters system = read_text(good).branches[0].problem.system;
+  const SystemParameters system = case_texts::read_text(in_metres).branches[0].problem.system;
   CHECK(system.mass_ratio == expected.mass_ratio);
   CHECK(system.frequency_ratio == expected.frequency_ratio);
   CHECK(system.interface_stiffness == expected.interface_stiffness);
@@ -54,18 +45,24 @@ TEST_CASE("A geometry is read from a case file and may be varied by for_each and
   CHECK(system.preload == expected.preload);
   CHECK(system.wave_number == 2);
 
-  const std::string by_radius = replaced(good, "circumference = 2", fmt::format("radius = {:.17g}", 1 / pi));
-  CHECK_THAT(read_text(by_radius).branches[0].problem.system.preload, WithinRel(expected.preload, rounding));
-  CHECK_THAT(read_text(good, {"geometry.preload_per_length=6000"}).branches[0].problem.system.preload,
+  const std::string by_radius =
+      replaced(in_metres, "circumference = 2", fmt::format("radius = {:.17g}", 1 / pi));
+  CHECK_THAT(case_texts::read_text(by_radius).branches[0].problem.system.preload,
+             WithinRel(expected.preload, rounding));
+  CHECK_THAT(case_texts::read_text(in_metres, {"geometry.preload_per_length=6000"})
+                 .branches[0]
+                 .problem.system.preload,
              WithinRel(2 * expected.preload, rounding));
-  CHECK_THAT(read_text(good, {"geometry.damper.width=0.1"}).branches[0].problem.system.mass_ratio,
-             WithinRel(expected.mass_ratio / 2, rounding));
-  CHECK(read_text(good, {"system.interface_stiffness=1000"}).branches[0].problem.system.interface_stiffness ==
-        1000);
+  CHECK_THAT(
+      case_texts::read_text(in_metres, {"geometry.damper.width=0.1"}).branches[0].problem.system.mass_ratio,
+      WithinRel(expected.mass_ratio / 2, rounding));
+  CHECK(case_texts::read_text(in_metres, {"system.interface_stiffness=1000"})
+            .branches[0]
+            .problem.system.interface_stiffness == 1000);
 
   const std::string key = GENERATE(as<std::string>{}, "damper.width", "\"damper.width\"");
-  const Case varied = read_text(good + "for_each = { preload_per_length = [3e3, 6e3], " + key +
-                                " = [0.05, 0.1], elements = [30, 40] }\n");
+  const Case varied = case_texts::read_text(in_metres + "for_each = { preload_per_length = [3e3, 6e3], " +
+                                            key + " = [0.05, 0.1], elements = [30, 40] }\n");
   REQUIRE(varied.branches.size() == 2);
   CHECK(varied.branches[0].problem.system.mass_ratio == expected.mass_ratio);
   CHECK_THAT(varied.branches[1].problem.system.mass_ratio, WithinRel(expected.mass_ratio / 2, rounding));
@@ -75,20 +72,21 @@ TEST_CASE("A geometry is read from a case file and may be varied by for_each and
 }
 
 TEST_CASE("Where the preload is continued a geometry need not give it", "[geometry]") {
-  const std::string over_preload = replaced(
-      replaced(good, "parameter = \"eta\"", "parameter = \"P\"\neta = 3"), "preload_per_length = 3000\n", "");
-  const Case input = read_text(over_preload);
+  const std::string over_preload =
+      replaced(replaced(in_metres, "parameter = \"eta\"", "parameter = \"P\"\neta = 3"),
+               "preload_per_length = 3000\n", "");
+  const Case input = case_texts::read_text(over_preload);
   CHECK_FALSE(summarize(input, trace(input.branches[0]), 0)["branches"][0]["groups"].contains("preload"));
-  CHECK_THROWS_WITH(read_text(over_preload + "for_each = { preload_per_length = [1] }\n"),
+  CHECK_THROWS_WITH(case_texts::read_text(over_preload + "for_each = { preload_per_length = [1] }\n"),
                     ContainsSubstring("preload_per_length cannot be listed where P is the continuation"));
 }
 
 TEST_CASE("Wrong geometry is refused in one line with place, key, what was expected and given",
           "[geometry]") {
-  struct Mistake {
+  struct Refusal {
     std::string from, to, message;
   };
-  const Mistake mistakes[] = {
+  const Refusal mistakes[] = {
       {"elements = 30", "elements = 30\nmass_ratio = 5", ":5:14: system.mass_ratio: not beside [geometry]"},
       {"elements = 30", "elements = 30\nfrequency_ratio = 5", ":5:19: system.frequency_ratio: not beside"},
       {"elements = 30", "elements = 30\nslenderness = 5", ":5:15: system.slenderness: not beside"},
@@ -127,15 +125,18 @@ TEST_CASE("Wrong geometry is refused in one line with place, key, what was expec
        "branch.for_each.damper.widht: unknown key; did you mean 'damper.width'?"},
       {"to = 120.0", "to = 120.0\nfor_each = { damper = [0.05] }", "branch.for_each.damper: unknown key"},
   };
-  for (const Mistake& mistake : mistakes) {
+  for (const Refusal& mistake : mistakes) {
     INFO(mistake.to);
-    CHECK_THROWS_WITH(read_text(replaced(good, mistake.from, mistake.to)),
+    CHECK_THROWS_WITH(case_texts::read_text(replaced(in_metres, mistake.from, mistake.to)),
                       ContainsSubstring(mistake.message));
   }
   const std::string cusp =
       "[geometry]\n[system]\nmodel = \"cusp\"\n[branch]\nparameter = \"mu\"\nfrom = 0\nto = 1\n";
-  CHECK_THROWS_WITH(read_text(cusp), ContainsSubstring(":1:1: geometry: only for systems with friction"));
-  const std::string plain = good.substr(0, good.find("[geometry]")) + good.substr(good.find("[branch]")) +
+  CHECK_THROWS_WITH(case_texts::read_text(cusp),
+                    ContainsSubstring(":1:1: geometry: only for systems with friction"));
+  const std::string plain = in_metres.substr(0, in_metres.find("[geometry]")) +
+                            in_metres.substr(in_metres.find("[branch]")) +
                             "for_each = { preload_per_length = [1] }\n";
-  CHECK_THROWS_WITH(read_text(plain), ContainsSubstring("for_each.preload_per_length: unknown key"));
+  CHECK_THROWS_WITH(case_texts::read_text(plain),
+                    ContainsSubstring("for_each.preload_per_length: unknown key"));
 }

@@ -14,8 +14,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::string figure_8 = case_named("figure_8");
-
 const std::string rods =
     "[system]\nmodel = 'rods'\nwave_number = 1\nelements = 30\nmass_ratio = 5.0\nfrequency_ratio = 4.0\n"
     "interface_stiffness = 1000.0\nforce = 1.0\npreload = 1.0\n";
@@ -41,7 +39,7 @@ std::string refused(const Outcome& outcome, const std::string& path) {
 
 TEST_CASE("The status is the same where nobody can be told", "[messages]") {
   const TemporaryFolder folder;
-  const std::string cut = "'" + program + "' run " + figure_8 + " --quiet -o " + folder.path("r") +
+  const std::string cut = "'" + program + "' run " + figure_8_case + " --quiet -o " + folder.path("r") +
                           " --set continuation.max_points=50";
   const std::string failed = "'" + program + "' study " + folder.write("case.toml", study_text) +
                              " --quiet -o " + folder.path("s") + " --set continuation.max_points=5";
@@ -60,12 +58,14 @@ TEST_CASE("What cannot be printed has status 4 wherever it is printed, and resul
   const TemporaryFolder folder;
   const std::string study = folder.write("case.toml", study_text);
   const std::string results = folder.path("r");
-  REQUIRE(arcslip_program("run " + figure_8 + " --quiet -o " + results + " --set branch.to=1.5").status == 0);
+  REQUIRE(
+      arcslip_program("run " + figure_8_case + " --quiet -o " + results + " --set branch.to=1.5").status ==
+      0);
   for (const std::string& command :
        {std::string("--help"), std::string("run --help"), std::string("sector ring --help"),
-        std::string("--version"), "check " + figure_8, "check " + study,
-        "run " + figure_8 + " -o " + folder.path("a"),
-        "run " + figure_8 + " --certify -o " + folder.path("b") + " --set branch.to=1.5",
+        std::string("--version"), "check " + figure_8_case, "check " + study,
+        "run " + figure_8_case + " -o " + folder.path("a"),
+        "run " + figure_8_case + " --certify -o " + folder.path("b") + " --set branch.to=1.5",
         "study " + study + " -o " + folder.path("c"),
         "sector ring --elements 2 --ring-elements 2 -o " + folder.path("d")}) {
     for (const std::string nowhere : {">/dev/full", ">&-"}) {
@@ -81,7 +81,7 @@ TEST_CASE("What cannot be printed has status 4 wherever it is printed, and resul
   CHECK(names_in(folder.path("c")) ==
         std::set<std::string>{"optimum.csv", "study.sqlite", "summary.json", "sweep.csv"});
   // What is incomplete besides is said.
-  const Outcome both = shell("'" + program + "' run " + figure_8 + " -o " + folder.path("a") +
+  const Outcome both = shell("'" + program + "' run " + figure_8_case + " -o " + folder.path("a") +
                              " --set continuation.max_points=50 >/dev/full");
   CHECK(both.status == 4);
   CHECK_THAT(both.err, ContainsSubstring("branch 4: max_points") && ContainsSubstring("standard output"));
@@ -107,8 +107,8 @@ TEST_CASE("Keys, values, names and titles do not reach a terminal as it would ob
 
   const std::string raw = "$(printf '\\033[2J\\nx')";
   refused(arcslip_program("check \"/nowhere/" + raw + "\""), "/nowhere/\\x1b[2J");
-  refused(arcslip_program("check " + figure_8 + " --set \"" + raw + "=1\""), "--set \\x1b[2J");
-  refused(arcslip_program("check " + figure_8 + " --set \"system.force=" + raw + "\""),
+  refused(arcslip_program("check " + figure_8_case + " --set \"" + raw + "=1\""), "--set \\x1b[2J");
+  refused(arcslip_program("check " + figure_8_case + " --set \"system.force=" + raw + "\""),
           "--set system.force=");
   refused(arcslip_program("plot \"/nowhere/" + raw + "\""), "/nowhere/\\x1b[2J");
   const Outcome wrong = arcslip_program("check a b \"" + raw + "\"");

@@ -13,10 +13,11 @@ using namespace arcslip;
 using arcslip::testing::Mistake;
 using arcslip::testing::replaced;
 using arcslip::testing::TemporaryFolder;
+using arcslip::testing::case_texts::read_study_text;
 
 namespace {
 
-const std::string good = "title = \"A study\"\n" + testing::case_texts::beams + R"(
+const std::string good_study = "title = \"A study\"\n" + testing::case_texts::beams + R"(
 [study]
 parameter = "P"
 from = 0.1
@@ -24,13 +25,8 @@ to = 100.0
 eta = [0.5, 6.0]
 )";
 
-StudyCase read_text(const std::string& text, const std::vector<std::string>& settings = {}) {
-  const TemporaryFolder folder;
-  return read_study(folder.write("case.toml", text), settings);
-}
-
-std::string error_of(const std::string& text) {
-  return testing::error_of([&] { read_text(text); });
+std::string error_of_study(const std::string& text) {
+  return testing::error_of([&] { read_study_text(text); });
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -40,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 TEST_CASE("A study is read with its defaults, of one design where nothing is listed", "[study]") {
-  const StudyCase study = read_text(good + "[continuation]\nstop_at = [1, 10]\n");
+  const StudyCase study = read_study_text(good_study + "[continuation]\nstop_at = [1, 10]\n");
   CHECK(study.title == "A study");
   CHECK(study.range.from == 0.1);
   CHECK(study.range.to == 100);
@@ -59,14 +55,15 @@ TEST_CASE("A study is read with its defaults, of one design where nothing is lis
 }
 
 TEST_CASE("No branch of a study ends before its window does", "[study]") {
-  const StudyCase study = read_text(good + "[continuation]\nstop_after = \"peak\"\nmax_seconds = 60\n");
+  const StudyCase study =
+      read_study_text(good_study + "[continuation]\nstop_after = \"peak\"\nmax_seconds = 60\n");
   CHECK(study.options.stop_after.empty());
   CHECK(study.options.max_seconds == 60);
 }
 
 TEST_CASE("Lists of a study are combined, the last key of the file fastest", "[study]") {
-  const StudyCase study = read_text(
-      good +
+  const StudyCase study = read_study_text(
+      good_study +
       "for_each = { slenderness = [8, 12.5], mass_ratio = [5, 10, 20], fixed_damper = [false, true] }\n");
   CHECK(study.keys == std::vector<std::string>{"slenderness", "mass_ratio", "fixed_damper"});
   REQUIRE(study.count == 12);
@@ -86,13 +83,14 @@ TEST_CASE("Lists of a study are combined, the last key of the file fastest", "[s
 }
 
 TEST_CASE("Ranges give their ends exactly and are even, or even in the logarithm", "[study]") {
-  const StudyCase linear = read_text(good + "for_each.mass_ratio = { from = 3.0, to = 1.0, count = 5 }\n");
+  const StudyCase linear =
+      read_study_text(good_study + "for_each.mass_ratio = { from = 3.0, to = 1.0, count = 5 }\n");
   REQUIRE(linear.count == 5);
   for (std::size_t i = 0; i < 5; ++i)
     CHECK(linear.design(i).system.mass_ratio == 3 - 0.5 * static_cast<double>(i));
 
-  const StudyCase log =
-      read_text(good + "for_each.mass_ratio = { from = 0.1, to = 1000, count = 5, scale = \"log\" }\n");
+  const StudyCase log = read_study_text(
+      good_study + "for_each.mass_ratio = { from = 0.1, to = 1000, count = 5, scale = \"log\" }\n");
   CHECK(log.design(0).system.mass_ratio == 0.1);
   CHECK(log.design(4).system.mass_ratio == 1000);
   for (std::size_t i = 1; i < 5; ++i) {
@@ -100,28 +98,29 @@ TEST_CASE("Ranges give their ends exactly and are even, or even in the logarithm
     CHECK_THAT(log.design(i).system.mass_ratio / log.design(i - 1).system.mass_ratio, WithinRel(10, 1e-14));
   }
 
-  const StudyCase waves = read_text(good + "for_each.wave_number = { from = 1, to = 14, count = 14 }\n");
+  const StudyCase waves =
+      read_study_text(good_study + "for_each.wave_number = { from = 1, to = 14, count = 14 }\n");
   REQUIRE(waves.count == 14);
   CHECK(waves.design(6).system.wave_number == 7);
   CHECK(waves.design(6).values["wave_number"] == 7);
 }
 
 TEST_CASE("Designs may be listed one by one", "[study]") {
-  const StudyCase study = read_text(good +
-                                    "for_each = [{ frequency_ratio = 1.0, slenderness = 8.3 },\n"
-                                    "            { slenderness = 33.3, frequency_ratio = 4.0 }]\n");
+  const StudyCase study = read_study_text(good_study +
+                                          "for_each = [{ frequency_ratio = 1.0, slenderness = 8.3 },\n"
+                                          "            { slenderness = 33.3, frequency_ratio = 4.0 }]\n");
   CHECK(study.keys == std::vector<std::string>{"frequency_ratio", "slenderness"});
   REQUIRE(study.count == 2);
   CHECK(study.design(0).system.interface_stiffness == shear_interface_stiffness(8.3, 0.3));
   CHECK(study.design(1).system.frequency_ratio == 4);
   CHECK(describe(study.design(1).values) == "frequency_ratio = 4.0, slenderness = 33.3");
-  const StudyCase sections =
-      read_text(good + "[[study.for_each]]\nmass_ratio = 1\n[[study.for_each]]\nmass_ratio = 2\n");
+  const StudyCase sections = read_study_text(
+      good_study + "[[study.for_each]]\nmass_ratio = 1\n[[study.for_each]]\nmass_ratio = 2\n");
   CHECK(sections.design(1).system.mass_ratio == 2);
 }
 
 TEST_CASE("A case may hold a study beside its branches, and each command reads its own", "[study]") {
-  const std::string both = replaced(good, "force = 1.0", "force = 1.0\npreload = 1.0") +
+  const std::string both = replaced(good_study, "force = 1.0", "force = 1.0\npreload = 1.0") +
                            "[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 6.0\n";
   const TemporaryFolder folder;
   const std::string path = folder.write("case.toml", both);
@@ -131,14 +130,15 @@ TEST_CASE("A case may hold a study beside its branches, and each command reads i
   CHECK_FALSE(study.resolved.contains("branch"));  // another branch does not make it another study
   CHECK(has_section(path, "study"));
   CHECK_FALSE(has_section(path, "studies"));
-  CHECK_THAT(testing::error_of([&] { read_case(folder.write("other.toml", good)); }),
+  CHECK_THAT(testing::error_of([&] { read_case(folder.write("other.toml", good_study)); }),
              ContainsSubstring("other.toml:1:1: branch: missing; expected a section [branch]"));
 }
 
 TEST_CASE("Wrong studies are refused in one line with place, key, what was expected and given", "[study]") {
   const Mistake mistakes[] = {
       {"[study]", "[studi]", "", "studi", "did you mean 'study'?", ""},
-      {good.substr(good.find("[study]")), "", ":1:1", "study", "missing; expected a section [study]", ""},
+      {good_study.substr(good_study.find("[study]")), "", ":1:1", "study",
+       "missing; expected a section [study]", ""},
       {"parameter = \"P\"", "parameter = \"eta\"", ":12:13", "study.parameter", "\"P\"", "got \"eta\""},
       {"parameter = \"P\"\n", "", ":11:1", "study.parameter", "missing; expected \"P\"", ""},
       {"from = 0.1", "from = 0", ":13:8", "study.from", "a finite number > 0", "got 0"},
@@ -163,7 +163,7 @@ TEST_CASE("Wrong studies are refused in one line with place, key, what was expec
        ":17:", "continuation.stop_at[1]", ">= 0.1 and <= 100", "got 200"},
   };
   for (const Mistake& mistake : mistakes)
-    testing::check_message(error_of(replaced(good, mistake.from, mistake.to)), mistake);
+    testing::check_message(error_of_study(replaced(good_study, mistake.from, mistake.to)), mistake);
 }
 
 TEST_CASE("What for_each may not hold is refused before anything runs", "[study]") {
@@ -217,24 +217,24 @@ TEST_CASE("What for_each may not hold is refused before anything runs", "[study]
                "study.for_each.force", "with its 100000 values there are more than 1e+09 designs", ""),
   };
   for (const Mistake& mistake : mistakes)
-    testing::check_message(error_of(replaced(good, mistake.from, mistake.to)), mistake);
+    testing::check_message(error_of_study(replaced(good_study, mistake.from, mistake.to)), mistake);
 }
 
 TEST_CASE("Values that for_each of a study takes the place of are checked as well", "[study]") {
-  const std::string listed = good + "for_each = { mass_ratio = [1, 2], force = [1, 2] }\n";
-  read_text(listed);
+  const std::string listed = good_study + "for_each = { mass_ratio = [1, 2], force = [1, 2] }\n";
+  read_study_text(listed);
   const Mistake mistakes[] = {
       {"mass_ratio = 5.0", "mass_ratio = -5.0", ":6:14", "system.mass_ratio", "> 0", "got -5"},
       {"force = 1.0", "force = nan", ":9:9", "system.force", "a finite number", "got nan"},
   };
   for (const Mistake& mistake : mistakes)
-    testing::check_message(error_of(replaced(listed, mistake.from, mistake.to)), mistake);
+    testing::check_message(error_of_study(replaced(listed, mistake.from, mistake.to)), mistake);
 }
 
 TEST_CASE("A million designs are read at once, and made when they are asked for, by any thread", "[study]") {
   const auto start = std::chrono::steady_clock::now();
-  const StudyCase study = read_text(
-      good +
+  const StudyCase study = read_study_text(
+      good_study +
       "for_each = { mass_ratio = { from = 1, to = 100, count = 1000 }, frequency_ratio = { from = 1, to "
       "= 8, count = 1000, scale = \"log\" } }\n");
   CHECK(seconds_since(start) < 2);  // 1e6 designs made and kept would take ten times that

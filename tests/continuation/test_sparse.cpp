@@ -8,6 +8,7 @@
 #include "arcslip/continuation/points/extremum_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
+#include "branches.hpp"
 #include "catch.hpp"
 #include "sparse_problems.hpp"
 
@@ -70,7 +71,7 @@ double discrete_parameter(long double a, Index points) {
   return static_cast<double>(parameter);
 }
 
-TraceOptions over(double from, double to) {
+TraceOptions over_parameter(double from, double to) {
   TraceOptions options;
   options.parameter = "L";
   options.from = from;
@@ -80,14 +81,6 @@ TraceOptions over(double from, double to) {
 
 Guess at_zero(Index size, double parameter, double perturbation = 0) {
   return {Vector::Zero(size), Vector{{parameter, perturbation}}, 0, {}};
-}
-
-std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
-  std::vector<BranchPoint> points;
-  for (const BranchPoint& point : branch.points) {
-    if (point.type == type) points.push_back(point);
-  }
-  return points;
 }
 
 /// Rounding, and where points are located by it: 1e-9.
@@ -139,7 +132,7 @@ std::pair<BasePoint, BasePoint> check_extended(ExtendedProblem& sparse, Extended
 }
 
 BasePoint near_fold(const Problem& problem) {
-  TraceOptions options = over(0, 5);
+  TraceOptions options = over_parameter(0, 5);
   options.stop_at = {3.4};
   options.stop_after = {{PointType::user, 1, {}}};
   const Branch branch = trace(problem, at_zero(m, 0), options);
@@ -227,7 +220,7 @@ TEST_CASE("The derivative checker names wrong gradients of borders and observabl
 
 TEST_CASE("A sparse problem is traced as the same problem is that is dense") {
   const double K = GENERATE(0.0, 0.2);  // one fold, and two
-  TraceOptions options = over(0, 8);
+  TraceOptions options = over_parameter(0, 8);
   options.extrema_of = {"L"};
   const Branch sparse = trace(Ignition(m, true, 40), at_zero(m, 0, K), options);
   const Branch dense = trace(Ignition(m, false, 40), at_zero(m, 0, K), options);
@@ -236,14 +229,14 @@ TEST_CASE("A sparse problem is traced as the same problem is that is dense") {
 }
 
 TEST_CASE("A sparse branch ends on its border where the difference equation has it") {
-  const Branch branch = trace(Ignition(m, true, 1), at_zero(m, 0), over(0, 5));
+  const Branch branch = trace(Ignition(m, true, 1), at_zero(m, 0), over_parameter(0, 5));
   REQUIRE(branch.stop == Stop::left_regime);
   CHECK_THAT(branch.points.back().parameters(L), WithinRel(discrete_parameter(1, m), 1e-11));
 }
 
 TEST_CASE("The fold of a sparse branch is that of the difference equation") {
   const Index size = GENERATE(1, 9, 29, 199);
-  TraceOptions options = over(0, 10);
+  TraceOptions options = over_parameter(0, 10);
   options.stop_after = {{PointType::fold, 1, {}}};
   const Branch branch = trace(Ignition(size, true), at_zero(size, 0), options);
   REQUIRE(branch.complete());
@@ -257,7 +250,7 @@ TEST_CASE("The fold of a sparse branch is that of the difference equation") {
 TEST_CASE("The fold of Bratu's problem in the square is the published one, by the branch and by itself") {
   const auto fold_at = [](Index side) {
     const BratuRectangle square(side, side);
-    TraceOptions options = over(0, 10);
+    TraceOptions options = over_parameter(0, 10);
     options.stop_after = {{PointType::fold, 1, {}}};
     const Branch branch = trace(square, {Vector::Zero(square.size()), Vector{{0.0}}, 0, {}}, options);
     REQUIRE(branch.complete());
@@ -276,7 +269,7 @@ TEST_CASE("The fold of Bratu's problem in the square is the published one, by th
 }
 
 TEST_CASE("Branch points of a sparse branch are those of the difference equation") {
-  TraceOptions options = over(1, 100);
+  TraceOptions options = over_parameter(1, 100);
   options.max_step = 0.3;
   const Branch branch = trace(Buckling(m, true), at_zero(m, 1), options);
   REQUIRE(branch.complete());
@@ -345,7 +338,7 @@ TEST_CASE("The curve of folds of a sparse problem has the cusp of the dense one"
     REQUIRE(fold);
     Guess guess;
     problem.join(fold->point, guess.unknowns, guess.parameters);
-    TraceOptions options = over(0, 0.5);
+    TraceOptions options = over_parameter(0, 0.5);
     options.parameter = "K";
     options.stop_after = {{PointType::cusp, 1, {}}};
     return trace(problem, guess, options);

@@ -50,7 +50,7 @@ const KeyTable<Settings>& table() {
   return keys;
 }
 
-Settings read(const std::string& text) {
+Settings read_settings(const std::string& text) {
   const testing::TemporaryFolder folder;
   const TomlDocument document(folder.write("case.toml", text), {});
   Settings settings;
@@ -59,14 +59,14 @@ Settings read(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  return testing::error_of([&] { read("[room]\n" + text); });
+  return testing::error_of([&] { read_settings("[room]\n" + text); });
 }
 
 }  // namespace
 
 TEST_CASE("Keys that are given are read, and others leave the settings as they are") {
   const Settings settings =
-      read("[room]\nleast = 2\nmost = 2.5\nkind = \"hard\"\nplaces = []\npart.width = 4\n");
+      read_settings("[room]\nleast = 2\nmost = 2.5\nkind = \"hard\"\nplaces = []\npart.width = 4\n");
   CHECK(settings.least == 2);
   CHECK(settings.most == 2.5);
   CHECK(settings.count == 3);

@@ -14,13 +14,13 @@ using namespace arcslip::testing;
 
 namespace {
 
-constexpr double damping = 0.05;
+constexpr double damping_ratio = 0.05;
 constexpr double cubic = 0.1;
 
 // The reference values have twelve decimals.
-constexpr double published = 1e-11;
+constexpr double published_duffing = 1e-11;
 
-Branch response(const Instance& duffing, std::vector<std::string> extrema = {}) {
+Branch duffing_response(const Instance& duffing, std::vector<std::string> extrema = {}) {
   TraceOptions options = over("W", 0.5, 2);
   options.extrema_of = std::move(extrema);
   Branch branch = duffing.trace(options);
@@ -31,7 +31,7 @@ Branch response(const Instance& duffing, std::vector<std::string> extrema = {}) 
 
 /// The two folds of the resonance, each solved to what defines it; the upper one comes first.
 std::vector<BranchPoint> folds_of(const Instance& duffing) {
-  std::vector<BranchPoint> folds = of_type(response(duffing), PointType::fold);
+  std::vector<BranchPoint> folds = of_type(duffing_response(duffing), PointType::fold);
   REQUIRE(folds.size() == 2);
   for (const BranchPoint& fold : folds) CHECK(defining_residual(*duffing.problem, 0, fold) <= 1e-10);
   return folds;
@@ -52,18 +52,18 @@ double observed(const Instance& duffing, const BranchPoint& point, const std::st
 TEST_CASE("Duffing's folds in one harmonic are those of the closed form", "[library]") {
   const Instance duffing("duffing", {{"harmonics", 1}});
   const auto folds = folds_of(duffing);
-  CHECK_THAT(folds[0].parameters(0), WithinRel(1.267536959513, published));
-  CHECK_THAT(observed(duffing, folds[0], "a1"), WithinRel(2.836222596637, published));
-  CHECK_THAT(folds[1].parameters(0), WithinRel(1.115585927182, published));
-  CHECK_THAT(observed(duffing, folds[1], "a1"), WithinRel(1.084080112843, published));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(1.267536959513, published_duffing));
+  CHECK_THAT(observed(duffing, folds[0], "a1"), WithinRel(2.836222596637, published_duffing));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(1.115585927182, published_duffing));
+  CHECK_THAT(observed(duffing, folds[1], "a1"), WithinRel(1.084080112843, published_duffing));
 }
 
 TEST_CASE("Duffing's largest amplitude in one harmonic is that of the closed form", "[library]") {
   const Instance duffing("duffing", {{"harmonics", 1}});
-  const auto peaks = of_type(response(duffing, {"a1"}), PointType::peak);
+  const auto peaks = of_type(duffing_response(duffing, {"a1"}), PointType::peak);
   REQUIRE(peaks.size() == 1);
-  CHECK_THAT(observed(duffing, peaks[0], "a1"), WithinRel(2.841624599369, published));
-  CHECK_THAT(peaks[0].parameters(0), WithinRel(1.266634231845, published));
+  CHECK_THAT(observed(duffing, peaks[0], "a1"), WithinRel(2.841624599369, published_duffing));
+  CHECK_THAT(peaks[0].parameters(0), WithinRel(1.266634231845, published_duffing));
 }
 
 TEST_CASE("Duffing's folds with more harmonics converge to those by collocation", "[library]") {
@@ -78,8 +78,8 @@ TEST_CASE("Duffing's folds with more harmonics converge to those by collocation"
   CAPTURE(row.harmonics);
   const Instance duffing("duffing", {{"harmonics", row.harmonics}});
   const auto folds = folds_of(duffing);
-  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published));
-  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published_duffing));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published_duffing));
   if (row.harmonics < 9) return;
   CHECK_THAT(observed(duffing, folds[0], "a1"), WithinRel(2.8250167129, 1e-10));
   CHECK_THAT(observed(duffing, folds[1], "a1"), WithinRel(1.0818703234, 1e-10));
@@ -96,8 +96,8 @@ TEST_CASE("Duffing's folds at other forces are those of the closed form", "[libr
                                         {0.3, 1.161865303909, 1.489393339365}}));
   CAPTURE(row.force);
   const auto folds = folds_of(Instance("duffing", {{"harmonics", 1}, {"force", row.force}}));
-  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published));
-  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published));
+  CHECK_THAT(folds[0].parameters(0), WithinRel(row.upper, published_duffing));
+  CHECK_THAT(folds[1].parameters(0), WithinRel(row.lower, published_duffing));
 }
 
 TEST_CASE("Duffing's folds at any force are double roots of the closed form", "[library]") {
@@ -108,7 +108,7 @@ TEST_CASE("Duffing's folds at any force are double roots of the closed form", "[
     const double W = fold.parameters(0);
     const double x = std::pow(observed(duffing, fold, "a1"), 2);
     const double detuning = 1 - W * W + 0.75 * cubic * x;
-    const double square = detuning * detuning + damping * damping * W * W;
+    const double square = detuning * detuning + damping_ratio * damping_ratio * W * W;
     CHECK_THAT(square * x, WithinRel(force * force, 1e-9));
     CHECK_THAT(square + 1.5 * cubic * x * detuning, WithinAbs(0, 1e-11));
   }
@@ -116,12 +116,12 @@ TEST_CASE("Duffing's folds at any force are double roots of the closed form", "[
 
 TEST_CASE("Duffing's branch below the least force that bends it over has no fold", "[library]") {
   const Instance duffing("duffing", {{"harmonics", 1}, {"force", 0.04}});
-  CHECK(of_type(response(duffing), PointType::fold).empty());
+  CHECK(of_type(duffing_response(duffing), PointType::fold).empty());
 }
 
 TEST_CASE("Duffing's highest root mean square is that of the original example", "[library]") {
   const Instance duffing("duffing", {{"harmonics", 7}});
-  const auto peaks = of_type(response(duffing, {"rms"}), PointType::peak);
+  const auto peaks = of_type(duffing_response(duffing, {"rms"}), PointType::peak);
   REQUIRE_FALSE(peaks.empty());
   const BranchPoint& peak = *std::max_element(peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) {
     return observed(duffing, a, "rms") < observed(duffing, b, "rms");
@@ -198,12 +198,12 @@ TEST_CASE("Duffing's response is unstable from fold to fold, where a real expone
   const double force = GENERATE(0.18, 0.3);
   CAPTURE(harmonics, force);
   const Instance duffing("duffing", {{"harmonics", harmonics}, {"force", force}});
-  const Branch branch = response(duffing);
+  const Branch branch = duffing_response(duffing);
   int folds = 0;
   for (const BranchPoint& point : branch.points) {
     CAPTURE(point.parameters(0), point.eigenvalues);
     REQUIRE(point.eigenvalues.size() == 2);
-    CHECK_THAT(point.eigenvalues.sum().real(), WithinAbs(-damping, 1e-9));  // Liouville
+    CHECK_THAT(point.eigenvalues.sum().real(), WithinAbs(-damping_ratio, 1e-9));  // Liouville
     if (point.type == PointType::fold) {
       ++folds;
       CHECK(point.eigenvalues.cwiseAbs().minCoeff() < 1e-8);  // as sharp as the fold is located
@@ -232,11 +232,11 @@ double displacement(const BranchPoint& point, double t) {
 TEST_CASE("Duffing's exponents are those of the monodromy matrix", "[hill]") {
   const double force = GENERATE(0.18, 0.5);
   const Instance duffing("duffing", {{"harmonics", 15}, {"force", force}});
-  for (const BranchPoint& point : response(duffing).points) {
+  for (const BranchPoint& point : duffing_response(duffing).points) {
     const double W = point.parameters(0);
     const auto variation = [&](double t) {
       const double q = displacement(point, t);
-      return Eigen::Matrix2d{{0, 1}, {-1 - 3 * cubic * q * q, -damping}};
+      return Eigen::Matrix2d{{0, 1}, {-1 - 3 * cubic * q * q, -damping_ratio}};
     };
     const double period = 2 * M_PI / W;
     const ComplexVector found = (point.eigenvalues * period).array().exp();

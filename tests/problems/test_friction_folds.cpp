@@ -37,18 +37,6 @@ SystemParameters excited_rods(double zeta) {
   return parameters;
 }
 
-template <class Problem>
-Branch traced(const Problem& problem, double preload, double from, double to) {
-  return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
-}
-
-template <class Problem>
-Vector values_at(const Problem& problem, const BranchPoint& point) {
-  Vector values;
-  problem.observe(point.unknowns, point.parameters, point.regime, values);
-  return values;
-}
-
 /// Folds and the number of solutions of a branch in eta against the second solver.
 void check_against_scan(const Branch& branch, const SystemParameters& parameters, std::size_t fold_count) {
   const RodResponse rods(parameters);
@@ -176,8 +164,8 @@ TEST_CASE("Springs of no stiffness leave the forced response as it is") {
   const ForcedResponse forced(build_system(rods(1)));
   const CubicResponse cubic(build_system(rods(1)));
   for (const PointType type : {PointType::peak, PointType::trough, PointType::regime_switch}) {
-    const auto expected = of_type(traced(forced, 1, 0.5, 20), type);
-    const auto found = of_type(traced(cubic, 1, 0.5, 20), type);
+    const auto expected = of_type(trace_over_eta(forced, 1, 0.5, 20), type);
+    const auto found = of_type(trace_over_eta(cubic, 1, 0.5, 20), type);
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       CHECK_THAT(found[i].parameters(0), WithinRel(expected[i].parameters(0), 1e-9));
@@ -194,7 +182,7 @@ TEST_CASE("Without friction, and stuck to a held damper, the folds are those of 
   parameters.fixed_damper = stuck;
   parameters.interface_stiffness = 100;
   const CubicResponse problem(build_system(parameters));
-  const auto folds = of_type(traced(problem, parameters.preload, 0.5, 12), PointType::fold);
+  const auto folds = of_type(trace_over_eta(problem, parameters.preload, 0.5, 12), PointType::fold);
   std::vector<double> expected = duffing_folds(parameters, stuck);
   REQUIRE(expected.size() == 2);
   REQUIRE(folds.size() == 2);
@@ -208,7 +196,7 @@ TEST_CASE("With friction the cubic response folds where a scan over R has two so
   SystemParameters parameters = hardening_rods(preload);
   parameters.preload_growth = growth;
   const CubicResponse problem(build_system(parameters));
-  check_against_scan(traced(problem, preload, 0.5, 12), parameters, 2);
+  check_against_scan(trace_over_eta(problem, preload, 0.5, 12), parameters, 2);
 }
 
 TEST_CASE("On the cubic response the power put in equals what friction and structures dissipate") {
@@ -247,7 +235,7 @@ TEST_CASE("A forced base with negative damping folds where a scan over R has two
   const double zeta = GENERATE(-1e-3, -3e-3, -1e-2);
   const SystemParameters parameters = excited_rods(zeta);
   const ForcedResponse problem(build_system(parameters));
-  check_against_scan(traced(problem, 1, 2, 8), parameters, 2);
+  check_against_scan(trace_over_eta(problem, 1, 2, 8), parameters, 2);
 }
 
 TEST_CASE("Negative damping turns the response at the border of stick where slip begins to lose too little") {
@@ -261,7 +249,7 @@ TEST_CASE("Negative damping turns the response at the border of stick where slip
                            (system.contact_stiffness * mode.residue * mode.frequency * mode.frequency);
   const auto corner_folds = [&](double zeta) {
     const ForcedResponse problem(build_system(excited_rods(zeta)));
-    const Branch branch = traced(problem, 1, 2, 8);
+    const Branch branch = trace_over_eta(problem, 1, 2, 8);
     REQUIRE(branch.complete());
     for (const BranchPoint& corner : of_type(branch, PointType::corner_fold))
       CHECK_THAT(values_at(problem, corner)(ForcedResponse::R_over_S), WithinRel(1, 1e-10));

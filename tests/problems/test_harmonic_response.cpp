@@ -45,10 +45,6 @@ double observed(const HarmonicResponse& problem, const BranchPoint& at, const st
   return observed(problem, at.unknowns, at.parameters, at.regime, name);
 }
 
-Branch response(const HarmonicResponse& problem, double preload, double from, double to) {
-  return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
-}
-
 /// One mass on a spring, x'' + x, held by a contact to ground: shape and load are 1.
 HarmonicSystem oscillator(int highest, double stiffness, double damping) {
   HarmonicSystem system;
@@ -68,7 +64,7 @@ TEST_CASE("One harmonic has the branches of the scalar equation", "[harmonics]")
     const ForcedResponse scalar(build_system(figure_8(preload)));
     const HarmonicResponse problem = balanced(figure_8(preload), 1);
     const Branch expected = trace_over_eta(scalar, preload, 0.5, 120);
-    const Branch found = response(problem, preload, 0.5, 120);
+    const Branch found = trace_over_eta(problem, preload, 0.5, 120);
     CAPTURE(preload, found.explanation);
     REQUIRE(found.complete());
     for (const PointType type : {PointType::peak, PointType::trough, PointType::regime_switch}) {
@@ -139,7 +135,7 @@ TEST_CASE("The ring of figure 8 in time has the amplitude of many harmonics at t
 TEST_CASE("Branches of nine harmonics lose no energy, whatever the preload", "[harmonics]") {
   for (const double preload : {1e-4, 0.1, 1.0, 5.0, 50.0}) {
     const HarmonicResponse problem = balanced(figure_8(preload), 9);
-    const Branch branch = response(problem, preload, 0.5, 120);
+    const Branch branch = trace_over_eta(problem, preload, 0.5, 120);
     CAPTURE(preload, branch.explanation);
     REQUIRE(branch.complete());
     for (const BranchPoint& point : branch.points) {
@@ -158,7 +154,7 @@ TEST_CASE("Branches of random systems in five harmonics reach their end and lose
     const SystemParameters parameters = draw.system();
     const auto [low, high] = resonance_range(parameters);
     const HarmonicResponse problem = balanced(parameters, 5);
-    const Branch branch = response(problem, parameters.preload, low, high);
+    const Branch branch = trace_over_eta(problem, parameters.preload, low, high);
     CAPTURE(i, branch.explanation);
     REQUIRE(branch.complete());
     double worst = 0;
@@ -176,7 +172,7 @@ TEST_CASE("Corners within slip, where the branch of a negative damping turns bac
   SystemParameters parameters = figure_8(1);
   parameters.base_damping = -1e-2;
   const HarmonicResponse problem = balanced(parameters, 25);
-  const Branch branch = response(problem, 1, 3.9, 4.1);
+  const Branch branch = trace_over_eta(problem, 1, 3.9, 4.1);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());
   CHECK(branch.points.back().regime == 0);
@@ -207,7 +203,7 @@ TEST_CASE("The error of power is one of phases, however light the damping of a s
     const std::vector<double> resonances =
         joined_frequencies({&system.base, &system.damper}, system.contact_stiffness);
     const HarmonicResponse problem = balanced(s, 1);
-    const Branch branch = response(problem, s.preload, 0.3 * resonances[0], 1.3 * resonances[0]);
+    const Branch branch = trace_over_eta(problem, s.preload, 0.3 * resonances[0], 1.3 * resonances[0]);
     CAPTURE(i, branch.explanation);
     REQUIRE(branch.complete());
     for (const BranchPoint& point : branch.points) {
@@ -230,7 +226,7 @@ TEST_CASE(
     SystemParameters parameters = rods(preload);
     parameters.elements = 9;
     const HarmonicResponse problem = balanced(parameters, 9);
-    const Branch branch = response(problem, preload, 0.5, 20);
+    const Branch branch = trace_over_eta(problem, preload, 0.5, 20);
     CAPTURE(preload, branch.explanation);
     CHECK(branch.complete());
   }

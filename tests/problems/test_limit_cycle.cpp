@@ -47,12 +47,6 @@ Branch cycles(const LimitCycle& problem, double zeta, double preload) {
                                   amplitude_over("zeta_B", 0.1 * zeta, 1000 * zeta));
 }
 
-Vector values_at(const LimitCycle& problem, const BranchPoint& point) {
-  Vector values;
-  problem.observe(point.unknowns, point.parameters, point.regime, values);
-  return values;
-}
-
 /// |1 + k phi c| by linear solves with the dynamic stiffness at this zeta_B.
 double defect(const SystemParameters& system, const LimitCycle& problem, const BranchPoint& point) {
   SystemParameters parameters = system;

@@ -53,16 +53,6 @@ HarmonicResponse halved(const FrictionSystem& system, double share, double low, 
                                          {(1 - share) * whole.stiffness, high * whole.slip_per_preload}}}));
 }
 
-double observed(const continuation::Problem& problem, const BranchPoint& point, Index which) {
-  Vector values;
-  problem.observe(point.unknowns, point.parameters, point.regime, values);
-  return values(which);
-}
-
-Branch response(const HarmonicResponse& problem, double preload, double from, double to) {
-  return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
-}
-
 }  // namespace
 
 TEST_CASE("One contact in Cartesian unknowns has the peaks, troughs and switches of the scalar equation",
@@ -72,7 +62,7 @@ TEST_CASE("One contact in Cartesian unknowns has the peaks, troughs and switches
     const ForcedResponse scalar(system);
     const HarmonicResponse problem = one_contact(system);
     const Branch expected = trace_over_eta(scalar, preload, 0.5, 120);
-    const Branch found = response(problem, preload, 0.5, 120);
+    const Branch found = trace_over_eta(problem, preload, 0.5, 120);
     CAPTURE(preload, found.explanation);
     REQUIRE(found.complete());
     for (const PointType type : {PointType::peak, PointType::trough, PointType::regime_switch}) {
@@ -82,7 +72,8 @@ TEST_CASE("One contact in Cartesian unknowns has the peaks, troughs and switches
       for (std::size_t i = 0; i < points.size(); ++i) {
         CHECK_THAT(points[i].parameters(0), WithinRel(right[i].parameters(0), 1e-10));
         for (Index which = 0; which < 5; ++which)  // to what the digits of eta leave of a sharp peak
-          CHECK_THAT(observed(problem, points[i], which), WithinRel(observed(scalar, right[i], which), 1e-7));
+          CHECK_THAT(values_at(problem, points[i])(which),
+                     WithinRel(values_at(scalar, right[i])(which), 1e-7));
       }
     }
   }
@@ -120,7 +111,7 @@ TEST_CASE(
     const FrictionSystem system = build_system(figure_8(preload));
     const HarmonicResponse problem = halved(system, 0.5, 1, 1);
     const Branch expected = trace_over_eta(ForcedResponse(system), preload, 0.5, 120);
-    const Branch found = response(problem, preload, 0.5, 120);
+    const Branch found = trace_over_eta(problem, preload, 0.5, 120);
     CAPTURE(preload, found.explanation);
     REQUIRE(found.complete());
     const std::vector<BranchPoint> right = of_type(expected, PointType::peak);
@@ -135,13 +126,13 @@ TEST_CASE("Two sliders in parallel slip one after the other, as the sum of their
   const double preload = 3;
   const FrictionSystem system = build_system(figure_8(preload));
   const HarmonicResponse problem = halved(system, 0.3, 0.5, 2);
-  const Branch branch = response(problem, preload, 0.5, 6);
+  const Branch branch = trace_over_eta(problem, preload, 0.5, 6);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());
   std::vector<int> seen;
   for (const BranchPoint& point : branch.points) {
     const double eta = point.parameters(0);
-    const double R = observed(problem, point, HarmonicResponse::R);
+    const double R = values_at(problem, point)(HarmonicResponse::R);
     const double S = system.slip_threshold(eta, preload);
     const Complex phi =
         0.3 * hysteresis_coefficient(R, 0.5 * S).phi + 0.7 * hysteresis_coefficient(R, 2 * S).phi;
@@ -179,7 +170,7 @@ TEST_CASE("Two contacts of structures that do not touch slip as each does alone"
   };
   const HarmonicResponse one = alone(first);
   const HarmonicResponse two = alone(second);
-  const Branch branch = response(problem, 10, 0.5, 6);
+  const Branch branch = trace_over_eta(problem, 10, 0.5, 6);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());
   std::vector<int> seen;
@@ -195,8 +186,8 @@ TEST_CASE("Two contacts of structures that do not touch slip as each does alone"
       return values(HarmonicResponse::Y);
     };
     CAPTURE(eta, point.regime);
-    CHECK_THAT(observed(problem, point, HarmonicResponse::Y), WithinRel(amplitude(one), 1e-7));
-    CHECK_THAT(observed(problem, point, 11), WithinRel(amplitude(two), 1e-7));
+    CHECK_THAT(values_at(problem, point)(HarmonicResponse::Y), WithinRel(amplitude(one), 1e-7));
+    CHECK_THAT(values_at(problem, point)(11), WithinRel(amplitude(two), 1e-7));
   }
   for (int regime = 0; regime < 4; ++regime) {
     CAPTURE(regime);
@@ -224,7 +215,7 @@ TEST_CASE("The force's power is what dampers and sliders take", "[contacts]") {
     for (int k = 0; k < 3; ++k) contacts.push_back({draw.log_uniform(0.1, 100), draw.log_uniform(0.1, 10)});
     const HarmonicResponse problem(one_harmonic({{3, base, loss}, {3, damper, loss}, contacts}));
     const double preload = draw.log_uniform(1e-3, 1);
-    const Branch branch = response(problem, preload, 0.4, 10);
+    const Branch branch = trace_over_eta(problem, preload, 0.4, 10);
     CAPTURE(i, branch.explanation);
     REQUIRE(branch.complete());
     for (std::size_t at = 0; at < branch.points.size(); at += 5) {

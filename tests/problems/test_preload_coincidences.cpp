@@ -18,8 +18,6 @@ using problems::PreloadStudy;
 
 namespace {
 
-const std::vector<std::string> none;
-
 /// A held damper, so that R = Y, or one with dampings far apart.
 StudyRun draw_run(RandomSystems& draw, double& resonance, double& border) {
   StudyRun run;
@@ -62,13 +60,13 @@ TEST_CASE("Studies of resonances on the corner hold all peaks that the dense sca
     StudyRun run = draw_run(draw, resonance, border);
     run.range.stop_at = {border * (1 - 1e-4), border, border * (1 + 1e-4)};
     CAPTURE(i, describe(run));
-    CHECK(complaints(run, run.range.stop_at) == none);
+    CHECK(complaints(run, run.range.stop_at) == no_complaints);
     run.range.stop_at.clear();
     run.range.from = border;
-    CHECK(complaints(run, {border}) == none);
+    CHECK(complaints(run, {border}) == no_complaints);
     run.range.from = 0.1 * border;
     run.range.to = border;
-    CHECK(complaints(run, {border}) == none);
+    CHECK(complaints(run, {border}) == no_complaints);
   }
 }
 
@@ -80,10 +78,10 @@ TEST_CASE("Studies of windows that end on a resonance hold the highest peak that
     StudyRun run = draw_run(draw, resonance, border);
     run.range.eta_low = resonance;
     CAPTURE(i, describe(run));
-    CHECK(complaints(run, {}) == none);
+    CHECK(complaints(run, {}) == no_complaints);
     run.range.eta_low = 0.5 * resonance;
     run.range.eta_high = resonance;
-    CHECK(complaints(run, {}) == none);
+    CHECK(complaints(run, {}) == no_complaints);
   }
 }
 
@@ -100,7 +98,7 @@ TEST_CASE("A ridge is known at preloads between points of equal eta, and right b
   rods.damper_damping = 0.0018147905254830518;
   rods.base_damping_kind = DampingKind::structural;
   turning.range = {0.089330621448623651, 317.51699654787967, 1.0596549814458507, 7.9332949676802524, {}};
-  CHECK(complaints(turning, {}) == none);
+  CHECK(complaints(turning, {}) == no_complaints);
 
   StudyRun ending;
   SystemParameters& beams = ending.system;
@@ -116,7 +114,7 @@ TEST_CASE("A ridge is known at preloads between points of equal eta, and right b
   beams.fixed_damper = true;
   const double end = 61.599346034807176;
   ending.range = {10.768805510602878, 1802.4853970415195, 1.5101564734778503, 131.45809477815575, {end}};
-  CHECK(complaints(ending, {end}) == none);
+  CHECK(complaints(ending, {end}) == no_complaints);
 }
 
 // R = Y of one mass is highest where m w*^2 = K + k Re f(R/S), 2 zeta K + k Im f = F/R. Im f is largest at R
@@ -177,7 +175,7 @@ TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the mid
     CAPTURE(i, describe(run));
     const PreloadStudy study = problems::study_preload(run.system, run.range);
     REQUIRE(study.optimum);
-    if (i < 6) CHECK(OptimumJudge(run, study, {}).complaints() == none);
+    if (i < 6) CHECK(OptimumJudge(run, study, {}).complaints() == no_complaints);
     const double Y = study.optimum->peak.Y;
     const auto last =
         std::find_if(study.branches.begin(), study.branches.end(),

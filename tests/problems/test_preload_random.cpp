@@ -14,8 +14,6 @@ using problems::PreloadStudy;
 
 namespace {
 
-const std::vector<std::string> none;
-
 /// Decades of preload below the one at which everything sticks, and a window round the base's resonance or
 /// round all of them.
 class RandomStudies {
@@ -83,7 +81,7 @@ TEST_CASE("Studies of random systems hold all peaks that the dense scan finds", 
   for (int i = 0; i < 30; ++i) {
     const StudyRun run = draw.run();
     CAPTURE(i, describe(run));
-    CHECK(complaints(run, 2) == none);
+    CHECK(complaints(run, 2) == no_complaints);
   }
 }
 
@@ -93,7 +91,7 @@ TEST_CASE("The best preloads of random systems are those of the dense scan", "[r
     const StudyRun run = draw.run();
     CAPTURE(i, describe(run));
     const PreloadStudy study = problems::study_preload(run.system, run.range);
-    CHECK(OptimumJudge(run, study, run.range.stop_at).complaints() == none);
+    CHECK(OptimumJudge(run, study, run.range.stop_at).complaints() == no_complaints);
   }
 }
 
@@ -120,7 +118,7 @@ TEST_CASE("The judge sees a branch that is missing, a height that is off, and an
     CHECK_FALSE(judged(wrong));
   }
   REQUIRE(right.optimum);
-  CHECK(OptimumJudge(run, right, {}).complaints() == none);
+  CHECK(OptimumJudge(run, right, {}).complaints() == no_complaints);
   PreloadStudy wrong = right;
   wrong.optimum->peak.preload *= 1 + 1e-7;
   CHECK_FALSE(OptimumJudge(run, wrong, {}).complaints().empty());

@@ -20,8 +20,6 @@ using problems::PreloadStudy;
 
 namespace {
 
-const std::vector<std::string> none;
-
 /// Beams with n = 1, N = 30, F = 1, zeta = 1e-4 and nu = 0.3 [paper, figures 8 to 12].
 SystemParameters beams(double mass_ratio, double frequency_ratio, double slenderness) {
   SystemParameters parameters;
@@ -103,7 +101,7 @@ TEST_CASE("Studies of figures 11 and 12 hold all peaks that the dense scan finds
   judge.judge_at(range.to);
   const std::vector<Peak> rows = judge.global_rows();
   for (std::size_t i = 1; i < rows.size(); i += rows.size() / 8) judge.judge_global(rows[i]);
-  CHECK(judge.complaints() == none);
+  CHECK(judge.complaints() == no_complaints);
 }
 
 TEST_CASE("The best preloads of figures 11 and 12 are those of the dense scan") {
@@ -119,7 +117,7 @@ TEST_CASE("The best preloads of figures 11 and 12 are those of the dense scan") 
   CHECK_THAT(study.optimum->peak.eta, WithinRel(curve.eta, 1e-9));
   CHECK_THAT(study.optimum->low, WithinRel(curve.low, 1e-9));
   CHECK_THAT(study.optimum->high, WithinRel(curve.high, 1e-9));
-  CHECK(OptimumJudge(run, study, {}).complaints() == none);
+  CHECK(OptimumJudge(run, study, {}).complaints() == no_complaints);
 }
 
 TEST_CASE("Peaks of figures 11 and 12 change places and die where the scan says") {
@@ -186,7 +184,7 @@ TEST_CASE("No ridge of the explicit map of figure 8 is above the highest peak kn
   CHECK(history.changes().size() == 1);
   CHECK(history.map().pieces().size() > 20);
   CHECK(judge.overtakings(history.map()).empty());
-  CHECK(judge.complaints() == none);
+  CHECK(judge.complaints() == no_complaints);
 }
 
 TEST_CASE("A peak that sticks at every preload has a flat optimum halfway, on the scale of ln P") {
@@ -197,7 +195,7 @@ TEST_CASE("A peak that sticks at every preload has a flat optimum halfway, on th
   CHECK(study.optimum->low == whole.from);
   CHECK(study.optimum->high == whole.to);
   CHECK(study.optimum->energy == 0);
-  CHECK(OptimumJudge({system, whole}, study, {0.11, 90}).complaints() == none);
+  CHECK(OptimumJudge({system, whole}, study, {0.11, 90}).complaints() == no_complaints);
 }
 
 TEST_CASE("The peak of M* = 50 passes through the corner between slip and stick") {
@@ -205,7 +203,7 @@ TEST_CASE("The peak of M* = 50 passes through the corner between slip and stick"
   range.stop_at = {92.4, 92.48944930, 92.49};
   StudyJudge judge({beams(50, 4, 33.3), range});
   for (const double preload : range.stop_at) judge.judge_at(preload);
-  CHECK(judge.complaints() == none);
+  CHECK(judge.complaints() == no_complaints);
   const std::vector<Peak> corners = rows_of(judge.study(), PeakType::corner);
   REQUIRE(corners.size() == 2);
   CHECK_THAT(corners[0].preload, WithinRel(92.4894487099933, 1e-9));
@@ -220,7 +218,7 @@ TEST_CASE("Sensitivities of peaks in slip, in stick and on the corner are those 
   StudyJudge judge({beams(mass_ratio, 4, 33.3), range});
   judge.judge_sensitivities(preload);
   CHECK(judge.sensitivities() == count);
-  CHECK(judge.complaints() == none);
+  CHECK(judge.complaints() == no_complaints);
 }
 
 TEST_CASE("Sensitivities to preload and force add up to 1, and vanish at a smooth optimum") {

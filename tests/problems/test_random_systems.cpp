@@ -21,7 +21,7 @@ using continuation::BranchPoint;
 using continuation::PointType;
 using problems::ForcedResponse;
 
-struct Run {
+struct Sweep {
   SystemParameters system;
   bool along_preload = false;
   double fixed = 1;  ///< the other parameter
@@ -29,23 +29,23 @@ struct Run {
   double to = 0;
 };
 
-Run over_eta(const SystemParameters& s) {
+Sweep over_eta(const SystemParameters& s) {
   const auto [from, to] = testing::resonance_range(s);
   return {s, false, s.preload, from, to};
 }
 
 /// Over twelve decades of preload.
-Run over_preload(const SystemParameters& s, double eta) { return {s, true, eta, 1e-6, 1e6}; }
+Sweep over_preload(const SystemParameters& s, double eta) { return {s, true, eta, 1e-6, 1e6}; }
 
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : systems_(seed) {}
 
-  Run over_eta() { return ::over_eta(systems_.system()); }
+  Sweep over_eta() { return ::over_eta(systems_.system()); }
 
   /// At any frequency of the range of over_eta().
-  Run over_preload() {
-    const Run range = over_eta();
+  Sweep over_preload() {
+    const Sweep range = over_eta();
     return ::over_preload(range.system, systems_.log_uniform(range.from, range.to));
   }
 
@@ -53,7 +53,7 @@ class Draw {
   testing::RandomSystems systems_;
 };
 
-std::string describe(const Run& run) {
+std::string describe(const Sweep& run) {
   const SystemParameters& s = run.system;
   return fmt::format(
       "{} n={} N={} M*={:.17g} gamma={:.17g} K_FD={:.17g} zeta_B={:.17g} zeta_D={:.17g}; {} = {:.17g}, {} "
@@ -64,7 +64,7 @@ std::string describe(const Run& run) {
       run.along_preload ? "P" : "eta", run.from, run.to);
 }
 
-Branch traced(const Run& run, const ForcedResponse& problem) {
+Branch traced(const Sweep& run, const ForcedResponse& problem) {
   continuation::TraceOptions options;
   options.parameter = run.along_preload ? "P" : "eta";
   options.from = run.from;
@@ -75,7 +75,7 @@ Branch traced(const Run& run, const ForcedResponse& problem) {
   return continuation::trace(problem, guess, options);
 }
 
-dense::Scan scanned(const Run& run) {
+dense::Scan scanned(const Sweep& run) {
   const SystemParameters& s = run.system;
   const dense::Case c{s.model == StructureModel::beams,
                       static_cast<int>(s.wave_number),
@@ -90,7 +90,7 @@ dense::Scan scanned(const Run& run) {
 }
 
 /// A special point of a branch, in the terms of the scan.
-struct Special {
+struct FoundPoint {
   dense::Event::Kind kind;
   double at;
   double log_R;
@@ -98,8 +98,8 @@ struct Special {
   bool matched = false;
 };
 
-std::vector<Special> specials_of(const Run& run, const ForcedResponse& problem, const Branch& branch) {
-  std::vector<Special> specials;
+std::vector<FoundPoint> specials_of(const Sweep& run, const ForcedResponse& problem, const Branch& branch) {
+  std::vector<FoundPoint> specials;
   Vector values;
   for (const BranchPoint& point : branch.points) {
     dense::Event::Kind kind{};
@@ -131,18 +131,19 @@ std::string name(dense::Event::Kind kind) {
 /// the scan's.
 constexpr double shallow = 1e-9;
 
-bool same_point(const dense::Event& event, const Special& s) {
+bool same_point(const dense::Event& event, const FoundPoint& s) {
   const bool flat = event.kind != dense::Event::Kind::crossing && event.depth <= shallow;
   return s.kind == event.kind && std::abs(s.at / event.at - 1) <= (flat ? 1e-3L : 1e-7L) &&
          std::abs(s.log_Y - event.log_Y) <= (flat ? 1e-9L : 1e-8L);
 }
 
 /// What is missing among the special points of a branch and what should not be there, in words.
-std::vector<std::string> differences(const std::vector<dense::Event>& events, std::vector<Special> specials) {
+std::vector<std::string> differences(const std::vector<dense::Event>& events,
+                                     std::vector<FoundPoint> specials) {
   std::vector<std::string> found;
   for (const dense::Event& event : events) {
     const auto match = std::find_if(specials.begin(), specials.end(),
-                                    [&](const Special& s) { return !s.matched && same_point(event, s); });
+                                    [&](const FoundPoint& s) { return !s.matched && same_point(event, s); });
     if (match != specials.end()) {
       match->matched = true;
     } else if (event.kind == dense::Event::Kind::crossing || event.depth > shallow) {
@@ -151,7 +152,7 @@ std::vector<std::string> differences(const std::vector<dense::Event>& events, st
                                   static_cast<double>(event.depth)));
     }
   }
-  for (const Special& s : specials) {
+  for (const FoundPoint& s : specials) {
     if (s.matched) continue;
     found.push_back(
         fmt::format("spurious: {} at {:.15g}, Y = {:.12g}", name(s.kind), s.at, std::exp(s.log_Y)));
@@ -174,9 +175,9 @@ double rounding_of_residual(const dense::Sample& sample) {
 }
 
 /// R and Y of the special points against the scan's own solution there.
-std::vector<std::string> inaccuracies(dense::Scan& scan, const std::vector<Special>& specials) {
+std::vector<std::string> inaccuracies(dense::Scan& scan, const std::vector<FoundPoint>& specials) {
   std::vector<std::string> found;
-  for (const Special& s : specials) {
+  for (const FoundPoint& s : specials) {
     const dense::Sample own = scan.at(std::log(static_cast<dense::Real>(s.at)));
     const double allowed = 1e-8 + rounding_of_response(own);
     if (std::abs(own.log_R - s.log_R) <= allowed && std::abs(own.log_Y - s.log_Y) <= 1e-8L) continue;
@@ -188,7 +189,7 @@ std::vector<std::string> inaccuracies(dense::Scan& scan, const std::vector<Speci
 }
 
 /// What keeps the branch from being complete, solved and without folds, as that of any passive contact.
-std::vector<std::string> defects(const Run& run, const Branch& branch, dense::Scan& scan) {
+std::vector<std::string> defects(const Sweep& run, const Branch& branch, dense::Scan& scan) {
   if (!branch.complete()) {
     return {fmt::format("stopped: {} ({})", to_string(branch.stop), branch.explanation)};
   }
@@ -208,11 +209,11 @@ std::vector<std::string> defects(const Run& run, const Branch& branch, dense::Sc
   return found;
 }
 
-std::vector<std::string> complaints(const Run& run) {
+std::vector<std::string> complaints(const Sweep& run) {
   const ForcedResponse problem(build_system(run.system));
   const Branch branch = traced(run, problem);
   dense::Scan scan = scanned(run);
-  const std::vector<Special> specials = specials_of(run, problem, branch);
+  const std::vector<FoundPoint> specials = specials_of(run, problem, branch);
   std::vector<std::string> found = defects(run, branch, scan);
   for (std::string& text : differences(scan.events(), specials)) found.push_back(std::move(text));
   for (std::string& text : inaccuracies(scan, specials)) found.push_back(std::move(text));
@@ -241,7 +242,7 @@ SystemParameters system(StructureModel model, Index n, Index elements, double ma
 TEST_CASE("Branches over frequency of random systems hold what a dense scan finds", "[random]") {
   Draw draw(20080130);
   for (int i = 0; i < 200; ++i) {
-    const Run run = draw.over_eta();
+    const Sweep run = draw.over_eta();
     CAPTURE(i, describe(run));
     CHECK(complaints(run) == std::vector<std::string>{});
   }
@@ -250,7 +251,7 @@ TEST_CASE("Branches over frequency of random systems hold what a dense scan find
 TEST_CASE("Branches over preload of random systems hold what a dense scan finds", "[random]") {
   Draw draw(11005);
   for (int i = 0; i < 40; ++i) {
-    const Run run = draw.over_preload();
+    const Sweep run = draw.over_preload();
     CAPTURE(i, describe(run));
     CHECK(complaints(run) == std::vector<std::string>{});
   }
@@ -259,7 +260,7 @@ TEST_CASE("Branches over preload of random systems hold what a dense scan finds"
 TEST_CASE("Branches of systems with crowded special points hold what a dense scan finds", "[random]") {
   constexpr auto rods = StructureModel::rods;
   constexpr auto beams = StructureModel::beams;
-  const Run run = GENERATE(values<Run>({
+  const Sweep run = GENERATE(values<Sweep>({
       // a peak and a trough within one step
       over_eta(system(rods, 1, 60, 128.91801899840473, 3.7984944733185064, 816.17087308602504,
                       0.013396345133150436, 8.2752239299206803e-05, 0.018261121361845441)),

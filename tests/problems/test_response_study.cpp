@@ -37,7 +37,7 @@ SystemParameters rods(int highest) {
   return system;
 }
 
-PreloadRange window(double low = 0.5, double high = 6, double from = 0.1, double to = 100) {
+PreloadRange range_with(double low = 0.5, double high = 6, double from = 0.1, double to = 100) {
   return {from, to, low, high, {}};
 }
 
@@ -47,7 +47,7 @@ ResponsePeaks peaks_of(std::shared_ptr<const HarmonicResponse> problem, const Pr
       {std::move(problem), "eta", "P", range.eta_low, range.eta_high, "Y", std::move(start), {}});
 }
 
-PreloadStudy study_of(const SystemParameters& system, const PreloadRange& range) {
+PreloadStudy response_study_of(const SystemParameters& system, const PreloadRange& range) {
   const HarmonicSystem built = build_harmonic_system(system);
   const StudiedContacts contacts{built.contacts, static_cast<double>(system.elements), system.preload_growth,
                                  true};
@@ -88,7 +88,7 @@ TEST_CASE("Figure 8 has its best preload in three and five harmonics where an ex
        {Known{1, 1.04129171, 0.00715396993, 3.82092304}, Known{3, 1.04149643, 0.00887593047, 3.85595876},
         Known{5, 1.03409240, 0.00852582609, 3.84997249}}) {
     INFO("harmonics up to " << known.highest);
-    const Optimum optimum = *study_of(beams(known.highest), window()).optimum;
+    const Optimum optimum = *response_study_of(beams(known.highest), range_with()).optimum;
     CHECK(optimum.kind == OptimumKind::smooth);
     CHECK_THAT(optimum.peak.preload, WithinRel(known.P, 1e-8));  // the digits given
     CHECK_THAT(optimum.peak.Y, WithinRel(known.Y, 1e-9));
@@ -103,9 +103,9 @@ TEST_CASE("In one harmonic whole responses have the best preloads that closed sl
     RandomSystems random(static_cast<std::uint64_t>(seed));
     const SystemParameters system = random.system();
     const auto [low, high] = testing::resonance_range(system);
-    const PreloadRange range = window(low, high, 0.01, 100);
+    const PreloadRange range = range_with(low, high, 0.01, 100);
     const Optimum closed = *study_preload(system, range).optimum;
-    const Optimum whole = *study_of(system, range).optimum;
+    const Optimum whole = *response_study_of(system, range).optimum;
     CHECK(whole.kind == closed.kind);
     CHECK_THAT(whole.peak.preload, WithinRel(closed.peak.preload, 1e-6));
     CHECK_THAT(whole.peak.Y, WithinRel(closed.peak.Y, 1e-8));
@@ -118,8 +118,8 @@ TEST_CASE("In one harmonic whole responses have the best preloads that closed sl
 }
 
 TEST_CASE("The rods' best preload in nine harmonics is an exchange below which no dense scan comes") {
-  const PreloadRange range = window();
-  const PreloadStudy study = study_of(rods(9), range);
+  const PreloadRange range = range_with();
+  const PreloadStudy study = response_study_of(rods(9), range);
   const Optimum& optimum = *study.optimum;
   CHECK(optimum.kind == OptimumKind::exchange);
   REQUIRE(optimum.other);
@@ -137,7 +137,7 @@ TEST_CASE("The rods' best preload in nine harmonics is an exchange below which n
 }
 
 TEST_CASE("Slopes of peaks over the preload are those of differences, on corners as well") {
-  const PreloadRange range = window();
+  const PreloadRange range = range_with();
   ResponsePeaks peaks = peaks_of(std::make_shared<HarmonicResponse>(build_harmonic_system(rods(9))), range);
   int corners = 0;
   for (const double preload : {0.3, 0.66, 0.69783058, 0.80584219}) {
@@ -162,8 +162,8 @@ TEST_CASE("Slopes of peaks over the preload are those of differences, on corners
 TEST_CASE("A preload that grows with the speed has its best value where the load is that of a constant one") {
   SystemParameters system = beams(3);
   system.preload_growth = 0.05;
-  const Optimum constant = *study_of(beams(3), window()).optimum;
-  const Optimum grown = *study_of(system, window()).optimum;
+  const Optimum constant = *response_study_of(beams(3), range_with()).optimum;
+  const Optimum grown = *response_study_of(system, range_with()).optimum;
   // At the peak dY/deta = dY/dS = 0, so that it stands where both loads are the same.
   CHECK_THAT(grown.peak.eta, WithinRel(constant.peak.eta, 1e-8));
   CHECK_THAT(grown.peak.Y, WithinRel(constant.peak.Y, 1e-9));
@@ -175,7 +175,7 @@ TEST_CASE("The best preload of a base with cubic springs is below what responses
   system.cubic_stiffness = 2e5;
   const FrictionSystem built = build_system(system);
   const auto problem = std::make_shared<CubicResponse>(built);
-  const PreloadRange range = window();
+  const PreloadRange range = range_with();
   ResponsePeaks peaks(
       {problem, "eta", "P", range.eta_low, range.eta_high, "Y", problem->guess(range.eta_low, range.to), {}});
   const PreloadStudy study =

@@ -31,7 +31,7 @@ std::string in_full(const std::string& text) {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-Rows of_type(const Rows& table, const std::string& type) {
+Rows rows_of_type(const Rows& table, const std::string& type) {
   Rows kept;
   std::copy_if(table.begin(), table.end(), std::back_inserter(kept),
                [&](const auto& row) { return row[2] == type; });
@@ -144,8 +144,8 @@ TEST_CASE("Sparse solves at each eta give every column that the modes of a secto
   const Rows full = branches_csv(read_case(folder.write("full.toml", in_full(text))));
   REQUIRE(full.front() == modal.front());
   for (const std::string type : {"user", "switch", "peak", "trough"}) {
-    const Rows found = of_type(full, type);
-    const Rows expected = of_type(modal, type);
+    const Rows found = rows_of_type(full, type);
+    const Rows expected = rows_of_type(modal, type);
     REQUIRE(found.size() == expected.size());
     CHECK((type != "user" || found.size() == 7));
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -173,9 +173,9 @@ TEST_CASE("Damping that is no sum of mass and stiffness acts as a dense balance 
       read_case(folder.write("case.toml", in_full(pair.system(folder, m)) +
                                               "[branch]\nparameter = \"eta\"\nfrom = 100\nto = 260\n"
                                               "[continuation]\nstop_at = [150, 180, 190, 200, 230]\n")));
-  const Rows found = of_type(rows, "user");
+  const Rows found = rows_of_type(rows, "user");
   REQUIRE(found.size() == 5);
-  CHECK(of_type(rows, "switch").size() >= 2);
+  CHECK(rows_of_type(rows, "switch").size() >= 2);
   for (const auto& row : found) {
     const auto values = numbers(rows, row);
     const double eta = values.at("eta");
@@ -223,8 +223,8 @@ TEST_CASE("Contacts to ground rub on a damper that is held, by modes and by spar
   const Rows modal = branches_csv(read_case(folder.write("modes.toml", text)));
   const Rows full = branches_csv(read_case(folder.write("full.toml", in_full(text))));
   for (const std::string type : {"user", "peak"}) {
-    const Rows found = of_type(full, type);
-    const Rows expected = of_type(modal, type);
+    const Rows found = rows_of_type(full, type);
+    const Rows expected = rows_of_type(modal, type);
     REQUIRE(!expected.empty());
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

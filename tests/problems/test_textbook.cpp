@@ -19,7 +19,7 @@ using namespace arcslip::testing;
 namespace {
 
 // The published values have ten to twelve digits, of numbers down to 0.1.
-constexpr double published = 1e-9;
+constexpr double published_textbook = 1e-9;
 
 /// What the engine's points are to satisfy by their definition.
 constexpr double defining = 1e-10;
@@ -48,13 +48,14 @@ void check_points(const Problem& problem, Index active, const std::vector<Branch
   for (std::size_t i = 0; i < found.size(); ++i) {
     CAPTURE(i, expected[i].parameter);
     CHECK(found[i].type == expected[i].type);
-    CHECK_THAT(found[i].parameters(active), WithinRel(expected[i].parameter, published));
+    CHECK_THAT(found[i].parameters(active), WithinRel(expected[i].parameter, published_textbook));
     for (std::size_t k = 0; k < expected[i].unknowns.size(); ++k) {
       const double value = expected[i].unknowns[k];
       CHECK_THAT(found[i].unknowns(static_cast<Index>(k)),
-                 WithinRel(value, published) || WithinAbs(value, published));
+                 WithinRel(value, published_textbook) || WithinAbs(value, published_textbook));
     }
-    if (expected[i].omega > 0) CHECK_THAT(omega_of(found[i]), WithinRel(expected[i].omega, published));
+    if (expected[i].omega > 0)
+      CHECK_THAT(omega_of(found[i]), WithinRel(expected[i].omega, published_textbook));
     CHECK(defining_residual(problem, active, found[i]) <= defining);
   }
 }
@@ -174,8 +175,8 @@ TEST_CASE("The stirred tank's folds are those of the closed form at any heat of 
   for (const int side : {-1, 1}) {
     const double u1 = 0.5 + side * std::sqrt(0.25 - 1 / B);
     const BranchPoint& fold = folds[side < 0 ? 0 : 1];
-    CHECK_THAT(fold.unknowns(0), WithinRel(u1, published));
-    CHECK_THAT(fold.parameters(0), WithinRel(u1 / (1 - u1) * std::exp(-B * u1), published));
+    CHECK_THAT(fold.unknowns(0), WithinRel(u1, published_textbook));
+    CHECK_THAT(fold.parameters(0), WithinRel(u1 / (1 - u1) * std::exp(-B * u1), published_textbook));
   }
 }
 
@@ -231,7 +232,8 @@ TEST_CASE("The predator and its prey have their published points on three branch
   const BranchPoint first = of_type(empty, PointType::branch_point)[0];
   const Branch alone = switched(prey, first, Eigen::Vector2d(1, 0), options);
   CHECK(alone.stop == Stop::left_range);
-  CHECK_THAT(alone.points.back().unknowns(0), WithinRel(1.0, published));  // unfished prey fills its place
+  CHECK_THAT(alone.points.back().unknowns(0),
+             WithinRel(1.0, published_textbook));  // unfished prey fills its place
   const double meeting = 2.0 / 3 / (1 - std::exp(-5.0 / 3));
   check_points(*prey.problem, 0, special_points(alone),
                {{PointType::branch_point, meeting, {1.0 / 3, 0}},
@@ -240,7 +242,7 @@ TEST_CASE("The predator and its prey have their published points on three branch
   const BranchPoint second = of_type(alone, PointType::branch_point)[0];
   const Branch together = switched(prey, second, Eigen::Vector2d(0, 1), options);
   CHECK(together.stop == Stop::left_range);
-  CHECK_THAT(together.points.back().unknowns(1), WithinRel(2.0, published));
+  CHECK_THAT(together.points.back().unknowns(1), WithinRel(2.0, published_textbook));
   const double period = 10.38916998420;
   check_points(*prey.problem, 0, special_points(together),
                {{PointType::hopf, 0.671593847479, {1.0 / 3, 0.365761536}, 2 * M_PI / period}});
@@ -261,15 +263,15 @@ TEST_CASE("The function of Freudenstein and Roth has its published folds and ext
   REQUIRE(troughs.size() == 1);
   REQUIRE(peaks.size() == 1);
   const auto check_turn = [](const BranchPoint& point, double x1, double x2, double x3) {
-    CHECK_THAT(point.unknowns(0), WithinRel(x1, published));
-    CHECK_THAT(point.unknowns(1), WithinRel(x2, published));
-    CHECK_THAT(point.parameters(0), WithinRel(x3, published));
+    CHECK_THAT(point.unknowns(0), WithinRel(x1, published_textbook));
+    CHECK_THAT(point.unknowns(1), WithinRel(x2, published_textbook));
+    CHECK_THAT(point.parameters(0), WithinRel(x3, published_textbook));
   };
   check_turn(troughs[0], 14.2830912501, -1.7413768922, 0.2585778714);
   check_turn(peaks[0], 61.6693625811, 1.9838011346, -0.6638797422);
   const Vector end = branch.points.back().unknowns;
-  CHECK_THAT(end(0), WithinRel(5.0, published));
-  CHECK_THAT(end(1), WithinRel(4.0, published));
+  CHECK_THAT(end(0), WithinRel(5.0, published_textbook));
+  CHECK_THAT(end(1), WithinRel(4.0, published_textbook));
 }
 
 TEST_CASE("The extended Lorenz model has its published Hopf points and fold", "[library]") {
@@ -320,10 +322,10 @@ TEST_CASE("The cusp's folds are a curve on 27 mu^2 = 4 lambda^3 with the cusp at
   }
   const auto tips = of_type(curve, PointType::cusp);
   REQUIRE(tips.size() == 1);
-  CHECK_THAT(tips[0].unknowns(0), WithinAbs(0, published));
-  CHECK_THAT(tips[0].unknowns(1), WithinAbs(0, published));
-  CHECK_THAT(tips[0].parameters(0), WithinAbs(0, published));
-  CHECK_THAT(curve.points.back().unknowns(1), WithinRel(folds[1].parameters(0), published));
+  CHECK_THAT(tips[0].unknowns(0), WithinAbs(0, published_textbook));
+  CHECK_THAT(tips[0].unknowns(1), WithinAbs(0, published_textbook));
+  CHECK_THAT(tips[0].parameters(0), WithinAbs(0, published_textbook));
+  CHECK_THAT(curve.points.back().unknowns(1), WithinRel(folds[1].parameters(0), published_textbook));
 }
 
 TEST_CASE("The extended Lorenz model's curve of folds has its published points of codimension two",
@@ -341,13 +343,14 @@ TEST_CASE("The extended Lorenz model's curve of folds has its published points o
   REQUIRE(curve.stop == Stop::requested);
   const auto takens = of_type(curve, PointType::bogdanov_takens);
   REQUIRE(takens.size() == 1);
-  CHECK_THAT(takens[0].unknowns(4), WithinRel(1.446716701115, published));
-  CHECK_THAT(takens[0].parameters(0), WithinRel(side * 0.020940169683, published));
+  CHECK_THAT(takens[0].unknowns(4), WithinRel(1.446716701115, published_textbook));
+  CHECK_THAT(takens[0].parameters(0), WithinRel(side * 0.020940169683, published_textbook));
   const auto hopf = of_type(curve, PointType::zero_hopf);
   REQUIRE(hopf.size() == 2);
   for (const std::size_t i : {0, 1}) {
-    CHECK_THAT(hopf[i].unknowns(4), WithinRel(1.283419296138, published));
-    CHECK_THAT(hopf[i].parameters(0), WithinRel((i == 0 ? side : -side) * 1.265408341e-4, published));
-    CHECK_THAT(omega_of(hopf[i]), WithinRel(1.0990516362, published));
+    CHECK_THAT(hopf[i].unknowns(4), WithinRel(1.283419296138, published_textbook));
+    CHECK_THAT(hopf[i].parameters(0),
+               WithinRel((i == 0 ? side : -side) * 1.265408341e-4, published_textbook));
+    CHECK_THAT(omega_of(hopf[i]), WithinRel(1.0990516362, published_textbook));
   }
 }

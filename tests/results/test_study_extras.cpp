@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "case_texts.hpp"
 #include "catch.hpp"
 #include "mistakes.hpp"
 #include "places.hpp"
@@ -39,11 +40,6 @@ to = 0.02
 eta = [1.5, 2.5]
 )";
 
-StudyCase read_text(const std::string& text, const std::vector<std::string>& settings = {}) {
-  const TemporaryFolder folder;
-  return read_study(folder.write("case.toml", text), settings);
-}
-
 std::vector<std::map<std::string, double>> numbers_in(const std::string& path) {
   const auto cells = read_csv(path);
   std::vector<std::map<std::string, double>> rows;
@@ -65,9 +61,9 @@ constexpr double rounding = 1e-13;
 
 TEST_CASE("Scatter is read with its defaults", "[study]") {
   using Kind = problems::Scatter::Kind;
-  const StudyCase study = read_text(study_text +
-                                    "[study.uncertain]\nmu = { lognormal = 0.2 }\n"
-                                    "preload = { uniform = [0.8, 1.25] }\n");
+  const StudyCase study = case_texts::read_study_text(study_text +
+                                                      "[study.uncertain]\nmu = { lognormal = 0.2 }\n"
+                                                      "preload = { uniform = [0.8, 1.25] }\n");
   REQUIRE(study.uncertain);
   CHECK(study.uncertain->friction.kind == Kind::lognormal);
   CHECK(study.uncertain->friction.deviation == 0.2);
@@ -79,13 +75,13 @@ TEST_CASE("Scatter is read with its defaults", "[study]") {
   CHECK(resolved["samples"] == 4000);
   CHECK(resolved["seed"] == 1);
   CHECK(resolved["quantiles"] == std::vector<double>{0.05, 0.5, 0.95});
-  const StudyCase other = read_text(scattered_text + "seed = 7\nquantiles = [0.1, 0.99]\n",
-                                    {"study.uncertain.force={ lognormal = 0.1 }"});
+  const StudyCase other = case_texts::read_study_text(scattered_text + "seed = 7\nquantiles = [0.1, 0.99]\n",
+                                                      {"study.uncertain.force={ lognormal = 0.1 }"});
   CHECK(other.uncertain->samples == 200);
   CHECK(other.uncertain->seed == 7);
   CHECK(other.uncertain->quantiles == std::vector<double>{0.1, 0.99});
   CHECK(other.uncertain->force.deviation == 0.1);
-  CHECK_FALSE(read_text(study_text).uncertain);
+  CHECK_FALSE(case_texts::read_study_text(study_text).uncertain);
 }
 
 TEST_CASE("Wrong scatter is refused in one line with place, key, what was expected and given", "[study]") {
@@ -121,12 +117,12 @@ TEST_CASE("Wrong scatter is refused in one line with place, key, what was expect
   };
   for (const Mistake& mistake : mistakes) {
     const std::string text = replaced(scattered_text, mistake.from, mistake.to);
-    check_message(error_of([&] { read_text(text); }), mistake);
+    check_message(error_of([&] { case_texts::read_study_text(text); }), mistake);
   }
 }
 
 TEST_CASE("Designs of a study may be given in SI units, with lists and ranges of dotted keys", "[study]") {
-  const StudyCase study = read_text(
+  const StudyCase study = case_texts::read_study_text(
       rings_text +
       "for_each = { damper.width = { from = 0.05, to = 0.1, count = 2 }, \"base.height\" = [0.04, 0.08] }\n");
   CHECK(study.is_physical);
@@ -140,15 +136,16 @@ TEST_CASE("Designs of a study may be given in SI units, with lists and ranges of
   CHECK(study.design(3).geometry->base.height == 0.08);
   CHECK(describe(study.design(1).values) == "damper.width = 0.05, base.height = 0.08");
 
-  const StudyCase listed = read_text(rings_text +
-                                     "for_each = [{ damper.width = 0.05, circumference = 2 },\n"
-                                     "            { circumference = 1, damper.width = 0.1 }]\n");
+  const StudyCase listed =
+      case_texts::read_study_text(rings_text +
+                                  "for_each = [{ damper.width = 0.05, circumference = 2 },\n"
+                                  "            { circumference = 1, damper.width = 0.1 }]\n");
   CHECK(listed.keys == std::vector<std::string>{"damper.width", "circumference"});
   CHECK_THAT(listed.design(1).system.mass_ratio, WithinRel(8, rounding));
   CHECK(listed.design(1).geometry->circumference == 1);
 
   const auto refused = [](const std::string& for_each) {
-    return error_of([&] { read_text(rings_text + "for_each = " + for_each + "\n"); });
+    return error_of([&] { case_texts::read_study_text(rings_text + "for_each = " + for_each + "\n"); });
   };
   CHECK_THAT(refused("{ damper.with = [1] }"),
              ContainsSubstring("study.for_each.damper.with: unknown key; did you mean 'damper.width'?"));

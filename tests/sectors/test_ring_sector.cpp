@@ -6,7 +6,6 @@
 #include "sector_frequencies.hpp"
 
 using namespace arcslip;
-using std::numbers::pi;
 using testing::squared_frequencies;
 
 namespace {

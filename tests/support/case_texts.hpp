@@ -3,6 +3,7 @@
 // A case file's text and what is read of it, or told of a mistake in it.
 
 #include "arcslip/cases/case_file.hpp"
+#include "arcslip/cases/study_case.hpp"
 #include "mistakes.hpp"
 #include "temporary_folder.hpp"
 
@@ -30,6 +31,11 @@ to = 120.0
 inline Case read_text(const std::string& text, const std::vector<std::string>& settings = {}) {
   const TemporaryFolder folder;
   return read_case(folder.write("case.toml", text), settings);
+}
+
+inline StudyCase read_study_text(const std::string& text, const std::vector<std::string>& settings = {}) {
+  const TemporaryFolder folder;
+  return read_study(folder.write("case.toml", text), settings);
 }
 
 inline std::string error_of(const std::string& text, const std::vector<std::string>& settings = {}) {

@@ -6,6 +6,8 @@
 
 namespace arcslip::testing {
 
+inline const std::vector<std::string> no_complaints;
+
 class OptimumJudge {
  public:
   using Real = dense::Real;

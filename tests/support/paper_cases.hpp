@@ -35,17 +35,24 @@ inline continuation::TraceOptions over_eta(double from, double to) {
   return options;
 }
 
-inline continuation::Branch trace_over_eta(const problems::ForcedResponse& problem, double preload,
-                                           double from, double to) {
+/// The branch of forced vibrations, with one harmonic or more.
+template <class Problem>
+continuation::Branch trace_over_eta(const Problem& problem, double preload, double from, double to) {
   return continuation::trace(problem, problem.guess(from, preload), over_eta(from, to));
+}
+
+/// The observables at a point.
+template <class Problem>
+Vector values_at(const Problem& problem, const continuation::BranchPoint& point) {
+  Vector values;
+  problem.observe(point.unknowns, point.parameters, point.regime, values);
+  return values;
 }
 
 /// An observable of ForcedResponse at a point.
 inline double quantity(const problems::ForcedResponse& problem, const continuation::BranchPoint& point,
                        problems::ForcedResponse::Quantity which) {
-  Vector values;
-  problem.observe(point.unknowns, point.parameters, point.regime, values);
-  return values(which);
+  return values_at(problem, point)(which);
 }
 
 }  // namespace arcslip::testing

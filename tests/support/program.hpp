@@ -22,6 +22,11 @@ inline std::string case_named(const std::string& name) {
   return source_folder() + "/problems/" + name + ".toml";
 }
 
+inline const std::string figure_8_case = case_named("figure_8");
+
+/// What `run` leaves in a folder.
+inline const std::set<std::string> run_results = {"branches.csv", "curves.csv", "summary.json"};
+
 struct Outcome {
   int status;
   std::string out;

@@ -35,6 +35,31 @@ inline SystemParameters small_rods(Index nodes = 7) {
   return s;
 }
 
+/// A ring under its driving force.
+struct RingCase {
+  SystemParameters system;
+  double eta;
+  double preload;
+};
+
+/// The same with its damper fixed where no contact is.
+inline SystemParameters held(SystemParameters s) {
+  s.fixed_damper = true;
+  return s;
+}
+
+inline SystemParameters driven(SystemParameters s, double base_damping) {
+  s.base_damping = base_damping;
+  return s;
+}
+
+/// Positions, velocities and sliders in one vector.
+inline Vector stacked(const RingState& state) {
+  Vector all(2 * state.position.size() + state.slider.size());
+  all << state.position, state.velocity, state.slider;
+  return all;
+}
+
 /// r and the friction force of the one-harmonic response, by bisection of |r (1 + k phi c)| = |y_0|.
 inline ContactHarmonic one_harmonic(const SystemParameters& parameters, double eta, double preload) {
   const FrictionSystem system = build_system(parameters);

@@ -17,34 +17,18 @@ using problems::FloquetResponse;
 
 namespace {
 
-struct Forced {
-  SystemParameters system;
-  double eta;
-  double preload;
-};
-
-SystemParameters driven(SystemParameters s, double base_damping) {
-  s.base_damping = base_damping;
-  return s;
-}
-
-SystemParameters held(SystemParameters s) {
-  s.fixed_damper = true;
-  return s;
-}
-
 FloquetResponse response(SystemParameters system, int highest) {
   system.harmonics = odd_up_to(highest);
   return {build_harmonic_system(system), ring_waves(system, highest + 1)};
 }
 
-std::vector<RingDisturbances::Disturbance> exponents(const Forced& c, int highest) {
+std::vector<RingDisturbances::Disturbance> exponents(const RingCase& c, int highest) {
   const FloquetResponse problem = response(c.system, highest);
   const continuation::Guess at = problem.guess(c.eta, c.preload);
   return problem.disturbances(at.unknowns, at.parameters, at.regime);
 }
 
-RingStability in_time(const Forced& c) {
+RingStability in_time(const RingCase& c) {
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(c.system, c.eta, c.preload)}));
   REQUIRE(settled.settled);
@@ -52,7 +36,7 @@ RingStability in_time(const Forced& c) {
 }
 
 /// The multipliers nu of the ring in time, of these exponents.
-ComplexVector turned(const Forced& c, const std::vector<RingDisturbances::Disturbance>& found) {
+ComplexVector turned(const RingCase& c, const std::vector<RingDisturbances::Disturbance>& found) {
   const auto nodes = static_cast<double>(c.system.elements);
   const double part = 2 * std::numbers::pi / nodes;
   ComplexVector nu(std::ssize(found));
@@ -65,7 +49,7 @@ ComplexVector turned(const Forced& c, const std::vector<RingDisturbances::Distur
 }
 
 /// The largest distance of a multiplier nu of the ring, above `modulus`, from the nearest of the exponents'.
-double worst(const Forced& c, const RingStability& ring, int highest, double modulus) {
+double worst(const RingCase& c, const RingStability& ring, int highest, double modulus) {
   const ComplexVector nu = turned(c, exponents(c, highest));
   double most = 0;
   for (const Complex& wanted : ring.turned) {
@@ -80,7 +64,7 @@ ComplexVector sigma_of(const std::vector<RingDisturbances::Disturbance>& found) 
   return sigma;
 }
 
-double growth(const Forced& c, const ComplexVector& sigma) {
+double growth(const RingCase& c, const ComplexVector& sigma) {
   return std::exp(2 * std::numbers::pi / c.eta * sigma.real().maxCoeff());
 }
 
@@ -90,7 +74,7 @@ int unstable(const ComplexVector& sigma) { return static_cast<int>((sigma.real()
 
 TEST_CASE("Exponents of disturbances tend to the multipliers of the ring in time", "[stability]") {
   struct Tendency {
-    Forced at;
+    RingCase at;
     double three, nine;
   };
   // What a truncated balance leaves out falls as 1/h^3 in the motion, and with it the multipliers' error.
@@ -106,8 +90,9 @@ TEST_CASE("Exponents of disturbances tend to the multipliers of the ring in time
 }
 
 TEST_CASE("Without slip the exponents are those of the ring to rounding", "[stability]") {
-  const Forced c = GENERATE(Forced{small_beams(5), 3.7, 10.0}, Forced{small_beams(4), 3.7, 10.0},
-                            Forced{small_rods(7), 2.3, 10.0}, Forced{driven(small_rods(5), -0.1), 1.1, 10.0});
+  const RingCase c =
+      GENERATE(RingCase{small_beams(5), 3.7, 10.0}, RingCase{small_beams(4), 3.7, 10.0},
+               RingCase{small_rods(7), 2.3, 10.0}, RingCase{driven(small_rods(5), -0.1), 1.1, 10.0});
   CHECK(worst(c, in_time(c), 7, 0) < 1e-9);
 }
 
@@ -117,7 +102,7 @@ TEST_CASE("Disturbances grow as in the ring in time, and are as many", "[stabili
   rods.frequency_ratio = 1.5;
   const auto [eta, expected] =
       GENERATE(table<double, int>({{1.4, 4}, {1.7, 8}, {1.9, 4}, {2.2, 0}, {3.0, 0}}));
-  const Forced c{rods, eta, 0.03};
+  const RingCase c{rods, eta, 0.03};
   const ComplexVector sigma = sigma_of(exponents(c, 1));
   const RingStability ring = in_time(c);
   CAPTURE(eta);
@@ -127,9 +112,9 @@ TEST_CASE("Disturbances grow as in the ring in time, and are as many", "[stabili
 }
 
 TEST_CASE("A passive response is stable however many harmonics are kept", "[stability]") {
-  const Forced c = GENERATE(Forced{small_beams(), 3.7, 0.03}, Forced{small_beams(), 3.7, 1e-3},
-                            Forced{small_rods(6), 1.4, 0.01}, Forced{small_rods(), 2.3, 0.03},
-                            Forced{held(small_rods()), 2.3, 0.3});
+  const RingCase c = GENERATE(RingCase{small_beams(), 3.7, 0.03}, RingCase{small_beams(), 3.7, 1e-3},
+                              RingCase{small_rods(6), 1.4, 0.01}, RingCase{small_rods(), 2.3, 0.03},
+                              RingCase{held(small_rods()), 2.3, 0.3});
   CHECK(unstable(sigma_of(exponents(c, GENERATE(1, 5)))) == 0);
 }
 
@@ -144,7 +129,7 @@ TEST_CASE("The cost of exponents and their values do not depend on the number of
 }
 
 TEST_CASE("A contact that is cut in two has the exponents of the whole", "[stability]") {
-  const Forced c{small_rods(5), 2.3, 0.03};
+  const RingCase c{small_rods(5), 2.3, 0.03};
   SystemParameters s = c.system;
   const int highest = GENERATE(1, 3);  // of more waves than these hold, and of fewer
   s.harmonics = odd_up_to(highest);
@@ -208,7 +193,7 @@ TEST_CASE("The case of a response that friction holds loses its stability where 
     if (outside) CHECK(point.unstable == 0);
   }
   const BranchPoint peak = points(run.traced[0], PointType::peak).at(0);
-  const Forced c{run.input.branches.front().problem.system, peak.parameters(0), 0.3};
+  const RingCase c{run.input.branches.front().problem.system, peak.parameters(0), 0.3};
   CHECK_THAT(growth(c, peak.eigenvalues), WithinAbs(1.066, 5e-4));
   CHECK_THAT(in_time(c).growth(), WithinAbs(1.066, 5e-4));
 }

@@ -10,12 +10,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-Vector stacked(const RingState& state) {
-  Vector all(2 * state.position.size() + state.slider.size());
-  all << state.position, state.velocity, state.slider;
-  return all;
-}
-
 RingState shifted(RingState state, Index column, double step) {
   const Index coordinates = state.position.size();
   if (column < coordinates) {
@@ -28,19 +22,13 @@ RingState shifted(RingState state, Index column, double step) {
   return state;
 }
 
-struct Case {
-  SystemParameters system;
-  double eta;
-  double preload;
-};
-
 }  // namespace
 
 TEST_CASE("The derivative of the turned flow is that of finite differences", "[ring]") {
   SystemParameters held = small_rods();
   held.fixed_damper = true;
-  const Case c =
-      GENERATE_COPY(Case{small_beams(), 3.7, 0.03}, Case{small_rods(), 2.3, 0.03}, Case{held, 2.3, 0.1});
+  const RingCase c = GENERATE_COPY(RingCase{small_beams(), 3.7, 0.03}, RingCase{small_rods(), 2.3, 0.03},
+                                   RingCase{held, 2.3, 0.1});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   RingState start = motion.travelling({one_harmonic(c.system, c.eta, c.preload)});
   motion.advance(start, 0.37 * motion.period());  // no settled response: any state will do
@@ -64,7 +52,7 @@ TEST_CASE("The derivative of the turned flow is that of finite differences", "[r
 }
 
 TEST_CASE("Newton's method and a long march from rest find the same response", "[ring]") {
-  const Case c = GENERATE(Case{small_rods(), 2.3, 0.03}, Case{small_beams(), 3.7, 0.1});
+  const RingCase c = GENERATE(RingCase{small_rods(), 2.3, 0.03}, RingCase{small_beams(), 3.7, 0.1});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const SettledMotion march = march_until_settled(motion, motion.at_rest(), 1e-12, 2000);
   REQUIRE(march.settled);

@@ -14,32 +14,10 @@ using namespace arcslip::testing;
 
 namespace {
 
-struct Case {
-  SystemParameters system;
-  double eta;
-  double preload;
-};
-
-SystemParameters held(SystemParameters s) {
-  s.fixed_damper = true;
-  return s;
-}
-
-SystemParameters driven(SystemParameters s, double base_damping) {
-  s.base_damping = base_damping;
-  return s;
-}
-
-RingState settled_state(RingMotion& motion, const Case& c) {
+RingState settled_state(RingMotion& motion, const RingCase& c) {
   const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(c.system, c.eta, c.preload)}));
   REQUIRE(settled.settled);
   return settled.state;
-}
-
-Vector stacked(const RingState& state) {
-  Vector all(2 * state.position.size() + state.slider.size());
-  all << state.position, state.velocity, state.slider;
-  return all;
 }
 
 /// Central differences of the marched flow over one period. Steps of velocities are w* as long.
@@ -126,11 +104,11 @@ ComplexVector sticking_multipliers(const SystemParameters& s, double eta) {
 }  // namespace
 
 TEST_CASE("Multipliers of the turned flow are those of a brute-force monodromy", "[ring]") {
-  const Case c = GENERATE(Case{small_beams(4), 3.7, 0.03},                 //
-                          Case{small_rods(5), 2.3, 0.03},                  // two lengths of the wave
-                          Case{held(small_rods(5)), 2.3, 0.1},             //
-                          Case{driven(small_rods(5), -0.002), 2.3, 0.03},  // friction holds it
-                          Case{driven(small_rods(5), -0.02), 2.3, 0.03});  // it does not
+  const RingCase c = GENERATE(RingCase{small_beams(4), 3.7, 0.03},                 //
+                              RingCase{small_rods(5), 2.3, 0.03},                  // two lengths of the wave
+                              RingCase{held(small_rods(5)), 2.3, 0.1},             //
+                              RingCase{driven(small_rods(5), -0.002), 2.3, 0.03},  // friction holds it
+                              RingCase{driven(small_rods(5), -0.02), 2.3, 0.03});  // it does not
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingState state = settled_state(motion, c);
   const RingStability stability = floquet_stability(motion, state);
@@ -149,7 +127,7 @@ TEST_CASE("Multipliers of the turned flow are those of a brute-force monodromy",
 }
 
 TEST_CASE("The derivative over a period is that of finite differences", "[ring]") {
-  const Case c{small_rods(5), 2.3, 0.03};
+  const RingCase c{small_rods(5), 2.3, 0.03};
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingState state = settled_state(motion, c);
   const Index coordinates = motion.ring().coordinates();
@@ -161,8 +139,8 @@ TEST_CASE("The derivative over a period is that of finite differences", "[ring]"
 }
 
 TEST_CASE("Without slip the multipliers are those of the linear modes", "[ring]") {
-  const Case c = GENERATE(Case{small_beams(5), 3.7, 10.0}, Case{small_rods(7), 2.3, 10.0},
-                          Case{driven(small_rods(6), -0.1), 1.1, 10.0});
+  const RingCase c = GENERATE(RingCase{small_beams(5), 3.7, 10.0}, RingCase{small_rods(7), 2.3, 10.0},
+                              RingCase{driven(small_rods(6), -0.1), 1.1, 10.0});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingStability stability = floquet_stability(motion, settled_state(motion, c));
   CHECK_FALSE(stability.slips);
@@ -176,10 +154,11 @@ TEST_CASE("Without slip the multipliers are those of the linear modes", "[ring]"
 }
 
 TEST_CASE("A passive ring that slips is stable", "[ring]") {
-  const Case c = GENERATE(Case{small_beams(), 3.7, 0.03}, Case{small_beams(), 3.7, 1e-3},
-                          Case{small_beams(5), 1.2, 1e-3}, Case{small_beams(5), 12.0, 1e-3},
-                          Case{small_rods(), 2.3, 0.03}, Case{small_rods(6), 1.4, 0.01},
-                          Case{held(small_beams()), 3.7, 0.01}, Case{held(small_rods()), 2.3, 0.3});
+  const RingCase c =
+      GENERATE(RingCase{small_beams(), 3.7, 0.03}, RingCase{small_beams(), 3.7, 1e-3},
+               RingCase{small_beams(5), 1.2, 1e-3}, RingCase{small_beams(5), 12.0, 1e-3},
+               RingCase{small_rods(), 2.3, 0.03}, RingCase{small_rods(6), 1.4, 0.01},
+               RingCase{held(small_beams()), 3.7, 0.01}, RingCase{held(small_rods()), 2.3, 0.3});
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingStability stability = floquet_stability(motion, settled_state(motion, c));
   CHECK(stability.slips);
@@ -188,7 +167,7 @@ TEST_CASE("A passive ring that slips is stable", "[ring]") {
 }
 
 TEST_CASE("A disturbance dies as fast as the largest multiplier says", "[ring]") {
-  const Case c{held(small_rods()), 2.3, 0.1};
+  const RingCase c{held(small_rods()), 2.3, 0.1};
   RingMotion motion(build_ring(c.system), c.eta, c.preload);
   const RingState state = settled_state(motion, c);
   const RingStability stability = floquet_stability(motion, state);
