@@ -43,12 +43,16 @@ bool CubicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   return true;
 }
 
-void CubicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+ComplexVector CubicResponse::motions(const Vector& u, const Vector& p, int regime) const {
   const State at = state(u(0), p, regime);
   const Complex c_B = at.base.compliance;
   const Complex q = 1.0 + at.force * at.damper.compliance;
   const Complex r = -at.base.free / (q * (1.0 + spring(u) * c_B) + at.force * c_B);
-  observe_motion(at, u(0), r, p, regime, values);
+  return Eigen::Vector2cd(r, -q * r);
+}
+
+void CubicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  observe_motion(state(u(0), p, regime), u(0), motions(u, p, regime)(0), p, regime, values);
 }
 
 double CubicResponse::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,

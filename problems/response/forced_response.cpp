@@ -46,7 +46,8 @@ void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vecto
   values.conservativeResize(count + std::ssize(system_.outputs));
   const ContactVector force = ContactVector::Constant(1, at.force * r);
   for (std::size_t i = 0; i < system_.outputs.size(); ++i)
-    values(count + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), force);
+    values(count + static_cast<Index>(i)) =
+        system_.outputs[i].amplitude(p(eta), system_.outputs[i].on_base ? force : -force);
 }
 
 double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,

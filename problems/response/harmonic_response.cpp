@@ -24,14 +24,17 @@ void store(const ContactVector& values, Index which, Index n, Column&& column) {
 
 }  // namespace
 
-HarmonicResponse::HarmonicResponse(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
+HarmonicResponse::HarmonicResponse(HarmonicSystem system)
+    : system_(std::move(system)), coordinates_(system_) {
+  check(system_);
+}
 
-/// Forces of all contacts with what they were found for: work space of a thread.
+/// Forces of all elements with what they were found for: work space of a thread.
 struct HarmonicResponse::Forces {
   std::vector<int> orders;
   Vector unknowns;
   int regime = 0;
-  std::vector<ContactForce> of_contacts;
+  std::vector<ElementForce> of_elements;
 };
 
 HarmonicResponse::Forces& HarmonicResponse::last_forces() {
@@ -39,10 +42,10 @@ HarmonicResponse::Forces& HarmonicResponse::last_forces() {
   return last;
 }
 
-HarmonicVector HarmonicResponse::motion(const Vector& u, Index contact) const {
+HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {
   HarmonicVector r(harmonics());
   for (Index a = 0; a < harmonics(); ++a) {
-    const Index place = 2 * (contact * harmonics() + a);
+    const Index place = 2 * (coordinate * harmonics() + a);
     r(a) = {u(place), u(place + 1)};
   }
   return r;
@@ -53,58 +56,57 @@ double HarmonicResponse::load(const Vector& p) const {
 }
 
 double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
-  return system_.contacts[at(contact)].slip_per_preload * load(p);
+  return coordinates_.element(contact).slip_threshold(load(p));
 }
 
-const std::vector<ContactForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
+const std::vector<ElementForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
                                                           bool derivatives) const {
   Forces& last = last_forces();
   last.orders = system_.orders;
   last.unknowns = u;
   last.regime = regime;
-  last.of_contacts.resize(at(contacts()));
-  for (Index i = 0; i < contacts(); ++i) {
-    last.of_contacts[at(i)].set(system_.orders, motion(u, i), system_.contacts[at(i)].stiffness,
-                                slip_threshold(i, p), slips(regime, i), derivatives);
+  last.of_elements.resize(at(coordinates_.size()));
+  for (Index i = 0; i < coordinates_.size(); ++i) {
+    coordinates_.element(i).force(system_.orders, motion(u, i), load(p), slips(regime, i), derivatives,
+                                  last.of_elements[at(i)]);
   }
-  return last.of_contacts;
+  return last.of_elements;
 }
 
 /// max |r| of a contact: known where the forces were last found, as at each point that a corrector ends on.
 OddMotion::Maximum HarmonicResponse::maximum(const Vector& u, Index contact) const {
   const Forces& last = last_forces();
   if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u)
-    return last.of_contacts[at(contact)].maximum;
+    return last.of_elements[at(contact)].maximum;
   const HarmonicVector r = motion(u, contact);
   return OddMotion(system_.orders, r).maximum();
 }
 
-HarmonicResponse::Friction HarmonicResponse::friction(const Vector& u, const Vector& p, int regime) const {
-  const std::vector<ContactForce>& of_contacts = forces(u, p, regime, false);
-  Friction sum{std::vector<ContactVector>(at(harmonics()), ContactVector(contacts())), 0};
-  for (Index i = 0; i < contacts(); ++i) {
-    for (Index a = 0; a < harmonics(); ++a) sum.forces[at(a)](i) = of_contacts[at(i)].harmonics(a);
-    sum.energy +=
-        of_contacts[at(i)].energy * system_.contacts[at(i)].stiffness * std::pow(slip_threshold(i, p), 2);
+HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u, const Vector& p,
+                                                                 int regime) const {
+  const std::vector<ElementForce>& all = forces(u, p, regime, false);
+  ElementForces sum{{}, {}, 0};
+  for (Index a = 0; a < harmonics(); ++a) {
+    sum.base.push_back(coordinates_.forces_on(&Coordinate::base, all, a));
+    sum.damper.push_back(coordinates_.forces_on(&Coordinate::damper, all, a));
   }
+  for (const ElementForce& one : all) sum.energy += one.energy;
   return sum;
 }
 
 void HarmonicResponse::set_order(Index which, double eta_value, int regime, Order& order) const {
-  const Index m = contacts();
   const double h = system_.orders[at(which)];
   ContactReceptance& joint = order.joint;
   order.which = which;
-  joint.set_zero(m);
-  system_.base[at(which)].add(h * eta_value, joint);
-  system_.damper[at(which)].add(h * eta_value, joint);
-  if (regime == 0 && which > 0) {  // r_h = 0, also where C_h has an undamped resonance
+  coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * eta_value, joint);
+  if (regime == 0 && which > 0 && !coordinates_.has_others()) {  // x_h = 0, also where C_h has a resonance
     joint.compliance.setZero();
     joint.compliance_eta.setZero();
   }
-  for (Index j = 0; j < m; ++j) {
-    joint.compliance.col(j) *= system_.contacts[at(j)].stiffness;
-    joint.compliance_eta.col(j) *= h * system_.contacts[at(j)].stiffness;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    const double stiffness = coordinates_.element(j).reference_stiffness();
+    joint.compliance.col(j) *= stiffness;
+    joint.compliance_eta.col(j) *= h * stiffness;
   }
   joint.compliance.diagonal().array() += 1.0;
   joint.free_eta *= h;
@@ -125,47 +127,55 @@ struct HarmonicResponse::Rows {
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
                                 const continuation::Evaluation& out) const {
+  return evaluate(u, p, regime, 1, out);
+}
+
+/// Under `share` times the load, by which the derivative follows those by the parameters if there is a column
+/// for it.
+bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime, double share,
+                                const continuation::Evaluation& out) const {
   if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
   for (Index i = 0; i < contacts(); ++i) {
     if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
-  const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
+  const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
   thread_local Rows rows;
-  fill_rows(friction, u, p, regime, rows, out.parameter_jacobian);
+  fill_rows(elements, share, u, p, regime, rows, out.parameter_jacobian);
   if (out.residual != nullptr) *out.residual = rows.residual;
-  if (out.jacobian != nullptr) fill_jacobian(rows, friction, u, regime, *out.jacobian);
+  if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, regime, *out.jacobian);
   return true;
 }
 
-void HarmonicResponse::fill_rows(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
-                                 int regime, Rows& rows, Matrix* parameter_jacobian) const {
+void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u,
+                                 const Vector& p, int regime, Rows& rows, Matrix* parameter_jacobian) const {
   rows.residual.resize(size());
   rows.weight.resize(harmonics());
-  rows.own.resize(harmonics(), contacts() * contacts());
+  rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
   for (Index a = 0; a < harmonics(); ++a) {
     set_order(a, p(eta), regime, rows.order);
-    fill_order(rows.order, friction, u, p, rows, parameter_jacobian);
+    fill_order(rows.order, elements, share, u, p, rows, parameter_jacobian);
   }
 }
 
-void HarmonicResponse::fill(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
+void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
                             int regime, Matrix& jacobian, Matrix& parameter_jacobian) const {
   Rows rows;
-  fill_rows(friction, u, p, regime, rows, &parameter_jacobian);
-  fill_jacobian(rows, friction, u, regime, jacobian);
+  fill_rows(elements, 1, u, p, regime, rows, &parameter_jacobian);
+  fill_jacobian(rows, elements, u, regime, jacobian);
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
-void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u,
-                                  const Vector& p, Rows& rows, Matrix* parameter_jacobian) const {
-  const Index m = contacts();
+void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>& elements, double share,
+                                  const Vector& u, const Vector& p, Rows& rows,
+                                  Matrix* parameter_jacobian) const {
+  const Index m = coordinates_.size();
   const Index which = order.which;
   for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
   for (Index j = 0; j < m; ++j) {
     const Index row = 2 * (j * harmonics() + which);
-    order.f(j) = friction[at(j)].harmonics(which) / system_.contacts[at(j)].stiffness;
-    order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + order.joint.free(j);
+    order.f(j) = elements[at(j)].harmonics(which) / coordinates_.element(j).reference_stiffness();
+    order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + share * order.joint.free(j);
   }
   order.held.noalias() = order.inverse * order.gap;
   order.gap.noalias() -= order.joint.compliance * order.held;
@@ -187,35 +197,38 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ContactForce>&
     slope += order.inverse.col(j).dot(column);
   }
   for (Index j = 0; j < m; ++j)
-    order.f(j) = friction[at(j)].by_log_threshold(which) / system_.contacts[at(j)].stiffness;
+    order.f(j) = elements[at(j)].by_log_load(which) / coordinates_.element(j).reference_stiffness();
   column = order.f;
-  column.noalias() -= order.inverse * order.f;  // by ln S
+  column.noalias() -= order.inverse * order.f;  // by the logarithm of the load
   column *= weight / load(p);
   store(column, which, harmonics(), parameter_jacobian->col(preload));
-  order.f = order.joint.free_eta;
+  order.f = share * order.joint.free_eta;
   order.f.noalias() -= order.joint.compliance_eta * order.held;
   column *= 2 * system_.preload_growth * p(eta);
   column += (order.weight * order.weight * slope.real()) * order.residual;
   column.noalias() += weight * (order.inverse * order.f);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
+  if (parameter_jacobian->cols() == 2) return;
+  column.noalias() = weight * (order.inverse * order.joint.free);
+  store(column, which, harmonics(), parameter_jacobian->col(2));
 }
 
-/// Column by column, in which the harmonics of a contact's rows follow one another.
-void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u,
+/// Column by column, in which the harmonics of a coordinate's rows follow one another.
+void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
                                      int regime, Matrix& jacobian) const {
   const Index n = harmonics();
-  const Index m = contacts();
+  const Index m = coordinates_.size();
   jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();
   for (Index column = 0; column < m * n; ++column) {
     const Index from = column / n;
     const Index order = column % n;
     jacobian(2 * column, 2 * column) += rows.weight(order);
     jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
-    if (!slips(regime, from)) continue;  // f = r
-    const double per_k = 1 / system_.contacts[at(from)].stiffness;
-    rows.sum = (friction[at(from)].linear.col(order) + friction[at(from)].conjugate.col(order)) * per_k;
-    rows.difference =
-        (friction[at(from)].linear.col(order) - friction[at(from)].conjugate.col(order)) * Complex(0, per_k);
+    if (is_linear(regime, from)) continue;  // f = x
+    const ElementForce& element = elements[at(from)];
+    const double per_k = 1 / coordinates_.element(from).reference_stiffness();
+    rows.sum = (element.linear.col(order) + element.conjugate.col(order)) * per_k;
+    rows.difference = (element.linear.col(order) - element.conjugate.col(order)) * Complex(0, per_k);
     rows.sum(order) -= 1;
     rows.difference(order) -= Complex(0, 1);
     for (Index i = 0; i < m; ++i) {
@@ -237,8 +250,8 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
 
 double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
                                 continuation::Gradient* gradient) const {
-  const SlipBorder at_border =
-      slip_border(system_.orders, maximum(u, border), slip_threshold(border, p), slips(regime, border));
+  const StateBorder at_border =
+      coordinates_.element(border).border(system_.orders, maximum(u, border), load(p), slips(regime, border));
   if (gradient != nullptr) {
     gradient->unknowns.setZero();
     for (Index a = 0; a < harmonics(); ++a) {
@@ -246,7 +259,7 @@ double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, in
       gradient->unknowns(place) = at_border.by_motion(a).real();
       gradient->unknowns(place + 1) = at_border.by_motion(a).imag();
     }
-    const double by_load = at_border.by_log_threshold / load(p);
+    const double by_load = at_border.by_log_load / load(p);
     gradient->parameters << 2 * system_.preload_growth * p(eta) * by_load, by_load;
   }
   return at_border.value;
@@ -272,15 +285,15 @@ std::vector<continuation::Observable> HarmonicResponse::observables() const {
 void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   const Index m = contacts();
   const Index n = harmonics();
-  const std::vector<ContactForce>& friction = forces(u, p, regime, false);
+  const std::vector<ElementForce>& elements = forces(u, p, regime, false);
   values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs) + (n > 1 ? 3 * n : 0));
   Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
   HarmonicVector base(n), damper(n);  // of the first contact
-  ContactVector f(m);
   const HarmonicVector first = motion(u, 0);
   for (Index a = 0; a < n; ++a) {
-    for (Index j = 0; j < m; ++j) f(j) = friction[at(j)].harmonics(a);
-    const ContactVector moved = -(system_.damper[at(a)].at(system_.orders[at(a)] * p(eta)).compliance * f);
+    const ContactVector on_damper = coordinates_.forces_on(&Coordinate::damper, elements, a);
+    const ContactVector moved =
+        system_.damper[at(a)].at(system_.orders[at(a)] * p(eta)).compliance * on_damper;
     damper(a) = moved(0);
     base(a) = moved(0) - first(a);
     if (a > 0) {
@@ -290,18 +303,24 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
     for (Index i = 0; i < m; ++i) {
       const Complex r = motion(u, i)(0);
       const double amplitude = std::abs(r);
-      const double ratio = amplitude / slip_threshold(i, p);
-      const double energy = friction[at(i)].energy;
+      const double threshold = slip_threshold(i, p);
+      const double ratio = amplitude / threshold;
+      const double energy =
+          elements[at(i)].energy / (system_.contacts[at(i)].stiffness * threshold * threshold);
       if (i > 0) {
         values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)),
             energy;
       } else {
-        values.head<9>() << amplitude, slip_threshold(0, p), ratio, std::abs(base(0)), std::abs(damper(0)),
-            lag(base(0)), lag(damper(0)), lag(r), energy;
+        values.head<9>() << amplitude, threshold, ratio, std::abs(base(0)), std::abs(damper(0)), lag(base(0)),
+            lag(damper(0)), lag(r), energy;
       }
     }
-    for (std::size_t i = 0; i < system_.outputs.size(); ++i)
-      values(9 + 5 * (m - 1) + static_cast<Index>(i)) = system_.outputs[i].amplitude(p(eta), f);
+    const ContactVector on_base = coordinates_.forces_on(&Coordinate::base, elements, a);
+    for (std::size_t i = 0; i < system_.outputs.size(); ++i) {
+      const ContactOutput& output = system_.outputs[i];
+      values(9 + 5 * (m - 1) + static_cast<Index>(i)) =
+          output.amplitude(p(eta), output.on_base ? on_base : on_damper);
+    }
   }
   if (n == 1) return;
   const auto peak = [&](const HarmonicVector& motion) {
@@ -312,29 +331,32 @@ void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vec
 
 double HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
                                  continuation::Gradient& gradient) const {
-  const std::vector<ContactForce>& friction = forces(u, p, regime, true);
+  const std::vector<ElementForce>& elements = forces(u, p, regime, true);
   const ContactReceptance damper = system_.damper[0].at(p(eta));
+  const auto per_force = [&](Index j) {
+    return -coordinates_[j].damper * damper.compliance(0, coordinates_[j].dof);
+  };
   Complex y = -Complex(u(0), u(1));
   Complex by_eta = 0;
-  Complex by_log_S = 0;
-  for (Index j = 0; j < contacts(); ++j) {
-    y -= damper.compliance(0, j) * friction[at(j)].harmonics(0);
-    by_eta -= damper.compliance_eta(0, j) * friction[at(j)].harmonics(0);
-    by_log_S -= damper.compliance(0, j) * friction[at(j)].by_log_threshold(0);
+  Complex by_log_load = 0;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    y += per_force(j) * elements[at(j)].harmonics(0);
+    by_eta -=
+        coordinates_[j].damper * damper.compliance_eta(0, coordinates_[j].dof) * elements[at(j)].harmonics(0);
+    by_log_load += per_force(j) * elements[at(j)].by_log_load(0);
   }
   const double amplitude = std::abs(y);
   const Complex direction = std::conj(y) / amplitude;
-  for (Index j = 0; j < contacts(); ++j) {
+  for (Index j = 0; j < coordinates_.size(); ++j) {
     for (Index b = 0; b < harmonics(); ++b) {
       const Index place = 2 * (j * harmonics() + b);
-      const Complex linear =
-          -damper.compliance(0, j) * friction[at(j)].linear(0, b) - (place == 0 ? 1.0 : 0.0);
-      const Complex conjugate = -damper.compliance(0, j) * friction[at(j)].conjugate(0, b);
+      const Complex linear = per_force(j) * elements[at(j)].linear(0, b) - (place == 0 ? 1.0 : 0.0);
+      const Complex conjugate = per_force(j) * elements[at(j)].conjugate(0, b);
       gradient.unknowns(place) = std::real(direction * (linear + conjugate));
       gradient.unknowns(place + 1) = -std::imag(direction * (linear - conjugate));
     }
   }
-  const double by_load = std::real(direction * by_log_S) / load(p);
+  const double by_load = std::real(direction * by_log_load) / load(p);
   gradient.parameters << std::real(direction * by_eta) + 2 * system_.preload_growth * p(eta) * by_load,
       by_load;
   return amplitude;
@@ -358,41 +380,6 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
   }
   std::erase_if(values, [&](double value) { return !(value > from && value < to); });
   return values;
-}
-
-continuation::Guess HarmonicResponse::guess(double eta_value, double preload_value,
-                                            const continuation::TraceOptions& limits) const {
-  continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
-  guess.parameters << eta_value, preload_value;
-  if (!(eta_value > 0 && preload_value > 0 && load(guess.parameters) > 0))
-    throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
-  const ContactReceptance base = system_.base[0].at(eta_value);
-  ContactMatrix stuck = base.compliance + system_.damper[0].at(eta_value).compliance;
-  for (Index j = 0; j < contacts(); ++j) stuck.col(j) *= system_.contacts[at(j)].stiffness;
-  stuck.diagonal().array() += 1;
-  const ContactVector r = -(stuck.partialPivLu().solve(base.free));
-  double holding = 0;  // load over that which lets nothing slip
-  for (Index i = 0; i < contacts(); ++i) {
-    guess.unknowns(2 * i * harmonics()) = r(i).real();
-    guess.unknowns(2 * i * harmonics() + 1) = r(i).imag();
-    holding = std::max(holding, std::abs(r(i)) / slip_threshold(i, guess.parameters));
-  }
-  if (holding <= 1) return guess;
-
-  continuation::TraceOptions options;
-  options.parameter = "P";
-  options.from = 1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
-  options.to = preload_value;
-  options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
-  options.max_seconds = limits.max_seconds;
-  options.go_on = limits.go_on;
-  const continuation::Branch branch = trace(*this, guess, options);
-  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
-    throw continuation::Unfinished(branch.stop, "on the way from a high preload: " + branch.explanation);
-  if (!branch.complete())
-    throw std::invalid_argument("HarmonicResponse: no way from a high preload: " + branch.explanation);
-  const continuation::BranchPoint& end = branch.points.back();
-  return {end.unknowns, end.parameters, end.regime};
 }
 
 }  // namespace arcslip::problems

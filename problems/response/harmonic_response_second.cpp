@@ -1,5 +1,5 @@
-// Second derivatives of the harmonic response: with the forces and their derivatives moved as the loops say,
-// F is a smooth function of the way along the direction, whatever happens within the loops.
+// Second derivatives of the harmonic response: with the forces and their derivatives moved as the elements
+// say, F is a smooth function of the way along the direction, whatever happens within the loops.
 
 #include <cmath>
 
@@ -11,21 +11,20 @@ namespace arcslip::problems {
 bool HarmonicResponse::second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
                               const Vector& dp, Vector& out) const {
   if (!evaluate(u, p, regime, {})) return false;
-  const std::vector<ContactForce> friction = forces(u, p, regime, true);
-  const double log_threshold = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / load(p);
-  std::vector<ContactForce> changes;
-  for (Index i = 0; i < contacts(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    changes.push_back(friction[k].change(system_.orders, motion(u, i), system_.contacts[k].stiffness,
-                                         slip_threshold(i, p), slips(regime, i), motion(du, i),
-                                         log_threshold));
+  const std::vector<ElementForce> elements = forces(u, p, regime, true);
+  const double log_load = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / load(p);
+  std::vector<ElementForce> changes;
+  for (Index i = 0; i < coordinates_.size(); ++i) {
+    changes.push_back(coordinates_.element(i).change(elements[static_cast<std::size_t>(i)], system_.orders,
+                                                     motion(u, i), load(p), slips(regime, i), motion(du, i),
+                                                     log_load));
   }
   Matrix jacobian(size(), size());
   Matrix parameter_jacobian(size(), 2);
   const auto along = [&](double h, Vector& value) {
     const Vector moved = p + h * dp;
     if (!(moved(eta) > 0 && moved(preload) > 0 && load(moved) > 0)) return false;
-    std::vector<ContactForce> there = friction;
+    std::vector<ElementForce> there = elements;
     for (std::size_t k = 0; k < there.size(); ++k) there[k].add(changes[k], h);
     fill(there, u + h * du, moved, regime, jacobian, parameter_jacobian);
     value.resize(size() + 2);

@@ -22,7 +22,7 @@ int crossed_border(const HarmonicResponse& problem, const Guess& at) {
 
 Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
   Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
-  for (Index i = 0; i < from.contacts(); ++i) {
+  for (Index i = 0; i < from.coordinates(); ++i) {
     for (Index a = 0; a < from.harmonics(); ++a) {
       const std::vector<int>& orders = to.system().orders;
       const int order = from.system().orders[static_cast<std::size_t>(a)];

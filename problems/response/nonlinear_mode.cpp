@@ -18,12 +18,14 @@ struct NonlinearMode::Order {
   double norm_zeta = 0;
 };
 
-NonlinearMode::NonlinearMode(HarmonicSystem system) : system_(std::move(system)) { check(system_); }
+NonlinearMode::NonlinearMode(HarmonicSystem system) : system_(std::move(system)), coordinates_(system_) {
+  check(system_);
+}
 
-HarmonicVector NonlinearMode::motion(const Vector& u, const Vector& p, Index contact) const {
+HarmonicVector NonlinearMode::motion(const Vector& u, const Vector& p, Index coordinate) const {
   HarmonicVector r(harmonics());
   for (Index a = 0; a < harmonics(); ++a) {
-    const Index place = 2 * (contact * harmonics() + a);
+    const Index place = 2 * (coordinate * harmonics() + a);
     r(a) = place == 0 ? Complex(p(amplitude)) : Complex(u(place), u(place + 1));
   }
   return r;
@@ -34,39 +36,49 @@ double NonlinearMode::load(const Vector& u, const Vector& p) const {
 }
 
 double NonlinearMode::threshold(Index contact, const Vector& u, const Vector& p) const {
-  return system_.contacts[at(contact)].slip_per_preload * load(u, p);
+  return coordinates_.element(contact).slip_threshold(load(u, p));
 }
 
-const std::vector<ContactForce>& NonlinearMode::forces(const Vector& u, const Vector& p, int regime,
+const std::vector<ElementForce>& NonlinearMode::forces(const Vector& u, const Vector& p, int regime,
                                                        bool derivatives) const {
-  thread_local std::vector<ContactForce> all;
-  all.resize(at(contacts()));
-  for (Index i = 0; i < contacts(); ++i) {
-    all[at(i)].set(system_.orders, motion(u, p, i), system_.contacts[at(i)].stiffness, threshold(i, u, p),
-                   slips(regime, i), derivatives);
+  thread_local std::vector<ElementForce> all;
+  all.resize(at(coordinates_.size()));
+  for (Index i = 0; i < coordinates_.size(); ++i) {
+    coordinates_.element(i).force(system_.orders, motion(u, p, i), load(u, p), slips(regime, i), derivatives,
+                                  all[at(i)]);
   }
   return all;
 }
 
 NonlinearMode::Order NonlinearMode::order(Index which, const Vector& u, int regime) const {
   const double h = system_.orders[at(which)];
-  Order order{which, ContactMatrix::Zero(contacts(), contacts()), ContactMatrix::Zero(contacts(), contacts()),
-              ContactMatrix::Zero(contacts(), contacts())};
-  if (regime == 0 && which > 0) return order;  // r_h = 0, also where C_h has an undamped resonance
-  for (const ContactModes* structure : {&system_.base[at(which)], &system_.damper[at(which)]}) {
-    const DampedReceptance found = structure->damped(h * u(frequency), -2 * u(damping) * u(frequency));
-    const ContactMatrix by_eta = h * found.compliance_eta - 2 * u(damping) * found.compliance_mass;
-    const ContactMatrix by_zeta = -2 * u(frequency) * found.compliance_mass;
-    order.compliance += found.compliance;
+  const Index m = coordinates_.size();
+  Order order{which, ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m)};
+  if (regime == 0 && which > 0 && !coordinates_.has_others())
+    return order;  // x_h = 0, also at a resonance of C_h
+  const auto add = [&](const ContactModes& structure, double Coordinate::*entry) {
+    const DampedReceptance found = structure.damped(h * u(frequency), -2 * u(damping) * u(frequency));
+    const auto in_coordinates = [&](const ContactMatrix& matrix) {
+      ContactMatrix sum = ContactMatrix::Zero(m, m);
+      coordinates_.add(matrix, entry, sum);
+      return sum;
+    };
+    const ContactMatrix compliance = in_coordinates(found.compliance);
+    const ContactMatrix by_eta =
+        in_coordinates(h * found.compliance_eta - 2 * u(damping) * found.compliance_mass);
+    const ContactMatrix by_zeta = in_coordinates(-2 * u(frequency) * found.compliance_mass);
+    order.compliance += compliance;
     order.compliance_eta += by_eta;
     order.compliance_zeta += by_zeta;
-    for (Index j = 0; j < contacts(); ++j) {
-      const double square = std::pow(system_.contacts[at(j)].stiffness, 2);
-      order.norm += square * found.compliance.col(j).squaredNorm();
-      order.norm_eta += 2 * square * std::real(found.compliance.col(j).dot(by_eta.col(j)));
-      order.norm_zeta += 2 * square * std::real(found.compliance.col(j).dot(by_zeta.col(j)));
+    for (Index j = 0; j < m; ++j) {
+      const double square = std::pow(coordinates_.element(j).reference_stiffness(), 2);
+      order.norm += square * compliance.col(j).squaredNorm();
+      order.norm_eta += 2 * square * std::real(compliance.col(j).dot(by_eta.col(j)));
+      order.norm_zeta += 2 * square * std::real(compliance.col(j).dot(by_zeta.col(j)));
     }
-  }
+  };
+  add(system_.base[at(which)], &Coordinate::base);
+  add(system_.damper[at(which)], &Coordinate::damper);
   return order;
 }
 
@@ -77,30 +89,30 @@ bool NonlinearMode::evaluate(const Vector& u, const Vector& p, int regime,
     if (slips(regime, i) && motion(u, p, i).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
-  const std::vector<ContactForce>& friction = forces(u, p, regime, derivatives);
+  const std::vector<ElementForce>& friction = forces(u, p, regime, derivatives);
   for (Index a = 0; a < harmonics(); ++a) {
     const Order at_order = order(a, u, regime);
-    for (Index i = 0; i < contacts(); ++i) fill_row(at_order, i, friction, u, p, out);
+    for (Index i = 0; i < coordinates_.size(); ++i) fill_row(at_order, i, friction, u, p, out);
   }
   return true;
 }
 
-void NonlinearMode::fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction,
+void NonlinearMode::fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
                              const Vector& u, const Vector& p, const continuation::Evaluation& out) const {
   const Index n = harmonics();
-  const Index row = 2 * (contact * n + order.which);
+  const Index row = 2 * (coordinate * n + order.which);
   const auto store = [row](Complex value, auto&& column) {
     column(row) = value.real();
     column(row + 1) = value.imag();
   };
   const double size = std::hypot(p(amplitude), u.tail(u.size() - 2).norm());
   const double weight = 1 / (std::sqrt(order.norm) * size);
-  Complex residual = motion(u, p, contact)(order.which);
-  Complex by_log_S = 0;
-  for (Index j = 0; j < contacts(); ++j) {
-    residual += order.compliance(contact, j) * friction[at(j)].harmonics(order.which);
+  Complex residual = motion(u, p, coordinate)(order.which);
+  Complex by_log_load = 0;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    residual += order.compliance(coordinate, j) * elements[at(j)].harmonics(order.which);
     if (out.jacobian != nullptr || out.parameter_jacobian != nullptr)
-      by_log_S += order.compliance(contact, j) * friction[at(j)].by_log_threshold(order.which);
+      by_log_load += order.compliance(coordinate, j) * elements[at(j)].by_log_load(order.which);
   }
   if (out.residual != nullptr) store(weight * residual, *out.residual);
 
@@ -109,22 +121,22 @@ void NonlinearMode::fill_row(const Order& order, Index contact, const std::vecto
   const auto by_motion = [&](Index column) {
     const Index j = column / (2 * n);
     const Index b = column / 2 % n;
-    const Complex c = order.compliance(contact, j);
-    const Complex linear = c * friction[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
-    const Complex conjugate = c * friction[at(j)].conjugate(order.which, b);
+    const Complex c = order.compliance(coordinate, j);
+    const Complex linear = c * elements[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
+    const Complex conjugate = c * elements[at(j)].conjugate(order.which, b);
     return std::array{linear + conjugate, Complex(0, 1) * (linear - conjugate)};
   };
   if (out.parameter_jacobian != nullptr) {
     store(weight * (by_motion(0)[0] - shrink * p(amplitude)), out.parameter_jacobian->col(amplitude));
-    store(weight / load(u, p) * by_log_S, out.parameter_jacobian->col(preload));
+    store(weight / load(u, p) * by_log_load, out.parameter_jacobian->col(preload));
   }
   if (out.jacobian == nullptr) return;
-  Complex by_eta = by_log_S * (2 * system_.preload_growth * u(frequency) / load(u, p)) -
+  Complex by_eta = by_log_load * (2 * system_.preload_growth * u(frequency) / load(u, p)) -
                    residual * (0.5 * order.norm_eta / order.norm);
   Complex by_zeta = -residual * (0.5 * order.norm_zeta / order.norm);
-  for (Index j = 0; j < contacts(); ++j) {
-    by_eta += order.compliance_eta(contact, j) * friction[at(j)].harmonics(order.which);
-    by_zeta += order.compliance_zeta(contact, j) * friction[at(j)].harmonics(order.which);
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    by_eta += order.compliance_eta(coordinate, j) * elements[at(j)].harmonics(order.which);
+    by_zeta += order.compliance_zeta(coordinate, j) * elements[at(j)].harmonics(order.which);
   }
   store(weight * by_eta, out.jacobian->col(frequency));
   store(weight * by_zeta, out.jacobian->col(damping));
@@ -145,8 +157,9 @@ void NonlinearMode::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
 
 double NonlinearMode::border(const Vector& u, const Vector& p, int regime, int border,
                              continuation::Gradient* gradient) const {
-  const SlipBorder at_border =
-      slip_border(system_.orders, motion(u, p, border), threshold(border, u, p), slips(regime, border));
+  const HarmonicVector r = motion(u, p, border);
+  const StateBorder at_border = coordinates_.element(border).border(
+      system_.orders, OddMotion(system_.orders, r).maximum(), load(u, p), slips(regime, border));
   if (gradient == nullptr) return at_border.value;
   gradient->unknowns.setZero();
   gradient->parameters.setZero();
@@ -159,7 +172,7 @@ double NonlinearMode::border(const Vector& u, const Vector& p, int regime, int b
       gradient->unknowns(place + 1) = at_border.by_motion(a).imag();
     }
   }
-  const double by_load = at_border.by_log_threshold / load(u, p);
+  const double by_load = at_border.by_log_load / load(u, p);
   gradient->parameters(preload) = by_load;
   gradient->unknowns(frequency) = 2 * system_.preload_growth * u(frequency) * by_load;
   return at_border.value;
@@ -181,25 +194,25 @@ std::vector<continuation::Observable> NonlinearMode::observables() const {
 
 void NonlinearMode::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
   const Index m = contacts();
-  const std::vector<ContactForce>& friction = forces(u, p, regime, false);
+  const std::vector<ElementForce>& elements = forces(u, p, regime, false);
   values.resize(8 + 5 * (m - 1) + 3 * (harmonics() - 1));
   const Modal at_first = modal(u, p, regime);
-  ContactVector f(m);
   for (Index a = 0; a < harmonics(); ++a) {
-    for (Index j = 0; j < m; ++j) f(j) = friction[at(j)].harmonics(a);
     const double h = system_.orders[at(a)];
     const ContactVector damper =
-        -(system_.damper[at(a)].damped(h * u(frequency), -2 * u(damping) * u(frequency)).compliance * f);
+        system_.damper[at(a)].damped(h * u(frequency), -2 * u(damping) * u(frequency)).compliance *
+        coordinates_.forces_on(&Coordinate::damper, elements, a);
     for (Index i = 0; i < m; ++i) {
       const Complex r = motion(u, p, i)(a);
       const double S_i = threshold(i, u, p);
+      const double energy = elements[at(i)].energy / (system_.contacts[at(i)].stiffness * S_i * S_i);
       if (a == 0 && i == 0) {
         values.head<8>() << u(frequency), u(damping), S_i, p(amplitude) / S_i, std::abs(damper(0) - r),
-            std::abs(damper(0)), friction[0].energy,
+            std::abs(damper(0)), energy,
             2 * u(damping) * u(frequency) * u(frequency) * at_first.amplitude / at_first.load;
       } else if (a == 0) {
         values.segment<5>(8 + 5 * (i - 1)) << std::abs(r), std::abs(r) / S_i, std::abs(damper(i) - r),
-            std::abs(damper(i)), friction[at(i)].energy;
+            std::abs(damper(i)), energy;
       } else if (i == 0) {
         values.segment<3>(8 + 5 * (m - 1) + 3 * (a - 1)) << std::abs(r), std::abs(damper(0) - r),
             std::abs(damper(0));
@@ -218,21 +231,22 @@ double NonlinearMode::observe(const Vector& u, const Vector& /*p*/, int /*regime
 }
 
 NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p, int regime) const {
-  const std::vector<ContactForce>& friction = forces(u, p, regime, false);
-  ContactVector f(contacts());
-  for (Index j = 0; j < contacts(); ++j) f(j) = friction[at(j)].harmonics(0);
+  const std::vector<ElementForce>& elements = forces(u, p, regime, false);
   const double mass = -2 * u(damping) * u(frequency);
   double square = 0;
   Complex load = 0;
-  for (const ContactModes* structure : {&system_.base[0], &system_.damper[0]}) {
-    for (const ContactMode& mode : structure->modes()) {
+  const auto add = [&](const ContactModes& structure, double Coordinate::*entry) {
+    const ContactVector on_dofs = coordinates_.forces_on(entry, elements, 0);
+    for (const ContactMode& mode : structure.modes()) {
       const Complex d =
-          ModalDenominator(u(frequency), mode.frequency, structure->loss() + Loss{.mass = mass}).value;
-      const Complex q = mode.shape.dot(f) / d;
+          ModalDenominator(u(frequency), mode.frequency, structure.loss() + Loss{.mass = mass}).value;
+      const Complex q = mode.shape.dot(on_dofs) / d;
       square += std::norm(q);
       load += std::conj(q) * mode.load;
     }
-  }
+  };
+  add(system_.base[0], &Coordinate::base);
+  add(system_.damper[0], &Coordinate::damper);
   return {std::sqrt(square), std::abs(load) / std::sqrt(square)};
 }
 
@@ -264,17 +278,22 @@ continuation::Guess NonlinearMode::guess(double eta_value, double R_value, doubl
     throw std::invalid_argument("NonlinearMode: there is no mode that moves the first contact");
   continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
   guess.parameters << R_value, preload_value;
-  for (Index i = 1; i < contacts(); ++i) {
-    const Complex r = R_value * nearest->relative(i) / nearest->relative(0);
-    guess.unknowns(2 * i * harmonics()) = r.real();
-    guess.unknowns(2 * i * harmonics() + 1) = r.imag();
+  const ContactVector r = R_value / nearest->relative(0) * nearest->relative;
+  const double mass = -2 * nearest->damping * nearest->frequency;
+  const ContactVector f = springs.asDiagonal() * r;
+  const ContactVector y = system_.base[0].damped(nearest->frequency, mass).compliance * f;
+  const ContactVector u = -(system_.damper[0].damped(nearest->frequency, mass).compliance * f);
+  for (Index i = 1; i < coordinates_.size(); ++i) {
+    const Coordinate& one = coordinates_[i];
+    const Complex x = i < contacts() ? r(i) : one.base * y(one.dof) + one.damper * u(one.dof);
+    guess.unknowns(2 * i * harmonics()) = x.real();
+    guess.unknowns(2 * i * harmonics() + 1) = x.imag();
   }
   guess.unknowns(frequency) = nearest->frequency;
   guess.unknowns(damping) = nearest->damping;
   for (Index i = 0; i < contacts(); ++i) {
-    if (slip_border(system_.orders, motion(guess.unknowns, guess.parameters, i),
-                    threshold(i, guess.unknowns, guess.parameters), false)
-            .value > 0)
+    if (OddMotion(system_.orders, motion(guess.unknowns, guess.parameters, i)).maximum().value >
+        threshold(i, guess.unknowns, guess.parameters))
       throw std::invalid_argument(
           fmt::format("NonlinearMode: contact {} slips at R = {:g}; begin with a smaller R", i + 1, R_value));
   }

@@ -14,12 +14,12 @@ double PowerBalance::cancellation() const {
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
   const HarmonicSystem& system = problem.system();
   const double eta = p(HarmonicResponse::eta);
-  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
-  PowerBalance balance{0, 0, 0, friction.energy, std::abs(friction.energy)};
+  const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
+  PowerBalance balance{0, 0, 0, forces.energy, std::abs(forces.energy)};
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const int cycles = system.orders[a];
-    const CycleWork base = system.base[a].work(cycles * eta, friction.forces[a]);
-    const CycleWork damper = system.damper[a].work(cycles * eta, -friction.forces[a]);
+    const CycleWork base = system.base[a].work(cycles * eta, forces.base[a]);
+    const CycleWork damper = system.damper[a].work(cycles * eta, forces.damper[a]);
     balance.input += cycles * base.load;
     balance.base += cycles * base.damping;
     balance.damper += cycles * damper.damping;
@@ -30,14 +30,14 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
 
 double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
   const HarmonicSystem& system = problem.system();
-  const HarmonicResponse::Friction friction = problem.friction(u, p, regime);
+  const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
   double gap = 0;
   double largest = 0;
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const double frequency = system.orders[a] * p(HarmonicResponse::eta);
     const ContactReceptance at_base = system.base[a].at(frequency);
-    const ContactVector base = at_base.free + at_base.compliance * friction.forces[a];
-    const ContactVector damper = -(system.damper[a].at(frequency).compliance * friction.forces[a]);
+    const ContactVector base = at_base.free + at_base.compliance * forces.base[a];
+    const ContactVector damper = system.damper[a].at(frequency).compliance * forces.damper[a];
     for (Index i = 0; i < problem.contacts(); ++i) {
       const Complex relative = problem.motion(u, i)(static_cast<Index>(a));
       gap = std::max(gap, std::abs(damper(i) - base(i) - relative));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/problems/response/cubic_response.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
@@ -40,14 +41,17 @@ HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) 
   return HarmonicResponse(build_harmonic_system(parameters));
 }
 
-/// The points of a branch of HarmonicResponse or ForcedResponse as those of the former.
+/// The points of a branch of HarmonicResponse, ForcedResponse or CubicResponse as those of the first.
 class BalancedPoints {
  public:
   BalancedPoints(const SystemParameters& parameters, const std::vector<int>& orders,
                  const continuation::Branch& branch)
       : problem_(balanced(parameters, orders)) {
-    if (!branch.points.empty() && branch.points.front().unknowns.size() == 1)
-      scalar_.emplace(build_system(parameters));
+    if (branch.points.empty() || branch.points.front().unknowns.size() == problem_.size()) return;
+    if (parameters.cubic_stiffness == 0)
+      scalar_ = std::make_unique<ForcedResponse>(build_system(parameters));
+    else
+      scalar_ = std::make_unique<CubicResponse>(build_system(parameters));
   }
 
   const HarmonicResponse& problem() const { return problem_; }
@@ -55,14 +59,15 @@ class BalancedPoints {
   Guess at(const BranchPoint& point) const {
     Guess at{point.unknowns, point.parameters, point.regime};
     if (!scalar_) return at;
-    const Complex r = scalar_->motion(point.unknowns, point.parameters, point.regime);
-    at.unknowns = Eigen::Vector2d(r.real(), r.imag());
+    const ComplexVector x = scalar_->motions(point.unknowns, point.parameters, point.regime);
+    at.unknowns.resize(2 * x.size());
+    for (Index i = 0; i < x.size(); ++i) at.unknowns.segment<2>(2 * i) << x(i).real(), x(i).imag();
     return at;
   }
 
  private:
   HarmonicResponse problem_;
-  std::optional<ForcedResponse> scalar_;
+  std::unique_ptr<ContactProblem> scalar_;
 };
 
 PowerBalance power(const HarmonicResponse& problem, const Guess& at) {
@@ -110,8 +115,9 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
   return {std::abs(record.base()(0)), growth};
 }
 
-/// The ring in full, where it is one of rods or beams that can be assembled.
+/// The ring in full, where it is one of rods or beams that can be assembled, linear but for its contacts.
 std::optional<Ring> assembled(const SystemParameters& parameters) {
+  if (parameters.cubic_stiffness != 0) return std::nullopt;
   try {
     return build_ring(parameters);
   } catch (const std::invalid_argument&) {
@@ -122,12 +128,13 @@ std::optional<Ring> assembled(const SystemParameters& parameters) {
 }  // namespace
 
 std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem, const Guess& at) {
-  const HarmonicResponse::Friction friction = problem.friction(at.unknowns, at.parameters, at.regime);
+  const HarmonicResponse::ElementForces forces =
+      problem.element_forces(at.unknowns, at.parameters, at.regime);
   const HarmonicVector r = problem.motion(at.unknowns, 0);
   const std::vector<int>& orders = problem.system().orders;
   std::vector<ContactHarmonic> harmonics;
   for (std::size_t a = 0; a < orders.size(); ++a)
-    harmonics.push_back({orders[a], r(static_cast<Index>(a)), friction.forces[a](0)});
+    harmonics.push_back({orders[a], r(static_cast<Index>(a)), -forces.damper[a](0)});
   return harmonics;
 }
 

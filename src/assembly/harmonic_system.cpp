@@ -7,6 +7,7 @@
 
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/elements/memoryless.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
@@ -20,6 +21,17 @@ ContactModes one_contact(const ModalModel& model) {
                      shape > 0 ? mode.load_residue / shape : Complex(0)});
   }
   return {1, std::move(modes), model.loss()};
+}
+
+/// From each contact dof of the base to ground.
+void add_cubic_springs(const SystemParameters& parameters, HarmonicSystem& system) {
+  const double coefficient = build_system(parameters).cubic_stiffness;
+  double compliance = 0;  // static, but for rigid motions
+  for (const ContactMode& mode : system.base[0].modes()) {
+    if (mode.frequency > 0) compliance += mode.shape.squaredNorm() / (mode.frequency * mode.frequency);
+  }
+  const auto spring = std::make_shared<CubicSpring>(coefficient, 1 / compliance);
+  for (Index i = 0; i < std::ssize(system.contacts); ++i) system.others.push_back({1, 0, i, spring});
 }
 
 }  // namespace
@@ -75,6 +87,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     system.contacts = std::move(of_order.contacts);
   }
   system.preload_growth = parameters.preload_growth;
+  if (parameters.cubic_stiffness != 0) add_cubic_springs(parameters, system);
   return system;
 }
 

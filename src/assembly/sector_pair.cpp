@@ -118,8 +118,8 @@ struct Part {
   const SectorModes& modes;
   std::shared_ptr<const FullReceptance> solves;
   Loss loss;
-  double force;       ///< factor of the load
-  double force_sign;  ///< of the force that its contacts feel, against the base's
+  double force;  ///< factor of the load
+  bool is_base;
   const char* letter;
 
   ModalModel contact() const { return modal_model(modes, force, loss); }
@@ -154,7 +154,7 @@ struct Part {
   void add_outputs(std::vector<ContactOutput>& outputs) const {
     for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
       const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
-      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts(i), force_sign});
+      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts(i), is_base});
     }
   }
 };
@@ -169,7 +169,7 @@ Part base_part(const SystemParameters& parameters) {
           full ? parameters.sectors->base_solves(use.wave, zeta) : nullptr,
           part.loss(zeta),
           parameters.force,
-          1,
+          true,
           "Y"};
 }
 
@@ -184,7 +184,7 @@ std::optional<Part> damper_part(const SystemParameters& parameters) {
               full ? parameters.sectors->damper_solves(use.wave, zeta) : nullptr,
               part->loss(zeta),
               0,
-              -1,
+              false,
               "U"};
 }
 

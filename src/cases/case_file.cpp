@@ -179,8 +179,10 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   branch.values = std::move(values);
   read_system(*document_, replacements, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
-  if (branch.problem.response != Response::forced && branch.problem.system.cubic_stiffness != 0)
-    system.fail("cubic_stiffness", "only for the forced response; expected 0 beside this branch.response");
+  if (branch.problem.response != Response::forced && !branch.problem.is_mode() &&
+      branch.problem.system.cubic_stiffness != 0)
+    system.fail("cubic_stiffness",
+                "only for the forced response and nonlinear modes; expected 0 beside this branch.response");
   if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
     system.fail("harmonics", "\"auto\" is only for the forced response");
   if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())

@@ -156,8 +156,6 @@ HarmonicsCheck check_harmonics(const StudyCase& study, const StudyDesign& design
   check.preload = preload;
   check.harmonics = odd_up_to(std::clamp(2 * harmonics.back() + 1, least, 2 * most_harmonics - 1));
   try {
-    if (design.system.cubic_stiffness != 0)
-      throw std::runtime_error("cubic springs are balanced in one harmonic");
     const std::vector<problems::ResponsePeak> before = responses(study, design, harmonics).at(preload);
     const std::vector<problems::ResponsePeak> after = responses(study, design, check.harmonics).at(preload);
     const problems::ResponsePeak& highest = highest_of(after);

@@ -15,6 +15,7 @@
 #include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/limit_cycle.hpp"
+#include "arcslip/problems/response/more_harmonics.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/problems/response/one_way_response.hpp"
 
@@ -285,22 +286,14 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
   SystemParameters wide = system;
   wide.harmonics = odd_up_to(highest);
   const problems::HarmonicResponse problem(build_harmonic_system(wide));
-  const Index contacts = problem.contacts();
-  const auto known = static_cast<Index>(system.harmonics.size());
-  Vector padded(problem.size());
+  const problems::HarmonicResponse traced(build_harmonic_system(system));
   Vector residual(problem.size());
   Vector largest = Vector::Zero(problem.harmonics());
   for (const BranchPoint& point : branch.points) {
     if (!time.goes_on()) return {};
-    padded.setZero();
-    for (Index i = 0; i < contacts; ++i) {
-      for (Index a = 0; a < known; ++a) {
-        const Index order = system.harmonics[static_cast<std::size_t>(a)] / 2;
-        padded.segment<2>(2 * (i * problem.harmonics() + order)) =
-            point.unknowns.segment<2>(2 * (i * known + a));
-      }
-    }
-    if (!problem.evaluate(padded, point.parameters, point.regime, {&residual})) continue;
+    const continuation::Guess padded =
+        problems::carried(traced, {point.unknowns, point.parameters, point.regime}, problem);
+    if (!problem.evaluate(padded.unknowns, padded.parameters, padded.regime, {&residual})) continue;
     for (Index row = 0; row < residual.size(); ++row) {
       double& size = largest(row / 2 % problem.harmonics());
       size = std::max(size, std::abs(residual(row)));

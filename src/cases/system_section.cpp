@@ -126,10 +126,8 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   } else {
     read_rings(document, replacements, section, settings, problem);
   }
-  if (settings.harmonics.size() > 1 || settings.harmonics_tolerance) {
-    if (!use.balanced) section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
-    if (settings.cubic_stiffness != 0) section.fail("harmonics", "expected 1 beside cubic_stiffness");
-  }
+  if (!use.balanced && (settings.harmonics.size() > 1 || settings.harmonics_tolerance))
+    section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
   check_waves(section, settings);
   problem.harmonics_tolerance = settings.harmonics_tolerance;
   problem.system = std::move(settings);

@@ -35,7 +35,6 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   if (problem.is_limit_cycle()) return "limit cycles";
   if (problem.is_mode()) return "nonlinear modes";
   if (problem.response == Response::one_way) return "one-way responses";
-  if (problem.system.cubic_stiffness != 0) return "cubic springs";
   return branch.curve ? "curves" : "";
 }
 

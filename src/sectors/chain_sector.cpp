@@ -34,7 +34,7 @@ FiniteSector chain_sector(const Matrix& mass, const Matrix& stiffness, Index nod
   return checked(sector);
 }
 
-FiniteSector chain_sector(const Element& element, Index wave_number, Index elements, Index count) {
+FiniteSector chain_sector(const ChainElement& element, Index wave_number, Index elements, Index count) {
   const Index node_dofs = element.mass.rows() / 2;
   FiniteSector sector =
       chain_sector(element.mass.cast<double>(), element.stiffness.cast<double>(), node_dofs, count, 0);

@@ -28,13 +28,13 @@ PreciseComplex travelling_moment(int power, const PreciseReal& a) {
   return sum;
 }
 
-Element rod_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements) {
+ChainElement rod_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements) {
   const PreciseReal length = PreciseReal(1) / elements;
   const PreciseReal a = propagation_constant(wave_number, elements);
   const PreciseComplex s0 = travelling_moment(0, a);
   const PreciseComplex s1 = travelling_moment(1, a);
 
-  Element element;
+  ChainElement element;
   element.mass.resize(2, 2);
   element.mass << 2, 1, 1, 2;
   element.mass *= mass_ratio * length / 6;
@@ -47,7 +47,7 @@ Element rod_element(double mass_ratio, double stiffness_ratio, Index wave_number
   return element;
 }
 
-Element beam_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements) {
+ChainElement beam_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements) {
   const PreciseReal l = PreciseReal(1) / elements;
   const PreciseReal a = propagation_constant(wave_number, elements);
   const PreciseComplex s0 = travelling_moment(0, a);
@@ -55,7 +55,7 @@ Element beam_element(double mass_ratio, double stiffness_ratio, Index wave_numbe
   const PreciseComplex s2 = travelling_moment(2, a);
   const PreciseComplex s3 = travelling_moment(3, a);
 
-  Element element;
+  ChainElement element;
   element.mass.resize(4, 4);
   element.mass << 156, 22 * l, 54, -13 * l,                            //
       22 * l, 4 * l * l, 13 * l, -3 * l * l,                           //

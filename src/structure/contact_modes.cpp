@@ -125,7 +125,7 @@ double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
   const Index m = forces.size();
   const ContactReceptance at = modes.at(eta);
   const Complex by_contacts = (at.compliance.row(m).head(m) * forces).value();
-  return std::abs(at.free(m) + force_sign * by_contacts);
+  return std::abs(at.free(m) + by_contacts);
 }
 
 std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,

@@ -2,7 +2,7 @@
 
 namespace arcslip {
 
-ReducedStructure reduce(const Element& element, Index wave_number, Index elements) {
+ReducedStructure reduce(const ChainElement& element, Index wave_number, Index elements) {
   const PreciseReal a = propagation_constant(wave_number, elements);
   const PreciseComplex forward{cos(a), -sin(a)};
   const Index boundary = element.mass.rows() / 2;

@@ -44,7 +44,7 @@ LongMatrix turned(const LongMatrix& whole, Index dofs) {
   return next;
 }
 
-Modes modes_of(const Element& element, Index nodes) {
+Modes modes_of(const ChainElement& element, Index nodes) {
   const Index dofs = element.mass.rows() / 2;
   const LongMatrix mass = assemble(element.mass, nodes);
   const Eigen::GeneralizedSelfAdjointEigenSolver<LongMatrix> solver(assemble(element.stiffness, nodes), mass);

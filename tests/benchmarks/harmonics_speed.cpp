@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "arcslip/assembly/system.hpp"
-#include "arcslip/elements/contact_force.hpp"
+#include "arcslip/elements/jenkins.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/time/ring_response.hpp"
 
@@ -64,7 +64,7 @@ void report(int highest, int contacts) {
   const double traced = seconds_since(start);
 
   // the same number of evaluations, of the contacts' forces alone
-  ContactForce force;
+  ElementForce force;
   const Clock::time_point again = Clock::now();
   double sum = 0;
   for (long i = 0; i < branch.work.evaluations; ++i) {
@@ -72,8 +72,9 @@ void report(int highest, int contacts) {
                                       static_cast<std::size_t>(branch.work.evaluations)];
     for (int k = 0; k < contacts; ++k) {
       const SectorContact& contact = problem.system().contacts[static_cast<std::size_t>(k)];
-      force.set(problem.system().orders, problem.motion(point.unknowns, k), contact.stiffness,
-                contact.slip_per_preload, (point.regime >> k & 1) != 0, true);
+      const Jenkins element(contact.stiffness, contact.slip_per_preload);
+      element.force(problem.system().orders, problem.motion(point.unknowns, k), 1,
+                    (point.regime >> k & 1) != 0, true, force);
       sum += force.energy;
     }
   }

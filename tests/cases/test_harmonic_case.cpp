@@ -119,8 +119,6 @@ TEST_CASE("Harmonics that cannot be taken are refused in one line", "[harmonics]
       {"harmonics = 3", "harmonics = [3, 5]", ":11:13", "system.harmonics", "begins with 1", ""},
       {"harmonics = 3", "harmonics = [1, 5, 3]", ":11:13", "system.harmonics", "ascends", ""},
       {"harmonics = 3", "harmonics_tolerance = 1e-3", ":11:23", "harmonics_tolerance", "\"auto\"", ""},
-      {"harmonics = 3", "harmonics = 3\ncubic_stiffness = 1.0", ":11:13", "system.harmonics",
-       "cubic_stiffness", ""},
       {"from = 1.4", "from = 1.4\nresponse = \"one_way\"", ":11:13", "system.harmonics", "expected 1", ""},
   }));
   CHECK_NOTHROW(read_case(folder.write("case.toml", text)));

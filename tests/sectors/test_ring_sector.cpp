@@ -134,7 +134,7 @@ TEST_CASE("Rods and beams of several elements are those of one, in one sector an
   constexpr Index n = 2;
   constexpr Index count = 5;
   const bool rods = GENERATE(true, false);
-  const Element element = rods ? rod_element(5, 80, n, 30) : beam_element(5, 80, n, 30);
+  const ChainElement element = rods ? rod_element(5, 80, n, 30) : beam_element(5, 80, n, 30);
   const FiniteSector sector = chain_sector(element, n, 30, count);
   const FiniteSector expected = testing::chain(element, count, testing::forward(n, 30));
   CHECK((sector.mass - expected.mass).norm() == 0);

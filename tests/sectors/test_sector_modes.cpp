@@ -24,7 +24,7 @@ double difference(const ContactResponse& a, const ContactResponse& b) {
 }
 
 /// A chain with its first node in contact.
-FiniteSector one_contact(const Element& element, Index count, Index wave_number, Index elements) {
+FiniteSector one_contact(const ChainElement& element, Index count, Index wave_number, Index elements) {
   FiniteSector sector = chain(element, count, forward(wave_number, elements));
   sector.contacts = {0};
   return checked(std::move(sector));

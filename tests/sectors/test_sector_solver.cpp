@@ -124,7 +124,7 @@ TEST_CASE("One element a sector responds as the built-in rods and beams") {
   const Index n = GENERATE(1, 2);
   const Index elements = 30;
   const bool beams = GENERATE(false, true);
-  const Element element = (beams ? beam_element : rod_element)(5, 80, n, elements);
+  const ChainElement element = (beams ? beam_element : rod_element)(5, 80, n, elements);
   const Loss loss{0.01, 0.003};
   const ModalModel built_in(reduce(element, n, elements), 0, loss);
   SectorSolver solver(checked(chain(element, 1, 1)), forward(n, elements), loss);
@@ -143,7 +143,7 @@ TEST_CASE(
   const Index n = GENERATE(1, 2);
   const Index elements = 30;
   const bool beams = GENERATE(false, true);
-  const Element element = (beams ? beam_element : rod_element)(5, 80, n, elements);
+  const ChainElement element = (beams ? beam_element : rod_element)(5, 80, n, elements);
   const Loss loss{0.01, 0.003};
   const ModalModel built_in(reduce(element, n, elements), 0, loss);
   FiniteSector sector = chain(element, 10, forward(n, elements));

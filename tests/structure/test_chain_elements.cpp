@@ -86,8 +86,8 @@ TEST_CASE("The element loads are the integrals of the shape functions under the 
 
 TEST_CASE("Element matrices are symmetric, carry the right mass and let rigid motions pass without force") {
   const PreciseReal quarter = PreciseReal(1) / 4;
-  const Element rod = rod_element(3, 2, 1, 4);
-  const Element beam = beam_element(3, 2, 1, 4);
+  const ChainElement rod = rod_element(3, 2, 1, 4);
+  const ChainElement beam = beam_element(3, 2, 1, 4);
   CHECK(rod.stiffness.isApprox(rod.stiffness.transpose()));
   CHECK(beam.stiffness.isApprox(beam.stiffness.transpose()));
   CHECK(beam.mass.isApprox(beam.mass.transpose()));

@@ -56,7 +56,7 @@ TEST_CASE("A sector with interior dofs reduces to T^H A T") {
 TEST_CASE(
     "Two elements taken as one sector with an interior node give the response of the ring of elements") {
   const Index elements = 12;
-  const Element element = beam_element(1, 1, 1, elements);
+  const ChainElement element = beam_element(1, 1, 1, elements);
   const Complex forward = std::polar(1.0, -4 * std::numbers::pi / static_cast<double>(elements));
   const auto pair = [&](const PreciseMatrix& precise) {  // nodes left, middle, right
     const Matrix a = rounded(precise);
@@ -82,7 +82,7 @@ TEST_CASE("The reduced structure moves as node 1 of the whole ring under the tra
   const Index n = GENERATE(1, 2, 4);
   const bool beams = GENERATE(false, true);
   const Index elements = 13;
-  const Element element = (beams ? beam_element : rod_element)(1, 1, n, elements);
+  const ChainElement element = (beams ? beam_element : rod_element)(1, 1, n, elements);
   const Index j = element.mass.rows() / 2;
   const double w = 2 * std::numbers::pi * 0.7;
   const Matrix whole = assemble_ring(rounded(element.stiffness), elements) -

@@ -25,7 +25,7 @@ inline std::vector<Index> count_from(Index first, Index count) {
 }
 
 /// `count` elements in a row under the travelling load, each node's first dof a contact but for the last.
-inline FiniteSector chain(const Element& element, Index count, const Complex& forward) {
+inline FiniteSector chain(const ChainElement& element, Index count, const Complex& forward) {
   const Index j = element.mass.rows() / 2;
   const Index n = (count + 1) * j;
   Matrix mass = Matrix::Zero(n, n);

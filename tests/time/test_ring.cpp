@@ -39,7 +39,7 @@ double unaccounted(RingMotion& motion, RingState& state, double duration) {
 Complex compliance(const SystemParameters& s, int order, double eta) {
   const auto make = s.model == StructureModel::rods ? rod_element : beam_element;
   const Index n = order * s.wave_number;
-  const auto seen = [&](const Element& element, double damping) {
+  const auto seen = [&](const ChainElement& element, double damping) {
     const ReducedStructure reduced = reduce(element, n, s.elements);
     return dynamic_stiffness(reduced, damping).contact_response(order * eta, 0).compliance;
   };

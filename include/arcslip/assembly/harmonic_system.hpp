@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -21,6 +22,7 @@ struct HarmonicSystem {
   std::vector<SectorContact> contacts;
   double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
   std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
+  std::vector<Coordinate> others = {};      ///< in which elements act beside the contacts
 };
 
 /// Throws std::invalid_argument where base, damper, orders and contacts do not fit, or a stiffness or

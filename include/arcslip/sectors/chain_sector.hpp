@@ -15,6 +15,6 @@ FiniteSector chain_sector(const Matrix& mass, const Matrix& stiffness, Index nod
                           Index contact);
 
 /// `count` elements of `elements` in the whole ring, with its travelling load of unit force per length.
-FiniteSector chain_sector(const Element& element, Index wave_number, Index elements, Index count);
+FiniteSector chain_sector(const ChainElement& element, Index wave_number, Index elements, Index count);
 
 }  // namespace arcslip

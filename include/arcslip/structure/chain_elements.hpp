@@ -9,7 +9,7 @@
 namespace arcslip {
 
 /// One element with its dofs ordered (left node, right node), J dofs to a node.
-struct Element {
+struct ChainElement {
   PreciseMatrix mass;         ///< 2J x 2J
   PreciseMatrix stiffness;    ///< 2J x 2J
   PreciseComplexVector load;  ///< 2J: int_0^{L_e} e^{-ja xi/L_e} phi_k(xi) d xi, for a unit load per length
@@ -23,9 +23,9 @@ PreciseReal propagation_constant(Index wave_number, Index elements);
 PreciseComplex travelling_moment(int power, const PreciseReal& a);
 
 /// Longitudinal rod, J = 1, linear shape functions [paper (20)].
-Element rod_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements);
+ChainElement rod_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements);
 
 /// Transverse beam, J = 2 (deflection and slope), cubic Hermite shape functions [paper (33)-(36)].
-Element beam_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements);
+ChainElement beam_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements);
 
 }  // namespace arcslip

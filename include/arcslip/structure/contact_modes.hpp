@@ -109,9 +109,9 @@ struct SectorContact {
 struct ContactOutput {
   std::string name;
   ContactModes modes;
-  double force_sign;  ///< of the contacts' forces: 1 on the base, -1 on the damper
+  bool on_base;
 
-  /// Under the load and the forces k phi r of all contacts.
+  /// Under the load and the forces on the contact dofs of its structure.
   double amplitude(double eta, const ContactVector& forces) const;
 };
 

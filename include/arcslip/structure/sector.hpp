@@ -52,6 +52,6 @@ struct ReducedStructure {
 };
 
 /// Ring of equal elements: the reduction of `element` with its propagation constant.
-ReducedStructure reduce(const Element& element, Index wave_number, Index elements);
+ReducedStructure reduce(const ChainElement& element, Index wave_number, Index elements);
 
 }  // namespace arcslip

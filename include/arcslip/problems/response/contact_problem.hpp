@@ -75,6 +75,9 @@ class ContactProblem : public continuation::Problem {
   /// Resonances of base, damper and the stuck pair, and the stuck damper's antiresonances, in eta.
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
+  /// The first harmonics of the coordinates that HarmonicResponse has of the same system.
+  virtual ComplexVector motions(const Vector& u, const Vector& p, int regime) const = 0;
+
   const FrictionSystem& system() const { return system_; }
 
  protected:

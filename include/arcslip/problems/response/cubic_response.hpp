@@ -31,6 +31,9 @@ class CubicResponse : public ContactProblem {
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// r and y.
+  ComplexVector motions(const Vector& u, const Vector& p, int regime) const override;
+
   /// The solution at (eta, P), of several the one with the smallest R. Throws std::invalid_argument where the
   /// response has no value.
   continuation::Guess guess(double eta_value, double preload_value) const;

@@ -35,8 +35,8 @@ class ForcedResponse : public ContactProblem {
                  continuation::Gradient& gradient) const override;
 
   /// r, whose modulus the unknown has.
-  Complex motion(const Vector& u, const Vector& p, int regime) const {
-    return motion(state(u(0), p, regime));
+  ComplexVector motions(const Vector& u, const Vector& p, int regime) const override {
+    return ComplexVector::Constant(1, motion(state(u(0), p, regime)));
   }
 
   /// The solution at (eta, P), of several the one with the smallest R: stick if it holds, else the slipping

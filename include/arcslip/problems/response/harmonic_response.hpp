@@ -1,24 +1,24 @@
 #pragma once
 
-// Forced response of base and damper in m contact dofs of a sector and several odd harmonics. Each contact
-// has a spring k_i and its own slider, which yields at S_i; its force k_i f(r_i) follows exactly from the
-// motion r_i(t) by HysteresisLoop:
+// Forced response of base and damper in several odd harmonics, with elements in the coordinates x of their
+// interface, see coordinates.hpp: in each x_i the force K_i f_i(x_i), K_i the element's reference stiffness:
 //
-//   r_h + C_h(eta) K f_h(r) = -y_0 delta_h1,   C_h = C_B + C_D at (h eta, h a),   K = diag(k_i).
+//   x_h + C_h(eta) K f_h(x) = x0 delta_h1,   C_h at (h eta, h a),   K = diag(K_i).
 //
-// Solved is f_h + (1 + C_h K)^{-1} (r_h - f_h + y_0 delta_h1) = 0 relative to |r| and to sqrt(1 + |(1 + C_h
-// K)^{-1}|^2): where the contacts stick, the error of r itself, however much larger C_h K is for their common
-// motion than for their differences. Then u_h = -C_D,h K f_h, y_h = u_h - r_h.
+// Solved is f_h + (1 + C_h K)^{-1} (x_h - f_h - x0 delta_h1) = 0 relative to |x| and to sqrt(1 + |(1 + C_h
+// K)^{-1}|^2): where the contacts stick, the error of x itself, however much larger C_h K is for their common
+// motion than for their differences. The first coordinates are the relative motions r = u - y of m contacts:
+// u_h from the forces on the damper, y_h = u_h - r_h.
 //
-// Unknowns: Re r_1, Im r_1, Re r_3, ... of the first contact, then of the next. Parameters: eta, P. Regimes:
-// which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i, for which
-// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) stands. That a slipping contact slips once more in a period, or once
-// less, is no border: the engine crosses such a corner as it finds it.
+// Unknowns: Re x_1, Im x_1, Re x_3, ... of the first coordinate, then of the next. Parameters: eta, P.
+// Regimes: which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i. That a
+// slipping contact slips once more in a period, or once less, is no border: the engine crosses such a corner
+// as it finds it.
 
+#include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
-#include "arcslip/elements/contact_force.hpp"
 #include "arcslip/problems/response/slip_regimes.hpp"
 
 namespace arcslip::problems {
@@ -35,7 +35,7 @@ class HarmonicResponse : public continuation::Problem {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit HarmonicResponse(HarmonicSystem system);
 
-  Index size() const override { return 2 * contacts() * harmonics(); }
+  Index size() const override { return 2 * coordinates_.size() * harmonics(); }
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
@@ -60,62 +60,75 @@ class HarmonicResponse : public continuation::Problem {
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
-  /// The solution at (eta, P) on the branch that begins where all contacts stick, under a high preload.
-  /// Throws std::invalid_argument where that cannot be traced, Unfinished where max_seconds or go_on of the
-  /// limits end it.
+  /// The solution at (eta, P) on the branch that begins where all contacts stick: under a high preload or,
+  /// where other elements act, under a small force. Throws std::invalid_argument where that cannot be traced,
+  /// Unfinished where max_seconds or go_on of the limits end it.
   continuation::Guess guess(double eta_value, double preload_value,
                             const continuation::TraceOptions& limits = {}) const;
 
   Index contacts() const { return std::ssize(system_.contacts); }
+  Index coordinates() const { return coordinates_.size(); }
   Index harmonics() const { return std::ssize(system_.orders); }
   const HarmonicSystem& system() const { return system_; }
 
-  /// r_h of a contact, of the unknowns.
-  HarmonicVector motion(const Vector& u, Index contact) const;
+  /// x_h of a coordinate, of the unknowns.
+  HarmonicVector motion(const Vector& u, Index coordinate) const;
 
   /// S of a contact.
   double slip_threshold(Index contact, const Vector& p) const;
 
-  /// What friction does to the base; the damper feels the opposite.
-  struct Friction {
-    std::vector<ContactVector> forces;  ///< of each harmonic, the force on the base's contacts
-    double energy;                      ///< lost per cycle in all contacts
+  /// What the elements do to base and damper.
+  struct ElementForces {
+    std::vector<ContactVector> base;    ///< of each harmonic, the forces on its contact dofs
+    std::vector<ContactVector> damper;  ///< the same
+    double energy;                      ///< lost per cycle in all elements
   };
-  Friction friction(const Vector& u, const Vector& p, int regime) const;
+  ElementForces element_forces(const Vector& u, const Vector& p, int regime) const;
 
  private:
   struct Forces;
   static Forces& last_forces();
 
-  /// Of each contact; valid until the thread's next call, whose work space it is.
-  const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
+  class LoadPath;
+  bool evaluate(const Vector& u, const Vector& p, int regime, double share,
+                const continuation::Evaluation& out) const;
+  continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
+                              Index parameter, double to, const continuation::TraceOptions& limits) const;
+  double linear_share(const continuation::Guess& stuck, double share) const;
+
+  /// Of each coordinate; valid until the thread's next call, whose work space it is.
+  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
                                           bool derivatives) const;
 
-  /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (r - f + y_0)) but for |r|.
+  /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
     Index which;
-    ContactReceptance joint;               // 1 + C_h K in place of C_h, and y_0, 0 above the first
+    ContactReceptance joint;               // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix inverse;                 // (1 + C_h K)^{-1}
     double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
   };
   void set_order(Index which, double eta_value, int regime, Order& order) const;
   struct Rows;
-  void fill_rows(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p, int regime,
-                 Rows& rows, Matrix* parameter_jacobian) const;
-  void fill_order(Order& order, const std::vector<ContactForce>& friction, const Vector& u, const Vector& p,
-                  Rows& rows, Matrix* parameter_jacobian) const;
-  void fill_jacobian(Rows& rows, const std::vector<ContactForce>& friction, const Vector& u, int regime,
+  void fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u, const Vector& p,
+                 int regime, Rows& rows, Matrix* parameter_jacobian) const;
+  void fill_order(Order& order, const std::vector<ElementForce>& elements, double share, const Vector& u,
+                  const Vector& p, Rows& rows, Matrix* parameter_jacobian) const;
+  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u, int regime,
                      Matrix& jacobian) const;
 
-  /// The derivatives of F with these forces of the contacts.
-  void fill(const std::vector<ContactForce>& friction, const Vector& u, const Vector& p, int regime,
+  /// The derivatives of F with these forces of the elements.
+  void fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p, int regime,
             Matrix& jacobian, Matrix& parameter_jacobian) const;
 
+  bool is_linear(int regime, Index coordinate) const {
+    return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
+  }
   OddMotion::Maximum maximum(const Vector& u, Index contact) const;
   double load(const Vector& p) const;  // P + P_2 eta^2
 
   HarmonicSystem system_;
+  Coordinates coordinates_;
 };
 
 }  // namespace arcslip::problems

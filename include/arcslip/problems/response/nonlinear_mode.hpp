@@ -4,13 +4,15 @@
 // M. Krack, Nonlinear modal analysis of nonconservative systems, Comput. Struct. 154 (2015) 59]. Damping
 // proportional to mass, -2 zeta w* M on both structures, replaces what is lost and keeps the motion periodic:
 //
-//   r_h + C_h(eta, zeta) K f_h(r) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h.
+//   x_h + C_h(eta, zeta) f_h(x) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h,
 //
-// solved relative to |r| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. eta is then
+// in the coordinates x of coordinates.hpp, of which those of the contacts come first,
+//
+// solved relative to |x| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. eta is then
 // the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first harmonic,
 // whose phase is 0. Where zeta = 0 the motion needs no help: a limit cycle.
 //
-// Unknowns: eta, zeta, then Re and Im of all harmonics of all contacts but that one, in the order of
+// Unknowns: eta, zeta, then Re and Im of all harmonics of all coordinates but that one, in the order of
 // HarmonicResponse. Parameters: R, P. Regimes and borders are those of HarmonicResponse.
 //
 // Where other modes are far, the forced response near the mode follows from it: with the mode's motion in
@@ -21,10 +23,10 @@
 #include <array>
 #include <optional>
 
+#include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
-#include "arcslip/elements/contact_force.hpp"
 #include "arcslip/problems/response/slip_regimes.hpp"
 
 namespace arcslip::problems {
@@ -40,7 +42,7 @@ class NonlinearMode : public continuation::Problem {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit NonlinearMode(HarmonicSystem system);
 
-  Index size() const override { return 2 * contacts() * harmonics(); }
+  Index size() const override { return 2 * coordinates_.size() * harmonics(); }
   std::vector<std::string> parameter_names() const override { return {"R", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
@@ -78,16 +80,17 @@ class NonlinearMode : public continuation::Problem {
     double load;       // |psi^H l|
   };
   Order order(Index which, const Vector& u, int regime) const;
-  HarmonicVector motion(const Vector& u, const Vector& p, Index contact) const;
+  HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
   double load(const Vector& u, const Vector& p) const;
   double threshold(Index contact, const Vector& u, const Vector& p) const;
-  const std::vector<ContactForce>& forces(const Vector& u, const Vector& p, int regime,
+  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
                                           bool derivatives) const;
   Modal modal(const Vector& u, const Vector& p, int regime) const;
-  void fill_row(const Order& order, Index contact, const std::vector<ContactForce>& friction, const Vector& u,
-                const Vector& p, const continuation::Evaluation& out) const;
+  void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& friction,
+                const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
 
   HarmonicSystem system_;
+  Coordinates coordinates_;
 };
 
 }  // namespace arcslip::problems

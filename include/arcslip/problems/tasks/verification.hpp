@@ -21,7 +21,7 @@ struct BalanceErrors {
   double motion = 0;        ///< motion_error
 };
 
-/// The largest at the points of a branch, which is one of HarmonicResponse, or of ForcedResponse, with the
+/// The largest at the points of a branch, which is one of HarmonicResponse, or of its scalar forms, with the
 /// system of `parameters` in `orders`. None where `go_on`, asked before each point, says no.
 std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
                                             const std::vector<int>& orders,

@@ -1,0 +1,55 @@
+#pragma once
+
+// The coordinates x = L q in which elements act on base and damper: the relative motion u - y of a contact,
+// or the motion y of the base's contact dof against ground. Each row of L has an entry for one dof of the
+// base, one of the damper, or both. With the forces f of the elements against x,
+//
+//   x_h + C_h f_h = x0 delta_h1,   C_h = L blockdiag(C_B, C_D) L^T,   x0 = L (y_0, 0).
+
+#include <memory>
+#include <vector>
+
+#include "arcslip/elements/element.hpp"
+#include "arcslip/structure/contact_modes.hpp"
+
+namespace arcslip {
+
+struct HarmonicSystem;
+
+struct Coordinate {
+  double base = 0;    ///< entry of L for the base's dof
+  double damper = 0;  ///< and for the damper's
+  Index dof = 0;      ///< which of their contact dofs
+  std::shared_ptr<const Element> element;
+};
+
+class Coordinates {
+ public:
+  /// First the relative motions of the contacts, then the system's further coordinates.
+  explicit Coordinates(const HarmonicSystem& system);
+
+  Index size() const { return std::ssize(all_); }
+  Index contacts() const { return contacts_; }
+  const Element& element(Index i) const { return *all_[static_cast<std::size_t>(i)].element; }
+  const Coordinate& operator[](Index i) const { return all_[static_cast<std::size_t>(i)]; }
+
+  /// Whether elements act but at the contacts.
+  bool has_others() const { return size() > contacts_; }
+
+  /// C of one order, and -x0 as its `free`, with their derivatives.
+  void receptance(const ContactModes& base, const ContactModes& damper, double frequency,
+                  ContactReceptance& joint) const;
+
+  /// Adds the part that one structure, of which `entry` is &Coordinate::base or damper, has in L C L^T.
+  void add(const ContactMatrix& compliance, double Coordinate::*entry, ContactMatrix& sum) const;
+
+  /// Forces on the contact dofs of a structure in one order.
+  ContactVector forces_on(double Coordinate::*entry, const std::vector<ElementForce>& forces,
+                          Index order) const;
+
+ private:
+  std::vector<Coordinate> all_;
+  Index contacts_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,35 @@
+#pragma once
+
+// A contact point: a spring of stiffness k in series with a slider that yields at the displacement S, which
+// is proportional to the load [Jenkins]. In slip the force follows from the motion by HysteresisLoop; it
+// sticks where its amplitude A = max |x(t)| is at most S.
+
+#include "arcslip/elements/element.hpp"
+
+namespace arcslip {
+
+class Jenkins final : public Element {
+ public:
+  /// Throws std::invalid_argument where stiffness or S/load is not positive.
+  Jenkins(double stiffness, double slip_per_load);
+
+  double reference_stiffness() const override { return stiffness_; }
+  bool may_slip() const override { return true; }
+  bool is_linear(bool slips) const override { return !slips; }
+  void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
+             ElementForce& out) const override;
+
+  /// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in stick, its negative in slip.
+  StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
+                     bool slips) const override;
+  double slip_threshold(double load) const override { return slip_per_load_ * load; }
+
+ private:
+  void second(std::span<const int> orders, const HarmonicVector& x, double load, const HarmonicVector& motion,
+              double log_load, ElementForce& change) const override;
+
+  double stiffness_;
+  double slip_per_load_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,131 @@
+// The first solution of a forced response: linear where all contacts stick and nothing else acts, else
+// reached from there.
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/problems/response/harmonic_response.hpp"
+
+namespace arcslip::problems {
+
+using continuation::Gradient;
+using continuation::Guess;
+
+/// The response at fixed eta and P over the share of the load that acts.
+class HarmonicResponse::LoadPath : public continuation::Problem {
+ public:
+  LoadPath(const HarmonicResponse& response, Vector parameters)
+      : response_(response), parameters_(std::move(parameters)) {}
+
+  Index size() const override { return response_.size(); }
+  std::vector<std::string> parameter_names() const override { return {"load"}; }
+
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override {
+    continuation::Evaluation inner = out;
+    Matrix columns(size(), 3);
+    if (out.parameter_jacobian != nullptr) inner.parameter_jacobian = &columns;
+    if (!response_.evaluate(u, parameters_, regime, p(0), inner)) return false;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = columns.col(2);
+    return true;
+  }
+
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    unknowns.setConstant(u.norm());
+    parameters = p;
+  }
+
+  std::vector<std::string> regime_names() const override { return response_.regime_names(); }
+  int border_count(int regime) const override { return response_.border_count(regime); }
+  double border(const Vector& u, const Vector& /*p*/, int regime, int border,
+                Gradient* gradient) const override {
+    if (gradient == nullptr) return response_.border(u, parameters_, regime, border, nullptr);
+    Gradient inner{Vector(size()), Vector(2)};
+    const double value = response_.border(u, parameters_, regime, border, &inner);
+    gradient->unknowns = inner.unknowns;
+    gradient->parameters.setZero();
+    return value;
+  }
+  int regime_beyond(int regime, int border) const override { return response_.regime_beyond(regime, border); }
+
+ private:
+  const HarmonicResponse& response_;
+  Vector parameters_;
+};
+
+/// The end of a branch of `path` over one of its parameters.
+Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& start, Index parameter,
+                                double to, const continuation::TraceOptions& limits) const {
+  continuation::TraceOptions options;
+  options.parameter = path.parameter_names()[static_cast<std::size_t>(parameter)];
+  options.from = start.parameters(parameter);
+  options.to = to;
+  options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
+  options.max_seconds = limits.max_seconds;
+  options.go_on = limits.go_on;
+  const continuation::Branch branch = trace(path, start, options);
+  const char* from = coordinates_.has_others() ? "a small force" : "a high preload";
+  if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+    throw continuation::Unfinished(branch.stop,
+                                   fmt::format("on the way from {}: {}", from, branch.explanation));
+  if (!branch.complete())
+    throw std::invalid_argument(
+        fmt::format("HarmonicResponse: no way from {}: {}", from, branch.explanation));
+  const continuation::BranchPoint& end = branch.points.back();
+  return {end.unknowns, end.parameters, end.regime};
+}
+
+Guess HarmonicResponse::guess(double eta_value, double preload_value,
+                              const continuation::TraceOptions& limits) const {
+  Guess guess{Vector::Zero(size()), Vector(2), 0};
+  guess.parameters << eta_value, preload_value;
+  if (!(eta_value > 0 && preload_value > 0 && load(guess.parameters) > 0))
+    throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
+  ContactReceptance joint;
+  coordinates_.receptance(system_.base[0], system_.damper[0], eta_value, joint);
+  ContactMatrix stuck = joint.compliance;
+  for (Index j = 0; j < coordinates_.size(); ++j)
+    stuck.col(j) *= j < contacts() ? coordinates_.element(j).reference_stiffness() : 0;
+  stuck.diagonal().array() += 1;
+  const ContactVector x = -(stuck.partialPivLu().solve(joint.free));
+  double holding = 0;  // load over that which lets nothing slip
+  for (Index i = 0; i < coordinates_.size(); ++i) {
+    guess.unknowns(2 * i * harmonics()) = x(i).real();
+    guess.unknowns(2 * i * harmonics() + 1) = x(i).imag();
+    if (i < contacts()) holding = std::max(holding, std::abs(x(i)) / slip_threshold(i, guess.parameters));
+  }
+  if (!coordinates_.has_others() && holding <= 1) return guess;
+
+  if (!coordinates_.has_others()) {
+    guess.parameters(preload) =
+        1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
+    return reached(*this, guess, preload, preload_value, limits);
+  }
+  constexpr double small = 1e-3;  // of the force under which the linear response does
+  const double share = linear_share(guess, small / std::max(1.0, holding));
+  guess.unknowns *= share;
+  const Vector parameters = guess.parameters;
+  guess.parameters = Vector::Constant(1, share);
+  guess = reached(LoadPath(*this, parameters), guess, 0, 1, limits);
+  guess.parameters = parameters;
+  return guess;
+}
+
+/// A share of the load, at most `share`, under which what the elements beside the contacts do to the stuck
+/// response is nothing to it.
+double HarmonicResponse::linear_share(const Guess& stuck, double share) const {
+  constexpr double nothing = 1e-3;
+  Vector residual(size());
+  for (; share > 1e-100; share *= 0.1) {
+    const Vector u = share * stuck.unknowns;
+    if (evaluate(u, stuck.parameters, 0, share, {&residual}) && residual.lpNorm<Eigen::Infinity>() < nothing)
+      return share;
+  }
+  throw std::invalid_argument("HarmonicResponse: the response to a small force is not linear");
+}
+
+}  // namespace arcslip::problems

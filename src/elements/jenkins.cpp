@@ -1,0 +1,59 @@
+#include "arcslip/elements/jenkins.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/elements/hysteresis_loop.hpp"
+
+namespace arcslip {
+
+Jenkins::Jenkins(double stiffness, double slip_per_load)
+    : stiffness_(stiffness), slip_per_load_(slip_per_load) {
+  if (!(stiffness > 0 && slip_per_load > 0))
+    throw std::invalid_argument("Jenkins: stiffness and slip threshold must be positive");
+}
+
+void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+                    bool derivatives, ElementForce& out) const {
+  if (!slips) return out.set_linear(stiffness_, x, derivatives);
+  const OddMotion motion(orders, x);
+  const HysteresisLoop loop(motion, slip_threshold(load));
+  loop.force(out.harmonics);
+  out.harmonics *= stiffness_;
+  out.energy = stiffness_ * loop.energy();
+  out.maximum = loop.maximum();
+  if (!derivatives) return;
+  loop.derivative(out.linear, out.conjugate);
+  out.linear *= stiffness_;
+  out.conjugate *= stiffness_;
+  out.by_log_load = out.harmonics;  // f is homogeneous in x and S
+  out.by_log_load.noalias() -= out.linear * x;
+  out.by_log_load.noalias() -= out.conjugate * x.conjugate();
+}
+
+void Jenkins::second(std::span<const int> orders, const HarmonicVector& x, double load,
+                     const HarmonicVector& motion, double log_load, ElementForce& change) const {
+  const double threshold = slip_threshold(load);
+  HysteresisLoop(OddMotion(orders, x), threshold)
+      .second(motion, threshold * log_load, change.linear, change.conjugate);
+  change.linear *= stiffness_;
+  change.conjugate *= stiffness_;
+}
+
+StateBorder Jenkins::border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
+                            bool slips) const {
+  const double threshold = slip_threshold(load);
+  const double sign = slips ? -1 : 1;
+  const double square = top.value * top.value;
+  const double sum = square + threshold * threshold;
+  const double slope = sign * 4 * threshold * threshold / (sum * sum);  // by A^2/2
+  StateBorder border{sign * (square - threshold * threshold) / sum, HarmonicVector(std::ssize(orders)),
+                     -slope * square};
+  for (Index a = 0; a < border.by_motion.size(); ++a) {
+    border.by_motion(a) =
+        slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);
+  }
+  return border;
+}
+
+}  // namespace arcslip
