@@ -1,14 +1,9 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "arcslip/problems/response/contact_problem.hpp"
-#include "arcslip/problems/response/slip_regimes.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -23,11 +18,6 @@ void store(const ContactVector& values, Index which, Index n, Column&& column) {
 }
 
 }  // namespace
-
-HarmonicResponse::HarmonicResponse(HarmonicSystem system)
-    : system_(std::move(system)), coordinates_(system_) {
-  check(system_);
-}
 
 /// Forces of all elements with what they were found for: work space of a thread.
 struct HarmonicResponse::Forces {
@@ -49,10 +39,6 @@ HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const
     r(a) = {u(place), u(place + 1)};
   }
   return r;
-}
-
-double HarmonicResponse::load(const Vector& p) const {
-  return p(preload) + system_.preload_growth * p(eta) * p(eta);
 }
 
 double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
@@ -268,17 +254,11 @@ double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, in
 std::vector<continuation::Observable> HarmonicResponse::observables() const {
   std::vector<continuation::Observable> all = {{"R"},    {"S"},     {"R_over_S"}, {"Y", true},   {"U"},
                                                {"beta"}, {"alpha"}, {"psi"},      {"dissipated"}};
-  for (Index i = 1; i < contacts(); ++i) {
-    for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
-      all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
-  }
+  add_further_contacts(all);
   for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
   if (harmonics() == 1) return all;
   for (const char* name : {"R_peak", "Y_peak", "U_peak"}) all.push_back({name});
-  for (Index a = 1; a < harmonics(); ++a) {
-    for (const char* name : {"R", "Y", "U"})
-      all.push_back({fmt::format("{}_h{}", name, system_.orders[at(a)])});
-  }
+  add_higher_harmonics(all);
   return all;
 }
 

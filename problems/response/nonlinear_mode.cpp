@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 namespace arcslip::problems {
+
 /// One harmonic of the linear part, with derivatives in eta and zeta.
 struct NonlinearMode::Order {
   Index which;
@@ -18,10 +19,6 @@ struct NonlinearMode::Order {
   double norm_zeta = 0;
 };
 
-NonlinearMode::NonlinearMode(HarmonicSystem system) : system_(std::move(system)), coordinates_(system_) {
-  check(system_);
-}
-
 HarmonicVector NonlinearMode::motion(const Vector& u, const Vector& p, Index coordinate) const {
   HarmonicVector r(harmonics());
   for (Index a = 0; a < harmonics(); ++a) {
@@ -29,10 +26,6 @@ HarmonicVector NonlinearMode::motion(const Vector& u, const Vector& p, Index coo
     r(a) = place == 0 ? Complex(p(amplitude)) : Complex(u(place), u(place + 1));
   }
   return r;
-}
-
-double NonlinearMode::load(const Vector& u, const Vector& p) const {
-  return p(preload) + system_.preload_growth * u(frequency) * u(frequency);
 }
 
 double NonlinearMode::threshold(Index contact, const Vector& u, const Vector& p) const {
@@ -181,14 +174,8 @@ double NonlinearMode::border(const Vector& u, const Vector& p, int regime, int b
 std::vector<continuation::Observable> NonlinearMode::observables() const {
   std::vector<continuation::Observable> all = {{"eta", true}, {"zeta", true}, {"S"},          {"R_over_S"},
                                                {"Y"},         {"U"},          {"dissipated"}, {"force"}};
-  for (Index i = 1; i < contacts(); ++i) {
-    for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
-      all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
-  }
-  for (Index a = 1; a < harmonics(); ++a) {
-    for (const char* name : {"R", "Y", "U"})
-      all.push_back({fmt::format("{}_h{}", name, system_.orders[at(a)])});
-  }
+  add_further_contacts(all);
+  add_higher_harmonics(all);
   return all;
 }
 

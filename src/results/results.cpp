@@ -182,10 +182,8 @@ ordered_json modes_to_json(const SystemParameters& system) {
 }
 
 std::vector<int> harmonics_of(const continuation::Problem& problem) {
-  if (const auto* several = dynamic_cast<const problems::HarmonicResponse*>(&problem))
-    return several->system().orders;
-  if (const auto* mode = dynamic_cast<const problems::NonlinearMode*>(&problem)) return mode->system().orders;
-  return {1};
+  const auto* several = dynamic_cast<const problems::HarmonicProblem*>(&problem);
+  return several != nullptr ? several->system().orders : std::vector<int>{1};
 }
 
 std::string describe_harmonics(const TracedBranch& traced) {

@@ -15,15 +15,12 @@
 // slipping contact slips once more in a period, or once less, is no border: the engine crosses such a corner
 // as it finds it.
 
-#include "arcslip/assembly/coordinates.hpp"
-#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/continuation/path/trace.hpp"
-#include "arcslip/continuation/problem/problem.hpp"
-#include "arcslip/problems/response/slip_regimes.hpp"
+#include "arcslip/problems/response/harmonic_problem.hpp"
 
 namespace arcslip::problems {
 
-class HarmonicResponse : public continuation::Problem {
+class HarmonicResponse : public HarmonicProblem {
  public:
   enum Parameter : Index { eta, preload };
   /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
@@ -33,9 +30,8 @@ class HarmonicResponse : public continuation::Problem {
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit HarmonicResponse(HarmonicSystem system);
+  explicit HarmonicResponse(HarmonicSystem system) : HarmonicProblem(std::move(system)) {}
 
-  Index size() const override { return 2 * coordinates_.size() * harmonics(); }
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
@@ -45,11 +41,8 @@ class HarmonicResponse : public continuation::Problem {
               const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
-  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
   double border(const Vector& u, const Vector& p, int regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
 
   /// Of them Y has a gradient.
   std::vector<continuation::Observable> observables() const override;
@@ -65,11 +58,6 @@ class HarmonicResponse : public continuation::Problem {
   /// Unfinished where max_seconds or go_on of the limits end it.
   continuation::Guess guess(double eta_value, double preload_value,
                             const continuation::TraceOptions& limits = {}) const;
-
-  Index contacts() const { return std::ssize(system_.contacts); }
-  Index coordinates() const { return coordinates_.size(); }
-  Index harmonics() const { return std::ssize(system_.orders); }
-  const HarmonicSystem& system() const { return system_; }
 
   /// x_h of a coordinate, of the unknowns.
   HarmonicVector motion(const Vector& u, Index coordinate) const;
@@ -125,10 +113,7 @@ class HarmonicResponse : public continuation::Problem {
     return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
   }
   OddMotion::Maximum maximum(const Vector& u, Index contact) const;
-  double load(const Vector& p) const;  // P + P_2 eta^2
-
-  HarmonicSystem system_;
-  Coordinates coordinates_;
+  double load(const Vector& p) const { return HarmonicProblem::load(p(eta), p(preload)); }
 };
 
 }  // namespace arcslip::problems

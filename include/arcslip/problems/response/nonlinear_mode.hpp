@@ -23,15 +23,12 @@
 #include <array>
 #include <optional>
 
-#include "arcslip/assembly/coordinates.hpp"
-#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/continuation/path/trace.hpp"
-#include "arcslip/continuation/problem/problem.hpp"
-#include "arcslip/problems/response/slip_regimes.hpp"
+#include "arcslip/problems/response/harmonic_problem.hpp"
 
 namespace arcslip::problems {
 
-class NonlinearMode : public continuation::Problem {
+class NonlinearMode : public HarmonicProblem {
  public:
   enum Parameter : Index { amplitude, preload };
   enum Unknown : Index { frequency, damping };
@@ -40,19 +37,15 @@ class NonlinearMode : public continuation::Problem {
   enum Quantity : Index { eta, zeta, S, R_over_S, Y, U, dissipated, force };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit NonlinearMode(HarmonicSystem system);
+  explicit NonlinearMode(HarmonicSystem system) : HarmonicProblem(std::move(system)) {}
 
-  Index size() const override { return 2 * coordinates_.size() * harmonics(); }
   std::vector<std::string> parameter_names() const override { return {"R", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
-  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
   double border(const Vector& u, const Vector& p, int regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
 
   /// Of them eta and zeta have gradients.
   std::vector<continuation::Observable> observables() const override;
@@ -69,10 +62,6 @@ class NonlinearMode : public continuation::Problem {
   std::optional<std::array<double, 2>> flanks(const Vector& u, const Vector& p, int regime,
                                               double force) const;
 
-  Index contacts() const { return std::ssize(system_.contacts); }
-  Index harmonics() const { return std::ssize(system_.orders); }
-  const HarmonicSystem& system() const { return system_; }
-
  private:
   struct Order;
   struct Modal {
@@ -81,16 +70,15 @@ class NonlinearMode : public continuation::Problem {
   };
   Order order(Index which, const Vector& u, int regime) const;
   HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
-  double load(const Vector& u, const Vector& p) const;
+  double load(const Vector& u, const Vector& p) const {
+    return HarmonicProblem::load(u(frequency), p(preload));
+  }
   double threshold(Index contact, const Vector& u, const Vector& p) const;
   const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
                                           bool derivatives) const;
   Modal modal(const Vector& u, const Vector& p, int regime) const;
   void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& friction,
                 const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
-
-  HarmonicSystem system_;
-  Coordinates coordinates_;
 };
 
 }  // namespace arcslip::problems
