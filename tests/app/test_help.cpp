@@ -1,0 +1,39 @@
+// What the program tells of itself and of the keys of case files.
+
+#include "catch.hpp"
+#include "program.hpp"
+
+using namespace arcslip::testing;
+
+TEST_CASE("Help and version explain the program with status 0") {
+  CHECK_THAT(arcslip_program("--version").out, ContainsSubstring("arcslip 0."));
+  const Outcome help = arcslip_program("--help");
+  CHECK(help.status == 0);
+  for (const std::string word : {"run", "check", "plot", "Exit status", "Examples"}) {
+    CHECK_THAT(help.out, ContainsSubstring(word));
+  }
+  CHECK_THAT(arcslip_program("run --help").out, ContainsSubstring("--set") && ContainsSubstring("for_each") &&
+                                                    ContainsSubstring("curve = \"peak\"") &&
+                                                    ContainsSubstring("stop_after") &&
+                                                    ContainsSubstring("limit_cycle"));
+}
+
+TEST_CASE("help lists the keys of case files and tells all of one, or the nearest to it") {
+  const Outcome all = arcslip_program("help");
+  CHECK(all.status == 0);
+  CHECK_THAT(all.out, ContainsSubstring("[study.uncertain]") && ContainsSubstring("damper.width") &&
+                          ContainsSubstring("lorenz84.G"));
+  const Outcome one = arcslip_program("help continuation.max_step");
+  CHECK(one.status == 0);
+  CHECK(one.out ==
+        "continuation.max_step: largest step\n  is            number > 0 and <= 1\n"
+        "  unit          scaled arclength\n  if not given  0.1\n");
+  CHECK_THAT(arcslip_program("help eta").out,
+             ContainsSubstring("branch.eta: ") && ContainsSubstring("study.eta: "));
+  CHECK_THAT(arcslip_program("help preload").out,
+             ContainsSubstring("continued as  P\n") && ContainsSubstring("may list it\n"));
+  const Outcome none = arcslip_program("help continuation.max_stop");
+  CHECK(none.status == 2);
+  CHECK(is_one_line(none.err));
+  CHECK_THAT(none.err, ContainsSubstring("did you mean 'max_step'?"));
+}
