@@ -98,9 +98,8 @@ Guess HarmonicResponse::guess(double eta_value, double preload_value,
     guess.unknowns(2 * i * harmonics() + 1) = x(i).imag();
     if (i < contacts()) holding = std::max(holding, std::abs(x(i)) / slip_threshold(i, guess.parameters));
   }
-  if (!coordinates_.has_others() && holding <= 1) return guess;
-
   if (!coordinates_.has_others()) {
+    if (holding <= 1) return guess;
     guess.parameters(preload) =
         1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
     return reached(*this, guess, preload, preload_value, limits);

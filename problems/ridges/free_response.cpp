@@ -6,6 +6,7 @@
 
 #include "arcslip/problems/response/cubic_response.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/ridges/peak_search.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -93,7 +94,6 @@ Peak free_peak(const ContactModes& base, const PreloadRange& range,
 }
 
 Peak free_peak(FrictionSystem system, const PreloadRange& range, const continuation::TraceOptions& options) {
-  constexpr double out_of_reach = 1e200;  // a preload at which everything sticks
   system.contact_stiffness = 0;
   if (system.cubic_stiffness != 0) {
     const CubicResponse problem(std::move(system));

@@ -57,6 +57,11 @@ std::size_t HighestPeak::position(double x) const {
   return static_cast<std::size_t>(place - samples_.begin());
 }
 
+double HighestPeak::value(double x) const {
+  const std::size_t place = position(x);
+  return place < samples_.size() && samples_[place].x == x ? samples_[place].value : std::exp(x);
+}
+
 const PeakSample& HighestPeak::add(double x) { return add(x, std::exp(x)); }
 
 const PeakSample& HighestPeak::add(double x, double value) {
@@ -66,10 +71,7 @@ const PeakSample& HighestPeak::add(double x, double value) {
     throw std::runtime_error("the preload with the lowest peak is not settled by 400 responses");
   PeakSample sample{x, value, responses_.at(value), 0};
   if (sample.peaks.empty()) throw std::runtime_error("there is no peak in the window");
-  const auto highest =
-      std::max_element(sample.peaks.begin(), sample.peaks.end(),
-                       [](const auto& a, const auto& b) { return a.log_height < b.log_height; });
-  sample.top = static_cast<std::size_t>(highest - sample.peaks.begin());
+  sample.top = highest_of(sample.peaks);
   return *samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(place), std::move(sample));
 }
 

@@ -25,6 +25,12 @@ bool same_place(const BranchPoint& a, const BranchPoint& b) {
 
 }  // namespace
 
+std::size_t highest_of(const std::vector<ResponsePeak>& peaks) {
+  const auto highest = std::max_element(
+      peaks.begin(), peaks.end(), [](const auto& a, const auto& b) { return a.log_height < b.log_height; });
+  return static_cast<std::size_t>(highest - peaks.begin());
+}
+
 /// Derivatives of L = ln g on the solutions, by both parameters.
 class ResponsePeaks::Slopes {
  public:

@@ -127,15 +127,6 @@ class Ridges {
   const HighestPeak::Lowest& lowest_;
 };
 
-/// A bound of the range as it was given, not as its logarithm gives it back.
-double bound(double x, const HighestPeak& highest) {
-  const std::vector<PeakSample>& samples = highest.samples();
-  const auto place =
-      std::lower_bound(samples.begin(), samples.end(), x,
-                       [](const PeakSample& sample, double value) { return sample.x < value; });
-  return place != samples.end() && place->x == x ? place->value : std::exp(x);
-}
-
 }  // namespace
 
 PreloadStudy study_response(ResponsePeaks& responses, const PreloadRange& range,
@@ -156,8 +147,8 @@ PreloadStudy study_response(ResponsePeaks& responses, const PreloadRange& range,
     optimum.peak.is_global = true;
     optimum.energy = readings.energy(optimum.peak, contacts);
     optimum.damping = unknown;
-    optimum.low = bound(lowest.low, highest);
-    optimum.high = bound(lowest.high, highest);
+    optimum.low = highest.value(lowest.low);
+    optimum.high = highest.value(lowest.high);
     study.optimum = optimum;
   } catch (const std::bad_alloc&) {
     throw;  // no property of the system

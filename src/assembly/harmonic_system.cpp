@@ -25,12 +25,11 @@ ContactModes one_contact(const ModalModel& model) {
 
 /// From each contact dof of the base to ground.
 void add_cubic_springs(const SystemParameters& parameters, HarmonicSystem& system) {
-  const double coefficient = build_system(parameters).cubic_stiffness;
   double compliance = 0;  // static, but for rigid motions
   for (const ContactMode& mode : system.base[0].modes()) {
     if (mode.frequency > 0) compliance += mode.shape.squaredNorm() / (mode.frequency * mode.frequency);
   }
-  const auto spring = std::make_shared<CubicSpring>(coefficient, 1 / compliance);
+  const auto spring = std::make_shared<CubicSpring>(cubic_coefficient(parameters), 1 / compliance);
   for (Index i = 0; i < std::ssize(system.contacts); ++i) system.others.push_back({1, 0, i, spring});
 }
 

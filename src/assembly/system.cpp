@@ -55,6 +55,10 @@ Loss base_loss_per_zeta(const SystemParameters& parameters) {
   return {2 / parameters.frequency_ratio, 0};
 }
 
+double cubic_coefficient(const SystemParameters& parameters) {
+  return parameters.cubic_stiffness * parameters.stiffness_ratio() / static_cast<double>(parameters.elements);
+}
+
 FrictionSystem build_system(const SystemParameters& parameters) {
   if (parameters.sectors) return build_sector_system(parameters);
   const ReducedPair pair = reduce(parameters);
@@ -69,7 +73,7 @@ FrictionSystem build_system(const SystemParameters& parameters) {
           parameters.interface_stiffness / elements,
           parameters.stiffness_ratio() / parameters.interface_stiffness,
           base_loss_per_zeta(parameters),
-          parameters.cubic_stiffness * parameters.stiffness_ratio() / elements,
+          cubic_coefficient(parameters),
           parameters.preload_growth,
           {},
           {}};

@@ -23,9 +23,8 @@ using problems::PreloadStudy;
 
 /// Whether closed slopes serve.
 bool is_closed(const StudyCase& study, const StudyDesign& design) {
-  const SystemParameters& system = design.system;
-  return study.objective == "Y" && !needs_contact_system(system) && system.harmonics.size() == 1 &&
-         !design.harmonics_tolerance && system.cubic_stiffness == 0;
+  return study.objective == "Y" && !needs_balance(design.system, design.harmonics_tolerance) &&
+         design.system.cubic_stiffness == 0;
 }
 
 /// The design's response, from where it is known at the range's highest preload.
@@ -131,11 +130,6 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
 
 namespace {
 
-const problems::ResponsePeak& highest_of(const std::vector<problems::ResponsePeak>& peaks) {
-  return *std::max_element(peaks.begin(), peaks.end(),
-                           [](const auto& a, const auto& b) { return a.log_height < b.log_height; });
-}
-
 /// Whether the peak nearest to a place is as high as the highest one, of several that are.
 bool is_near_highest(const std::vector<problems::ResponsePeak>& peaks, double place) {
   constexpr double same = 1e-6;  // of ln Y: both peaks of an exchange, as the best preload is known
@@ -144,7 +138,7 @@ bool is_near_highest(const std::vector<problems::ResponsePeak>& peaks, double pl
   };
   const auto nearest = std::min_element(
       peaks.begin(), peaks.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  return nearest->log_height >= highest_of(peaks).log_height - same;
+  return nearest->log_height >= peaks[highest_of(peaks)].log_height - same;
 }
 
 }  // namespace
@@ -158,10 +152,10 @@ HarmonicsCheck check_harmonics(const StudyCase& study, const StudyDesign& design
   try {
     const std::vector<problems::ResponsePeak> before = responses(study, design, harmonics).at(preload);
     const std::vector<problems::ResponsePeak> after = responses(study, design, check.harmonics).at(preload);
-    const problems::ResponsePeak& highest = highest_of(after);
+    const problems::ResponsePeak& highest = after[highest_of(after)];
     check.eta = highest.place;
     check.Y = std::exp(highest.log_height);
-    check.moved_by = std::expm1(highest.log_height - highest_of(before).log_height);
+    check.moved_by = std::expm1(highest.log_height - before[highest_of(before)].log_height);
     check.same_peak = is_near_highest(before, highest.place);
   } catch (const std::bad_alloc&) {
     throw;  // no property of the design

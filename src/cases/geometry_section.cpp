@@ -1,7 +1,6 @@
 #include "cases/geometry_section.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace arcslip {
 namespace {
@@ -78,7 +77,7 @@ void read_geometry(const TomlDocument& document, const Replacements& replacement
   if (section.has("radius") == section.has("circumference"))
     section.fail(section.has("radius") ? "radius" : "circumference",
                  "expected either circumference or radius, the mean one");
-  if (geometry.radius) geometry.circumference = 2 * std::numbers::pi * *geometry.radius;
+  if (geometry.radius) geometry.circumference = two_pi * *geometry.radius;
   set_groups(geometry, settings);
   if (!geometry.needs_shear) settings.interface_stiffness = given;
   check(document, geometry, settings);

@@ -70,8 +70,7 @@ template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
   if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
   if (request.stability) return use(std::type_identity<problems::FloquetResponse>{});
-  if (needs_contact_system(request.system) || request.system.harmonics.size() > 1 ||
-      request.harmonics_tolerance)
+  if (needs_balance(request.system, request.harmonics_tolerance))
     return use(std::type_identity<problems::HarmonicResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
   if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
@@ -216,6 +215,10 @@ std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& re
 }
 
 }  // namespace
+
+bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance) {
+  return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance;
+}
 
 void try_to_build(const ProblemRequest& request) { problem_of(request); }
 

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <new>
-#include <numbers>
 #include <tuple>
 
 #include "arcslip/sectors/matrix_market.hpp"
@@ -195,7 +194,7 @@ SectorPart read(const TomlDocument& document, const std::string& path, SectorPat
     document.fail(section.table(), path, error.what());
   }
   diagonalise(part, section);
-  part.fixed.mass += part.mass_factor / (2 * std::numbers::pi);
+  part.fixed.mass += part.mass_factor / two_pi;
   return std::move(static_cast<SectorPart&>(part));
 }
 

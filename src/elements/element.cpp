@@ -30,11 +30,7 @@ ElementForce Element::change(const ElementForce& at, std::span<const int> orders
   change.by_log_load.setZero(x.size());
   change.linear.setZero(x.size(), x.size());
   change.conjugate.setZero(x.size(), x.size());
-  if (is_linear(slips)) return change;
-  second(orders, x, load, motion, log_load, change);
-  if (!may_slip()) return change;
-  change.by_log_load = at.by_log_load * log_load;  // f is homogeneous in x and the load
-  change.by_log_load -= change.linear * x + change.conjugate * x.conjugate();
+  if (!is_linear(slips)) second(at, orders, x, load, motion, log_load, change);
   return change;
 }
 

@@ -31,13 +31,15 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
   out.by_log_load.noalias() -= out.conjugate * x.conjugate();
 }
 
-void Jenkins::second(std::span<const int> orders, const HarmonicVector& x, double load,
-                     const HarmonicVector& motion, double log_load, ElementForce& change) const {
+void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
+                     double load, const HarmonicVector& motion, double log_load, ElementForce& change) const {
   const double threshold = slip_threshold(load);
   HysteresisLoop(OddMotion(orders, x), threshold)
       .second(motion, threshold * log_load, change.linear, change.conjugate);
   change.linear *= stiffness_;
   change.conjugate *= stiffness_;
+  change.by_log_load = at.by_log_load * log_load;  // f is homogeneous in x and S
+  change.by_log_load -= change.linear * x + change.conjugate * x.conjugate();
 }
 
 StateBorder Jenkins::border(std::span<const int> orders, const OddMotion::Maximum& top, double load,

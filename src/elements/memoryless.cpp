@@ -58,9 +58,9 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   }
 }
 
-void MemorylessElement::second(std::span<const int> orders, const HarmonicVector& x, double /*load*/,
-                               const HarmonicVector& motion, double /*log_load*/,
-                               ElementForce& change) const {
+void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> orders,
+                               const HarmonicVector& x, double /*load*/, const HarmonicVector& motion,
+                               double /*log_load*/, ElementForce& change) const {
   Samples samples(degree(), orders);
   for (int k = 0; k < samples.count(); ++k) {
     samples.go_to(k);

@@ -110,6 +110,9 @@ double damper_damping_factor(const SystemParameters& parameters);
 /// Loss of the base over zeta_B: 2/gamma viscous or 2 structural.
 Loss base_loss_per_zeta(const SystemParameters& parameters);
 
+/// k_3 of each spring between the base's nodes and ground.
+double cubic_coefficient(const SystemParameters& parameters);
+
 /// The whole model; its cost does not depend on N.
 FrictionSystem build_system(const SystemParameters& parameters);
 

@@ -65,9 +65,11 @@ class Element {
   virtual double slip_threshold(double load) const;
 
  protected:
-  /// How `linear` and `conjugate` of a force that is not linear change.
-  virtual void second(std::span<const int> orders, const HarmonicVector& x, double load,
-                      const HarmonicVector& motion, double log_load, ElementForce& change) const = 0;
+  /// How `linear`, `conjugate` and `by_log_load`, which are zero before, of a force that is not linear
+  /// change.
+  virtual void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
+                      double load, const HarmonicVector& motion, double log_load,
+                      ElementForce& change) const = 0;
 };
 
 }  // namespace arcslip

@@ -25,8 +25,8 @@ class Jenkins final : public Element {
   double slip_threshold(double load) const override { return slip_per_load_ * load; }
 
  private:
-  void second(std::span<const int> orders, const HarmonicVector& x, double load, const HarmonicVector& motion,
-              double log_load, ElementForce& change) const override;
+  void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
+              const HarmonicVector& motion, double log_load, ElementForce& change) const override;
 
   double stiffness_;
   double slip_per_load_;

@@ -21,8 +21,8 @@ class MemorylessElement : public Element {
   virtual int degree() const = 0;
 
  private:
-  void second(std::span<const int> orders, const HarmonicVector& x, double load, const HarmonicVector& motion,
-              double log_load, ElementForce& change) const final;
+  void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
+              const HarmonicVector& motion, double log_load, ElementForce& change) const final;
 };
 
 /// f = k_3 x^3.

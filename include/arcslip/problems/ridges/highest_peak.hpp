@@ -41,6 +41,9 @@ class HighestPeak {
   const std::vector<PeakSample>& samples() const { return samples_; }
   const PeakSample& sample(double x) const { return samples_[position(x)]; }
 
+  /// b at x; of a sample as it was given, not as its logarithm gives it back.
+  double value(double x) const;
+
   /// Cubics of all ridges between neighbouring samples.
   std::vector<EnvelopePiece> pieces() const;
 

@@ -47,6 +47,9 @@ struct ResponsePeak {
   double slope = 0;        ///< dL/d ln b of the peak
 };
 
+/// The highest of some peaks, the first of several.
+std::size_t highest_of(const std::vector<ResponsePeak>& peaks);
+
 /// To be used from one thread.
 class ResponsePeaks {
  public:
