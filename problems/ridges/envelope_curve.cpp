@@ -8,6 +8,8 @@
 namespace arcslip::problems {
 namespace {
 
+constexpr double no_estimate = std::numeric_limits<double>::quiet_NaN();
+
 EnvelopeNode node_of(const Peak& peak) {
   return {std::log(peak.preload), std::log(peak.Y), peak.sensitivity.preload};
 }
@@ -21,17 +23,40 @@ EnvelopePiece piece_between(const Peak& a, const Peak& b) {
   return piece;
 }
 
+/// In x: as far apart heights differ by less than they are known to.
+constexpr double together = 1e-9;
+
 /// What the pieces on both sides of b are wrong by, if that from a to c shows their next derivative: of a
-/// cubic the error is f""(x - a)^2(c - x)^2/24, of a parabola f"'(x - a)(c - x)^2/6.
+/// cubic the error is f""(x - a)^2(c - x)^2/24, of a parabola f"'(x - a)(c - x)^2/6. Unknown where one of the
+/// two is so short that the cubic misses b by rounding alone.
 double error_beside(const Peak& a, const Peak& b, const Peak& c) {
+  constexpr double lopsided = 1e-2;
   const EnvelopePiece wide = piece_between(a, c);
   const double x = std::log(b.preload);
   const double below = x - wide.from.x;
   const double above = wide.to.x - x;
   const double longer = std::max(below, above);
+  if (std::min(below, above) < std::max(together, lopsided * longer)) return no_estimate;
   const double share = a.site == b.site ? std::pow(longer * longer / (4 * below * above), 2)
                                         : 4 * std::pow(longer, 3) / (27 * below * above * above);
   return share * std::abs(wide.at(x) - std::log(b.Y));
+}
+
+/// The points of a stretch of a branch, but of those that lie together one: an end of the stretch or the last
+/// point of a site, if there is one, as these bound pieces.
+PeakBranch apart(PeakBranch::const_iterator first, PeakBranch::const_iterator last) {
+  PeakBranch kept;
+  bool kept_bounds = false;  // the one kept last
+  for (auto point = first; point != last; ++point) {
+    const bool bounds = point == first || point + 1 == last || point->site != (point + 1)->site;
+    const bool is_apart =
+        kept.empty() || std::log(point->preload) - std::log(kept.back().preload) > together;
+    if (!is_apart && !bounds) continue;
+    if (!is_apart && !kept_bounds) kept.pop_back();
+    kept.push_back(*point);
+    kept_bounds = bounds;
+  }
+  return kept;
 }
 
 }  // namespace
@@ -56,17 +81,26 @@ EnvelopeCurve::EnvelopeCurve(const PreloadStudy& study) {
 }
 
 void EnvelopeCurve::add(const PeakBranch& branch) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto is_piece = [&](std::size_t i) {
-    return i + 1 < branch.size() && branch[i].is_global && branch[i + 1].is_global;
-  };
-  double below = unknown;  // by the point below and its neighbours
-  for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
-    const bool goes_on = is_piece(i) && is_piece(i + 1) && branch[i + 1].site == branch[i + 2].site;
-    const double above = goes_on ? error_beside(branch[i], branch[i + 1], branch[i + 2]) : unknown;
-    if (is_piece(i)) {
-      pieces_.push_back(piece_between(branch[i], branch[i + 1]));
-      errors_.push_back(std::fmax(below, above));  // the one that is known
+  const auto is_global = [](const Peak& peak) { return peak.is_global; };
+  auto last = branch.begin();
+  for (;;) {
+    const auto first = std::find_if(last, branch.end(), is_global);
+    if (first == branch.end()) return;
+    last = std::find_if_not(first, branch.end(), is_global);
+    add_stretch(apart(first, last));
+  }
+}
+
+void EnvelopeCurve::add_stretch(const PeakBranch& points) {
+  double below = no_estimate;  // by the point below and its neighbours
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const bool goes_on = i + 2 < points.size() && points[i + 1].site == points[i + 2].site;
+    const double above = goes_on ? error_beside(points[i], points[i + 1], points[i + 2]) : no_estimate;
+    const EnvelopePiece piece = piece_between(points[i], points[i + 1]);
+    const double length = piece.to.x - piece.from.x;
+    if (length > 0) {  // of the logarithms
+      pieces_.push_back(piece);
+      errors_.push_back(length > together ? std::fmax(below, above) : 0);  // the one that is known
     }
     below = above;
   }

@@ -69,6 +69,7 @@ class EnvelopeCurve {
   };
 
   void add(const PeakBranch& branch);
+  void add_stretch(const PeakBranch& points);
   void resolve();
 
   std::vector<EnvelopePiece> pieces_;
