@@ -39,7 +39,8 @@ void require_provable(const CaseBranch& branch, const RunOptions& options) {
   if (options.certify) why = why_not_certifiable(branch);
   if (why.empty()) return;
   throw InputError(
-      fmt::format("{}: --certify is for forced responses of one contact with linear structures, not for {}",
+      fmt::format("{}: --certify is for forced responses of one contact with linear structures, which are one "
+                  "equation in one unknown, ln R, that intervals enclose in closed form; not for {}",
                   options.case_path, why));
 }
 

@@ -353,15 +353,26 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
 
 std::string why_not_certifiable(const CaseBranch& request) {
   const ProblemRequest& problem = request.problem;
-  if (problem.model != nullptr) return fmt::format("the model {}", problem.model->name);
-  if (request.curve) return fmt::format("a curve of {} points", to_string(request.curve->type));
-  if (problem.is_limit_cycle()) return "limit cycles";
-  if (problem.response == Response::one_way) return "a one-way response";
-  if (problem.is_mode()) return "nonlinear modes";
-  if (problem.stability) return "branches with stability";
-  if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance) return "several harmonics";
-  if (needs_contact_system(problem.system)) return "several contacts or the full path of a sector";
-  if (problem.system.cubic_stiffness != 0) return "cubic springs";
+  if (problem.model != nullptr)
+    return fmt::format("the model {}, whose equations have no closed enclosure", problem.model->name);
+  if (request.curve)
+    return fmt::format("a curve of {} points, which has a second equation for what its points are",
+                       to_string(request.curve->type));
+  if (problem.is_limit_cycle()) return "limit cycles, whose frequency is a second unknown";
+  if (problem.response == Response::one_way)
+    return "a one-way response, from which the base's compliance, part of what it encloses, is left out";
+  if (problem.is_mode()) return "nonlinear modes, whose frequency and damping are unknowns beside R";
+  if (problem.stability)
+    return "branches with stability: exponents are eigenvalues, which it would leave unproven beside them";
+  if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance)
+    return "several harmonics, each of which is a further complex unknown, and whose friction depends on "
+           "turning points of r(t) that have no closed form";
+  if (needs_contact_system(problem.system))
+    return problem.system.contacts.size() > 1
+               ? "several contacts, whose phases against each other are unknowns beside their amplitudes"
+               : "the full path of a sector, whose compliance comes from sparse solves without an enclosure";
+  if (problem.system.cubic_stiffness != 0)
+    return "cubic springs, which make the amplitude of the base a second unknown";
   return "";
 }
 

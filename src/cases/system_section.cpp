@@ -172,8 +172,14 @@ K preload_growth_key() {
 
 std::vector<K> shared_keys() {
   const auto base = [](const S& settings) {
-    const bool may_be_negative = !settings.use->linear_passive;
-    return ratio_rule(may_be_negative, settings.sectors ? &settings.sectors->base() : nullptr);
+    const bool in_study = settings.use->linear_passive;
+    NumberRule rule = ratio_rule(!in_study, settings.sectors ? &settings.sectors->base() : nullptr);
+    if (in_study) {
+      rule.text +=
+          ", as a base that its own motion excites grows without bound wherever friction does not hold it: "
+          "its peaks bound no motion, and no preload is best";
+    }
+    return rule;
   };
   const auto damper = [](const S& settings) {
     return ratio_rule(false, settings.sectors ? settings.sectors->damper() : nullptr);

@@ -224,13 +224,22 @@ TEST_CASE("arcslip run --certify tells what is proven, in its output and in summ
 }
 
 TEST_CASE("What --certify does not cover is refused in one line before anything runs", "[certificate]") {
-  const std::string name =
-      GENERATE("enz", "ridge", "limit_cycle", "one_way", "cubic_response", "cubic_fold_curve");
+  const auto [name, settings, reason] = GENERATE(table<std::string, std::string, std::string>(
+      {{"enz", "", "the model enz, whose"},
+       {"ridge", "", "a curve of peak points, which"},
+       {"limit_cycle", "", "limit cycles, whose"},
+       {"one_way", "", "a one-way response, from which"},
+       {"cubic_response", "", "cubic springs, which"},
+       {"cubic_fold_curve", "", "a curve of fold points, which"},
+       {"figure_8", " --set branch.stability=true", "with stability: exponents are"},
+       {"figure_8", " --set system.harmonics=3", "several harmonics, each of which"},
+       {"figure_8", " --set system.harmonics='\"auto\"'", "several harmonics, each of which"}}));
+  INFO(name << settings);
   const TemporaryFolder folder;
-  const Outcome outcome =
-      arcslip_program("run '" + case_named(name) + "' --certify -o '" + folder.path("out") + "'");
+  const Outcome outcome = arcslip_program("run '" + case_named(name) + "' --certify" + settings + " -o '" +
+                                          folder.path("out") + "'");
   CHECK(outcome.status == 1);
   CHECK(is_one_line(outcome.err));
-  CHECK_THAT(outcome.err, ContainsSubstring("--certify is for"));
+  CHECK_THAT(outcome.err, ContainsSubstring("--certify is for") && ContainsSubstring(reason));
   CHECK(names_in(folder.path("")).empty());
 }
