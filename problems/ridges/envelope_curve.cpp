@@ -49,8 +49,7 @@ PeakBranch apart(PeakBranch::const_iterator first, PeakBranch::const_iterator la
   bool kept_bounds = false;  // the one kept last
   for (auto point = first; point != last; ++point) {
     const bool bounds = point == first || point + 1 == last || point->site != (point + 1)->site;
-    const bool is_apart =
-        kept.empty() || std::log(point->preload) - std::log(kept.back().preload) > together;
+    const bool is_apart = kept.empty() || std::log(point->preload) - std::log(kept.back().preload) > together;
     if (!is_apart && !bounds) continue;
     if (!is_apart && !kept_bounds) kept.pop_back();
     kept.push_back(*point);

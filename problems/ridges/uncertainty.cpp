@@ -4,6 +4,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -64,35 +66,47 @@ double Scatter::log_quantile(double u) const {
   return deviation * boost::math::quantile(boost::math::normal(), u);
 }
 
-PeakDistribution::PeakDistribution(const Uncertainty& uncertainty) {
+PeakDistribution::PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity inhomogeneity) {
   if (uncertainty.samples == 0) throw std::invalid_argument("PeakDistribution: no samples");
   Uniform uniform(uncertainty.seed);
-  samples_.assign(uncertainty.samples, {0, 0});
-  const auto scatter = [&](const Scatter& factor, double shift_sign, bool is_force) {
+  const auto logarithms = [&](const Scatter& factor) {
     if (factor.kind != Scatter::Kind::none) ++factors_;
-    const std::vector<double> numbers = uniform.strata(samples_.size());
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double log_factor = factor.log_quantile(numbers[i]);
-      samples_[i].shift += shift_sign * log_factor;
-      if (is_force) samples_[i].log_force = log_factor;
-    }
+    std::vector<double> numbers = uniform.strata(uncertainty.samples);
+    for (double& number : numbers) number = factor.log_quantile(number);
+    return numbers;
   };
-  scatter(uncertainty.friction, 1, false);
-  scatter(uncertainty.preload, 1, false);
-  scatter(uncertainty.force, -1, true);
+  const std::vector<double> friction = logarithms(uncertainty.friction);
+  const std::vector<double> preload = logarithms(uncertainty.preload);
+  const std::vector<double> force = logarithms(uncertainty.force);
+  for (std::size_t i = 0; i < uncertainty.samples; ++i) {
+    const double scale = inhomogeneity.has_springs ? 0 : force[i];
+    const DesignFactors factors{inhomogeneity.grows ? friction[i] - scale : 0, force[i] - scale};
+    const double shift = inhomogeneity.grows ? preload[i] : friction[i] + preload[i] - scale;
+    samples_.push_back({shift, scale, factors});
+  }
   std::sort(samples_.begin(), samples_.end(),
             [](const Sample& a, const Sample& b) { return a.shift < b.shift; });
 }
 
-std::vector<double> PeakDistribution::values(const EnvelopeCurve& envelope, double x) const {
+std::vector<DesignFactors> PeakDistribution::factors() const {
+  std::vector<DesignFactors> all;
+  all.reserve(samples_.size());
+  for (const Sample& sample : samples_) all.push_back(sample.factors);
+  return all;
+}
+
+std::vector<double> PeakDistribution::values(const EnvelopeFamily& envelope, double x) const {
   std::vector<double> values;
   values.reserve(samples_.size());
-  EnvelopeCurve::Walk walk(envelope);
-  for (const Sample& sample : samples_) values.push_back(sample.log_force + walk.at(x + sample.shift));
+  EnvelopeFamily::Walk walk(envelope);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& sample = samples_[i];
+    values.push_back(sample.scale + walk.at(x + sample.shift, sample.factors, i));
+  }
   return values;
 }
 
-std::vector<double> PeakDistribution::log_quantiles(const EnvelopeCurve& envelope, double x,
+std::vector<double> PeakDistribution::log_quantiles(const EnvelopeFamily& envelope, double x,
                                                     const std::vector<double>& probabilities) const {
   std::vector<double> all = values(envelope, x);
   std::vector<double> quantiles;
@@ -102,7 +116,7 @@ std::vector<double> PeakDistribution::log_quantiles(const EnvelopeCurve& envelop
 }
 
 std::vector<PeakDistribution::Quantile> PeakDistribution::quantiles(
-    const EnvelopeCurve& envelope, double x, const std::vector<double>& probabilities) const {
+    const EnvelopeFamily& envelope, double x, const std::vector<double>& probabilities) const {
   std::vector<double> all = values(envelope, x);
   const auto count = static_cast<double>(all.size());
   std::vector<Quantile> quantiles;
@@ -116,7 +130,7 @@ std::vector<PeakDistribution::Quantile> PeakDistribution::quantiles(
   return quantiles;
 }
 
-double PeakDistribution::lowest_quantile(const EnvelopeCurve& envelope, double from, double to,
+double PeakDistribution::lowest_quantile(const EnvelopeFamily& envelope, double from, double to,
                                          double probability) const {
   const auto quantile = [&](double x) { return log_quantiles(envelope, x, {probability}).front(); };
   std::vector<double> places = steps(from, to, scan_step);
@@ -150,56 +164,168 @@ double PeakDistribution::lowest_quantile(const EnvelopeCurve& envelope, double f
   return best_place;
 }
 
+namespace {
+
+/// The preloads that quantiles are told at beside that where one is lowest.
+std::vector<double> row_preloads(const PreloadRange& range, double optimum) {
+  std::vector<double> preloads = {range.from, range.to, optimum};
+  for (const double x : steps(0, std::log(range.to / range.from), row_step)) {
+    const double preload = range.from * std::exp(x);
+    if (preload > range.from && preload < range.to * (1 - 1e-12)) preloads.push_back(preload);
+  }
+  return preloads;
+}
+
+/// Of several values of a factor the range, as an axis of `count` values if there is more than one.
+FactorAxis axis(const std::vector<DesignFactors>& all, double DesignFactors::*factor, std::size_t count) {
+  const auto [first, last] = std::minmax_element(
+      all.begin(), all.end(),
+      [&](const DesignFactors& a, const DesignFactors& b) { return a.*factor < b.*factor; });
+  return {(*first).*factor, (*last).*factor, (*first).*factor == (*last).*factor ? 1 : count};
+}
+
+/// Envelopes that are made but once.
+class Envelopes {
+ public:
+  Envelopes(const PreloadRange& range, const PeakDistribution& peaks, const EnvelopeOver& envelope_over)
+      : from_(range.from * std::exp(peaks.lowest())),
+        to_(range.to * std::exp(peaks.highest())),
+        envelope_over_(envelope_over) {}
+
+  EnvelopeFamily::Curve operator()(const DesignFactors& factors) {
+    EnvelopeFamily::Curve& known = known_[{factors.log_growth, factors.log_force}];
+    if (known != nullptr) return known;
+    const double growth = std::exp(factors.log_growth);
+    auto [curve, error] = envelope_over_(factors, from_ * growth, to_ * growth);
+    error_ = std::max(error_, error);
+    known = std::make_shared<const EnvelopeCurve>(std::move(curve));
+    return known;
+  }
+
+  double error() const { return error_; }  ///< the largest of all
+
+ private:
+  double from_;
+  double to_;
+  const EnvelopeOver& envelope_over_;
+  double error_ = 0;
+  std::map<std::pair<double, double>, EnvelopeFamily::Curve> known_;
+};
+
+/// How quantiles change from one family to the next.
+class Change {
+ public:
+  void add(const std::vector<PeakDistribution::Quantile>& before,
+           const std::vector<PeakDistribution::Quantile>& now) {
+    constexpr double part = 0.05;  // of the standard errors
+    constexpr double negligible = 1e-4;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      sum_ += std::abs(now[i].log_value - before[i].log_value);
+      allowed_ += std::max(negligible, part * now[i].error);
+    }
+  }
+
+  /// A single one may jump where a sample passes an exchange of peaks.
+  bool is_small() const { return sum_ <= allowed_; }
+
+ private:
+  double sum_ = 0;
+  double allowed_ = 0;
+};
+
+/// The family that gives quantiles at these preloads as well as the samples do, and one that is coarser,
+/// where there is one.
+struct Sufficient {
+  EnvelopeFamily family;
+  std::optional<EnvelopeFamily> coarser = {};
+};
+
+Sufficient sufficient_family(const PeakDistribution& peaks, Envelopes& envelopes,
+                             const std::vector<double>& preloads, std::vector<double> probabilities) {
+  probabilities.push_back(UncertainPeaks::probability);
+  const auto make = [&](const DesignFactors& factors) { return envelopes(factors); };
+  const std::vector<DesignFactors> each = peaks.factors();
+  using Quantiles = std::vector<std::vector<PeakDistribution::Quantile>>;
+  Quantiles before;
+  std::optional<EnvelopeFamily> coarser;
+  for (std::size_t count = 3;; count = 2 * count - 1) {
+    const FactorAxis growth = axis(each, &DesignFactors::log_growth, count);
+    const FactorAxis force = axis(each, &DesignFactors::log_force, count);
+    const std::size_t designs = growth.count * force.count;
+    if (designs > 1 && designs >= each.size()) return {EnvelopeFamily(each, make)};
+    EnvelopeFamily family(growth, force, make);
+    if (designs == 1) return {std::move(family)};
+    Quantiles now;
+    Change change;
+    for (std::size_t i = 0; i < preloads.size(); ++i) {
+      now.push_back(peaks.quantiles(family, std::log(preloads[i]), probabilities));
+      if (coarser) change.add(before[i], now[i]);
+    }
+    if (coarser && change.is_small()) return {std::move(family), std::move(coarser)};
+    coarser = std::move(family);
+    before = std::move(now);
+  }
+}
+
+}  // namespace
+
+SystemParameters scaled(SystemParameters system, const DesignFactors& factors) {
+  system.preload_growth *= std::exp(factors.log_growth);
+  system.force *= std::exp(factors.log_force);
+  return system;
+}
+
 UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRange& range,
                                  const Uncertainty& uncertainty, const PreloadStudy& nominal,
                                  const continuation::TraceOptions& options) {
-  if (system.preload_growth != 0)
-    throw std::invalid_argument("study_uncertainty: the preload must not grow with the frequency");
-  return study_uncertainty(range, uncertainty, nominal, [&](double from, double to) {
+  const auto envelope_over = [&](const DesignFactors& factors, double from, double to) {
     PreloadRange wide = range;
     wide.from = from;
     wide.to = to;
     wide.stop_at.clear();
-    EnvelopeCurve envelope = study_envelope(system, wide, envelope_tolerance, options);
+    EnvelopeCurve envelope = study_envelope(scaled(system, factors), wide, envelope_tolerance, options);
     const double error = envelope.error();
     return std::pair(std::move(envelope), error);
-  });
+  };
+  return study_uncertainty(range, uncertainty, {system.preload_growth != 0, false}, nominal, envelope_over);
 }
 
 UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& uncertainty,
-                                 const PreloadStudy& nominal, const EnvelopeOver& envelope_over) {
+                                 Inhomogeneity inhomogeneity, const PreloadStudy& nominal,
+                                 const EnvelopeOver& envelope_over) {
   UncertainPeaks result;
-  const PeakDistribution peaks(uncertainty);
+  const PeakDistribution peaks(uncertainty, inhomogeneity);
   result.failure = nominal.failure;
   if (!nominal.optimum) return result;
-  std::optional<EnvelopeCurve> studied;
+  const double optimum = nominal.optimum->peak.preload;
+  std::vector<double> preloads = row_preloads(range, optimum);
+  std::optional<Sufficient> found;
   try {
-    auto [curve, error] =
-        envelope_over(range.from * std::exp(peaks.lowest()), range.to * std::exp(peaks.highest()));
-    studied.emplace(std::move(curve));
-    result.error = error;
+    Envelopes envelopes(range, peaks, envelope_over);
+    found = sufficient_family(peaks, envelopes, preloads, uncertainty.quantiles);
+    result.error = envelopes.error();
   } catch (const std::runtime_error& error) {
     result.failure = error.what();
     return result;
   }
-  const EnvelopeCurve& envelope = *studied;
 
   const auto quantiles = [&](double preload, const std::vector<double>& probabilities) {
-    return peaks.quantiles(envelope, std::log(preload), probabilities);
+    return peaks.quantiles(found->family, std::log(preload), probabilities);
   };
   constexpr double p = UncertainPeaks::probability;
-  const double optimum = nominal.optimum->peak.preload;
-  const double lowest = peaks.lowest_quantile(envelope, std::log(range.from), std::log(range.to), p);
+  const double lowest = peaks.lowest_quantile(found->family, std::log(range.from), std::log(range.to), p);
   result.preload = std::clamp(std::exp(lowest), range.from, range.to);
   const PeakDistribution::Quantile best = quantiles(result.preload, {p}).front();
   result.Y = std::exp(best.log_value);
   result.sampling_error = best.error;
   result.Y_nominal = std::exp(quantiles(optimum, {p}).front().log_value);
-  std::vector<double> preloads = {range.from, range.to, result.preload, optimum};
-  for (const double x : steps(0, std::log(range.to / range.from), row_step)) {
-    const double preload = range.from * std::exp(x);
-    if (preload > range.from && preload < range.to * (1 - 1e-12)) preloads.push_back(preload);
+  if (found->coarser) {
+    const auto change = [&](double preload, double Y) {
+      return std::abs(peaks.log_quantiles(*found->coarser, std::log(preload), {p}).front() - std::log(Y));
+    };
+    result.error += std::max(change(result.preload, result.Y), change(optimum, result.Y_nominal));
   }
+  preloads.push_back(result.preload);
   std::sort(preloads.begin(), preloads.end());
   preloads.erase(std::unique(preloads.begin(), preloads.end()), preloads.end());
   for (const double preload : preloads) {

@@ -122,10 +122,16 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
                                            const PreloadStudy& nominal) {
   if (is_closed(study, design))
     return problems::study_uncertainty(design.system, study.range, *study.uncertain, nominal, study.options);
-  problems::ResponsePeaks peaks =
-      responses(study, design, nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics);
-  return problems::study_uncertainty(study.range, *study.uncertain, nominal,
-                                     [&](double from, double to) { return envelope_over(peaks, from, to); });
+  const std::vector<int>& harmonics = nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics;
+  const auto envelope = [&](const problems::DesignFactors& factors, double from, double to) {
+    StudyDesign other = design;
+    other.system = problems::scaled(design.system, factors);
+    problems::ResponsePeaks peaks = responses(study, other, harmonics);
+    return envelope_over(peaks, from, to);
+  };
+  return problems::study_uncertainty(study.range, *study.uncertain,
+                                     {design.system.preload_growth != 0, design.system.cubic_stiffness != 0},
+                                     nominal, envelope);
 }
 
 namespace {

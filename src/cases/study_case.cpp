@@ -21,7 +21,6 @@ struct Source {
   std::optional<ForEach> for_each;
   std::shared_ptr<const SectorPair> sectors;
   problems::PreloadRange range;
-  bool scatters;
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
@@ -33,10 +32,6 @@ struct Source {
   StudyDesign design(std::size_t index) const {
     auto [values, replacements, made] = for_each->at(index);
     const ProblemRequest problem = this->problem(replacements);
-    const TomlSection section(*file, "system", &replacements);
-    const char* why = "not beside [study.uncertain], whose response is proportional to the force";
-    if (problem.system.preload_growth != 0 && scatters) section.fail("preload_growth", why);
-    if (problem.system.cubic_stiffness != 0 && scatters) section.fail("cubic_stiffness", why);
     return {std::move(values), problem.system, problem.geometry, problem.harmonics_tolerance};
   }
 };
@@ -67,7 +62,7 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
 }
 
 StudyCase read_study(const CaseFile& file) {
-  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}, false});
+  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}});
   const TomlDocument& document = *file.document();
   const TomlSection root(document, "");
   root.allow_only(case_sections());
@@ -84,7 +79,6 @@ StudyCase read_study(const CaseFile& file) {
   continuation_keys().read(study.options, TomlSection(document, "continuation"));
   study.range.stop_at = study.options.stop_at;
   study.options.stop_after.clear();  // no branch of the search may end before its window does
-  source->scatters = study.uncertain.has_value();
   source->range = study.range;
   source->sectors = read_sectors(document);
   study.is_physical = has_geometry(document);

@@ -112,8 +112,6 @@ TEST_CASE("Wrong scatter is refused in one line with place, key, what was expect
       line("samples", "sample", ":17:10", ".sample", "did you mean 'samples'?", ""),
       line(mu + "\n" + preload, "", ":14:1", ".mu", "missing; expected at least one of mu, preload and force",
            ""),
-      {"force = 1.0", "force = 1.0\npreload_growth = 0.1", ":9:18", "system.preload_growth",
-       "not beside [study.uncertain]", ""},
   };
   for (const Mistake& mistake : mistakes) {
     const std::string text = replaced(scattered_text, mistake.from, mistake.to);

@@ -11,6 +11,15 @@
 //
 // one envelope Y_max(P) over a range wide enough for all factors gives the whole distribution. It is sampled
 // by a Latin hypercube, the factors being inverse distribution functions of stratified numbers.
+//
+// Of a preload P + P_2 eta^2 the static part alone has the factor q, while friction and force act on both,
+// and springs k_3 y^3 are not homogeneous, so that the peak is
+//
+//   f Y_max(P m q/f; P_2 m/f),   with cubic springs   Y_max(P m q; P_2 m, F f):
+//
+// there Y_max is a family of envelopes (envelope_family.hpp) over the factors behind the semicolon. It is
+// made of a grid of designs that is refined until quantiles change by no more than a twentieth of what
+// sampling leaves open, on average, at most until each sample has a design of its own.
 
 #include <cstdint>
 #include <functional>
@@ -18,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-#include "arcslip/problems/ridges/envelope_curve.hpp"
+#include "arcslip/problems/ridges/envelope_family.hpp"
 
 namespace arcslip::problems {
 
@@ -45,20 +54,30 @@ struct Uncertainty {
   std::vector<double> quantiles = {0.05, 0.5, 0.95};  ///< each > 0 and < 1
 };
 
-/// The sampled distribution of the highest peak at any nominal preload.
+/// What a response is not proportional to force and preload together for.
+struct Inhomogeneity {
+  bool grows = false;        ///< P_2 /= 0
+  bool has_springs = false;  ///< that are cubic
+};
+
+/// The sampled distribution of the highest peak at any nominal preload. Envelopes are families of one where
+/// the response is homogeneous.
 class PeakDistribution {
  public:
   /// Throws std::invalid_argument without samples.
-  explicit PeakDistribution(const Uncertainty& uncertainty);
+  explicit PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity inhomogeneity = {});
 
-  /// The least and the largest of ln(m q/f): with x = ln P of a nominal preload an envelope is needed from
-  /// x + lowest() to x + highest().
+  /// The least and the largest of z - x, x = ln P of a nominal preload, with z of EnvelopeFamily: of
+  /// ln(m q/f) without other factors.
   double lowest() const { return samples_.front().shift; }
   double highest() const { return samples_.back().shift; }
 
+  /// Factors of all samples, in the order in which a family of each by itself has them.
+  std::vector<DesignFactors> factors() const;
+
   /// ln of the quantiles of the highest peak at the nominal preload of which x is ln P: of N samples in
   /// ascending order the one at position ceil(N p), counted from one.
-  std::vector<double> log_quantiles(const EnvelopeCurve& envelope, double x,
+  std::vector<double> log_quantiles(const EnvelopeFamily& envelope, double x,
                                     const std::vector<double>& probabilities) const;
 
   /// The same with the standard error that each has as one of so many samples: half the distance of the
@@ -69,21 +88,22 @@ class PeakDistribution {
     double log_value;
     double error;  ///< of log_value
   };
-  std::vector<Quantile> quantiles(const EnvelopeCurve& envelope, double x,
+  std::vector<Quantile> quantiles(const EnvelopeFamily& envelope, double x,
                                   const std::vector<double>& probabilities) const;
 
   /// The x within from .. to at which a quantile is lowest. It is looked for in steps of 0.02 and at the ends
   /// of the envelope's pieces, then refined where it is lowest.
-  double lowest_quantile(const EnvelopeCurve& envelope, double from, double to, double probability) const;
+  double lowest_quantile(const EnvelopeFamily& envelope, double from, double to, double probability) const;
 
  private:
   struct Sample {
-    double shift;      ///< ln(m q/f)
-    double log_force;  ///< ln f
+    double shift;  ///< z - x
+    double scale;  ///< ln f, where the response is proportional to it
+    DesignFactors factors;
   };
 
   /// ln of the highest peaks of all samples.
-  std::vector<double> values(const EnvelopeCurve& envelope, double x) const;
+  std::vector<double> values(const EnvelopeFamily& envelope, double x) const;
 
   int factors_ = 0;              ///< that scatter
   std::vector<Sample> samples_;  ///< by rising shift
@@ -104,23 +124,29 @@ struct UncertainPeaks {
   double preload = 0;             ///< at which the 95 % quantile is lowest
   double Y = 0;                   ///< that quantile there
   double Y_nominal = 0;           ///< that quantile at the optimum that scatter knows nothing of
-  double error = 0;               ///< estimate of the relative error of all Y by the envelope's interpolation
+  double error = 0;               ///< estimate of the relative error of both by interpolation; that of the
+                                  ///< rows is on average a small part of their own errors
   double sampling_error = 0;      ///< relative standard error of Y as a quantile of the samples
   std::string failure;            ///< why there are no rows, or empty
 };
 
-/// The envelope over preloads from .. to, with its estimated error in ln Y_max. May throw std::runtime_error.
-using EnvelopeOver = std::function<std::pair<EnvelopeCurve, double>(double from, double to)>;
+/// The envelope of the design with these factors over preloads from .. to, with its estimated error in
+/// ln Y_max. May throw std::runtime_error.
+using EnvelopeOver =
+    std::function<std::pair<EnvelopeCurve, double>(const DesignFactors& factors, double from, double to)>;
 
-/// Samples the scatter of a design that `nominal` is the study of, over the same range; its response must be
-/// proportional to force and preload together.
+/// Samples the scatter of a design that `nominal` is the study of, over the same range.
 UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& uncertainty,
-                                 const PreloadStudy& nominal, const EnvelopeOver& envelope_over);
+                                 Inhomogeneity inhomogeneity, const PreloadStudy& nominal,
+                                 const EnvelopeOver& envelope_over);
 
 /// Studies a design that `nominal` is the study of, over the same range. Throws std::invalid_argument for
-/// systems that study_preload refuses and for preload_growth != 0, where homogeneity does not hold.
+/// systems that study_preload refuses.
 UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRange& range,
                                  const Uncertainty& uncertainty, const PreloadStudy& nominal,
                                  const continuation::TraceOptions& options = {});
+
+/// The system with these factors.
+SystemParameters scaled(SystemParameters system, const DesignFactors& factors);
 
 }  // namespace arcslip::problems

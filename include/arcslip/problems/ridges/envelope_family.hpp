@@ -1,0 +1,79 @@
+#pragma once
+
+// Envelopes of designs that differ by factors on what their response is not proportional to: on P_2 of a
+// preload that grows with the frequency, and on the force F where springs are cubic. Between the designs of a
+// grid of factors ln Y_max is interpolated linearly in their logarithms, at the same P over the factor on
+// P_2, so that the static and the growing part of the preload keep their ratio.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "arcslip/problems/ridges/envelope_curve.hpp"
+
+namespace arcslip::problems {
+
+/// Logarithms of the factors on P_2 and F.
+struct DesignFactors {
+  double log_growth = 0;
+  double log_force = 0;
+};
+
+/// `count` values of a factor's logarithm in equal steps from low to high, or low alone.
+struct FactorAxis {
+  double low = 0;
+  double high = 0;
+  std::size_t count = 1;
+
+  double value(std::size_t i) const;
+
+  /// Where a value lies: that far, 0 to 1, from value(i) to the next one.
+  struct Place {
+    std::size_t i;
+    double share;
+  };
+  Place place(double value) const;
+};
+
+class EnvelopeFamily {
+ public:
+  using Curve = std::shared_ptr<const EnvelopeCurve>;
+  using Make = std::function<Curve(const DesignFactors&)>;
+
+  /// The same for all factors; refers to the curve.
+  EnvelopeFamily(const EnvelopeCurve& curve);  // NOLINT(google-explicit-constructor): one is a family
+
+  /// Of a grid of designs.
+  EnvelopeFamily(FactorAxis growth, FactorAxis force, const Make& make);
+
+  /// Of each design by itself.
+  EnvelopeFamily(const std::vector<DesignFactors>& each, const Make& make);
+
+  /// Ends of the pieces of the envelope of a design in the middle.
+  std::vector<double> places() const { return curves_[curves_.size() / 2]->places(); }
+
+  /// ln Y_max at rising z = ln P - log_growth.
+  class Walk {
+   public:
+    explicit Walk(const EnvelopeFamily& family);
+
+    /// Of the design with these factors, `which` of those that were given each by itself.
+    double at(double z, const DesignFactors& factors, std::size_t which);
+
+   private:
+    double at(double z, std::size_t curve);
+
+    const EnvelopeFamily& family_;
+    std::vector<EnvelopeCurve::Walk> walks_;
+  };
+
+ private:
+  FactorAxis growth_;
+  FactorAxis force_;
+  bool is_grid_ = true;
+  std::vector<Curve> curves_;  ///< of a grid row by row, each of one force
+  std::vector<double> growths_;
+};
+
+}  // namespace arcslip::problems
