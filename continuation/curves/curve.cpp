@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/continuation/curves/extremum_curve.hpp"
+#include "arcslip/continuation/curves/half_curve.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 #include "arcslip/continuation/points/branch_point_problem.hpp"
 #include "arcslip/continuation/points/extremum_problem.hpp"
@@ -15,8 +17,6 @@
 
 namespace arcslip::continuation {
 namespace {
-
-const std::string end_of_window = "the window's end";
 
 int nearest_border(const Problem& base, const BranchPoint& point) {
   int nearest = -1;
@@ -51,42 +51,18 @@ bool ends_at_bogdanov_takens(const ExtendedProblem& problem) {
 
 /// With the events that end a curve.
 TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
-  TraceOptions all = options;
-  const Index active = problem.base().size();
-  for (const double edge : {window.low, window.high}) {
-    if (!std::isfinite(edge)) continue;
-    all.events.push_back(
-        {end_of_window, [=](const Vector& u, const Vector&, int) { return u(active) - edge; }});
-  }
-  if (all.events.size() > options.events.size())
-    all.stop_after.push_back({PointType::event, 1, end_of_window});
+  TraceOptions all = within_window(options, window, problem.base().size());
   if (ends_at_bogdanov_takens(problem)) all.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
   return all;
 }
 
-/// A half of a curve, which `trace` traces with an observer: the borders of its conditions follow it.
+/// A half of a curve, which `trace` traces with an observer.
 Branch follow_half(ExtendedProblem& problem, const Observer& observer,
                    const std::function<Branch(const Observer& follow)>& trace) {
-  const auto follow = [&](const BranchPoint& point) {
-    return problem.follow(problem.split(point.unknowns, point.parameters, point.regime)) &&
-           (!observer || observer(point));
-  };
-  const long before = problem.evaluations();
-  Branch half = trace(follow);
-  half.work.evaluations = problem.evaluations() - before;
-  if (half.points.empty()) return half;
-  BranchPoint& last = half.points.back();
-  const bool is_over = last.label == end_of_window ||
-                       (half.stop == Stop::requested && last.type == PointType::bogdanov_takens &&
-                        ends_at_bogdanov_takens(problem));
-  if (is_over) half.checkpoint.reset();
-  if (half.checkpoint) half.checkpoint->ahead->borders = problem.borders();
-  if (last.label != end_of_window) return half;
-  last.type = PointType::end;
-  last.label.clear();
-  half.stop = Stop::reached_end;
-  half.explanation = fmt::format("{} reached an end of its range", problem.observables().front().name);
-  if (!half.warning.empty()) half.explanation += "; " + half.warning;
+  Branch half = follow_curve(problem, observer, trace);
+  if (half.stop == Stop::requested && ends_at_bogdanov_takens(problem) &&
+      half.points.back().type == PointType::bogdanov_takens)
+    half.checkpoint.reset();
   return half;
 }
 
@@ -98,13 +74,8 @@ Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to,
   });
 }
 
-/// The reason that is told of a curve is the one that a user has to know.
-Branch told(Branch curve, const CurveWindow& window, const std::string& why_first_ended) {
+Branch told(Branch curve, const CurveWindow& window) {
   if (curve.checkpoint) curve.checkpoint->window = window;
-  if (curve.first_stop && is_end(curve.stop) && !is_end(*curve.first_stop)) {
-    std::swap(curve.stop, *curve.first_stop);
-    curve.explanation = why_first_ended;
-  }
   return curve;
 }
 
@@ -142,6 +113,7 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
 
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
                    const CurveWindow& window, const Observer& observer) {
+  if (problem.extremum_of()) return told(trace_extrema(problem, start, options, window, observer), window);
   const long before = problem.evaluations();
   const auto located = locate(problem, start, options.tolerance);
   const long to_locate = problem.evaluations() - before;
@@ -165,7 +137,7 @@ Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const Trace
                              },
                              guess);
   curve.work.evaluations += to_locate;
-  return told(std::move(curve), window, why_first_ended);
+  return told(most_telling(std::move(curve), why_first_ended), window);
 }
 
 Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const TraceOptions& options,
@@ -193,7 +165,7 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     why_first_ended = first.explanation;
     return first;
   };
-  return told(resume_parts(checkpoint, go_on, begin_back), *checkpoint.window, why_first_ended);
+  return told(most_telling(resume_parts(checkpoint, go_on, begin_back), why_first_ended), *checkpoint.window);
 }
 
 }  // namespace arcslip::continuation

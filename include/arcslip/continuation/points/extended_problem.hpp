@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
@@ -48,6 +49,9 @@ class ExtendedProblem : public Problem {
   /// Does so where the borders that there are have come to fit badly, at a point of a curve next to the last
   /// evaluation.
   bool follow(const BasePoint& point);
+
+  /// The observable of the base whose extrema the solutions are, if they are extrema.
+  virtual std::optional<Index> extremum_of() const { return std::nullopt; }
 
   /// Of the base so far, with its derivatives.
   long evaluations() const { return at_.evaluations() + own_evaluations(); }

@@ -15,6 +15,8 @@ class ExtremumProblem : public ExtendedProblem {
  public:
   ExtremumProblem(const Problem& base, Index active, Index observable);
 
+  std::optional<Index> extremum_of() const override { return observable_; }
+
   bool adapt(const BasePoint& point) override;
 
  protected:

@@ -1,0 +1,125 @@
+#include "arcslip/continuation/curves/corner_slopes.hpp"
+
+#include <cmath>
+
+#include "arcslip/zero_between.hpp"
+
+namespace arcslip::continuation {
+
+std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
+                                            int regime, int except) {
+  Vector unknowns(base.size());
+  Vector parameters(point.parameters.size());
+  base.scale(point.unknowns, point.parameters, unknowns, parameters);
+  Gradient gradient{Vector::Zero(base.size()), Vector::Zero(point.parameters.size())};
+  std::optional<NearestBorder> nearest;
+  for (int b = 0; b < base.border_count(regime); ++b) {
+    if (b == except) continue;
+    const double value = base.border(point.unknowns, point.parameters, regime, b, &gradient);
+    const double slope = std::hypot(gradient.unknowns.cwiseProduct(unknowns).norm(),
+                                    gradient.parameters(active) * parameters(active));
+    const double distance = -value / slope;
+    if (!nearest || std::abs(distance) < std::abs(nearest->distance)) nearest = {b, distance};
+  }
+  return nearest;
+}
+
+CornerSlopes::CornerSlopes(const Problem& base, Index active, Index observable)
+    : base_(base),
+      active_(active),
+      observable_(observable),
+      corrector_(base, active, {}),
+      at_(corrector_.make_point()) {
+  gradient_ = {Vector::Zero(base.size()), Vector::Zero(at_.parameters.size())};
+}
+
+double CornerSlopes::rate(const Gradient& gradient, const Vector& tangent) const {
+  const Index n = base_.size();
+  return gradient.unknowns.dot(at_.scale.head(n).cwiseProduct(tangent.head(n))) +
+         gradient.parameters(active_) * at_.scale(n) * tangent(n);
+}
+
+bool CornerSlopes::set_tangent(const BasePoint& point, Branch& side) {
+  at_.unknowns = point.unknowns;
+  at_.parameters = point.parameters;
+  at_.regime = side.regime;
+  corrector_.set_scale(at_);
+  const Index n = base_.size();
+  Correction result = Correction::singular;
+  if (side.tangent.size() > 0) result = corrector_.linearise(at_, side.tangent);
+  // The unit vectors in turn: one of them is not orthogonal to the tangent.
+  for (Index k = n; k >= 0 && result == Correction::singular; --k)
+    result = corrector_.linearise(at_, Vector::Unit(n + 1, k));
+  if (result != Correction::converged) return false;
+  const Vector before = side.tangent;
+  side.tangent = corrector_.direction().normalized();
+  if (before.size() > 0 && before.dot(side.tangent) < 0) side.tangent = -side.tangent;
+  return true;
+}
+
+double CornerSlopes::border_rate(const BasePoint& point, const Branch& side) {
+  base_.border(point.unknowns, point.parameters, side.regime, side.border, &gradient_);
+  return rate(gradient_, side.tangent);
+}
+
+bool CornerSlopes::begin(const BasePoint& point, int border) {
+  const int beyond = base_.regime_beyond(point.regime, border);
+  const auto back = beyond < 0 ? std::nullopt : nearest_border(base_, active_, point, beyond);
+  if (!back) return false;
+  sides_ = {Branch{point.regime, border, {}}, Branch{beyond, back->border, {}}};
+  for (const Side side : {arriving, leaving}) {
+    Branch& branch = sides_[side];
+    if (!set_tangent(point, branch)) return false;
+    const double rises = border_rate(point, branch);
+    if (rises == 0) return false;
+    if ((rises > 0) != (side == arriving)) branch.tangent = -branch.tangent;
+  }
+  return true;
+}
+
+double CornerSlopes::slope(const BasePoint& point, Side side) {
+  Branch there = sides_[side];
+  if (!set_tangent(point, there)) return std::nan("");
+  const double value = base_.observe(point.unknowns, point.parameters, there.regime, observable_, gradient_);
+  return rate(gradient_, there.tangent) / std::abs(value);
+}
+
+void CornerSlopes::follow(const BasePoint& point) {
+  for (Branch& side : sides_) set_tangent(point, side);
+}
+
+std::optional<BasePoint> CornerSlopes::inside(const BasePoint& corner, Side side, double way) {
+  Branch there = sides_[side];
+  if (!set_tangent(corner, there)) return std::nullopt;
+  const Vector normal = (border_rate(corner, there) > 0 ? -1 : 1) * there.tangent;
+  const CurvePoint origin = at_;
+  corrector_.displace(origin, way * normal, at_);
+  if (corrector_.correct(at_, origin, normal, way) != Correction::converged) return std::nullopt;
+  return BasePoint{at_.unknowns, at_.parameters, there.regime, {}};
+}
+
+double CornerSlopes::slope_inside(const BasePoint& corner, Side side, double way) {
+  const auto point = inside(corner, side, way);
+  return point ? slope(*point, side) : std::nan("");
+}
+
+std::optional<BasePoint> CornerSlopes::extremum_inside(const BasePoint& corner, Side side) {
+  constexpr double nearest = 1e-12;
+  constexpr double farthest = 0.1;
+  const double at_border = slope(corner, side);
+  double before = 0;
+  double at_before = at_border;
+  for (double way = nearest; way < farthest; way *= 4) {
+    const double here = slope_inside(corner, side, way);
+    if (std::isnan(here)) return std::nullopt;
+    if (here * at_border <= 0) {
+      const auto at = [&](double s) { return slope_inside(corner, side, s); };
+      return inside(corner, side, zero_between(at, before, way, at_before, here));
+    }
+    before = way;
+    at_before = here;
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,73 @@
+#pragma once
+
+// The slopes of an observable on both sides of a border: along the branch over the active parameter as it
+// arrives there in one regime and leaves in the one beyond. Where their signs differ the corner is an
+// extremum.
+
+#include <array>
+#include <optional>
+
+#include "arcslip/continuation/path/corrector.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Borders closer than this are reached together.
+inline constexpr double on_border = 1e-8;
+
+/// The border that a point is nearest to among those of a regime but `except`, relative to the border's slope
+/// in the problem's scale; none where it has no others.
+struct NearestBorder {
+  int border;
+  double distance;  ///< >= 0 inside
+};
+std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
+                                            int regime, int except = -1);
+
+class CornerSlopes {
+ public:
+  enum Side { arriving, leaving };
+
+  CornerSlopes(const Problem& base, Index active, Index observable);
+
+  /// At a point on a border of its regime. False where nothing lies beyond the border or the branch has no
+  /// tangent.
+  bool begin(const BasePoint& point, int border);
+
+  /// d ln|Y|/ds on one side, with s in the base's scale; the tangents are those of the last call to `begin`
+  /// or `follow` as they go on. nan where the base cannot be evaluated.
+  double slope(const BasePoint& point, Side side);
+
+  /// Takes the tangents at a point next to the last.
+  void follow(const BasePoint& point);
+
+  int regime(Side side) const { return sides_[side].regime; }
+
+  /// The slope a little way, in the base's scale, from a point on the border into the regime of a side.
+  double slope_inside(const BasePoint& corner, Side side, double way);
+
+  /// The first extremum inside the regime of a side, next to a point on the border.
+  std::optional<BasePoint> extremum_inside(const BasePoint& corner, Side side);
+
+ private:
+  struct Branch {
+    int regime = 0;
+    int border = 0;
+    Vector tangent;  // n + 1, unit length in units of the scale, from `arriving` to `leaving`
+  };
+
+  bool set_tangent(const BasePoint& point, Branch& side);
+  double border_rate(const BasePoint& point, const Branch& side);
+  std::optional<BasePoint> inside(const BasePoint& corner, Side side, double way);
+  double rate(const Gradient& gradient, const Vector& tangent) const;
+
+  const Problem& base_;
+  Index active_;
+  Index observable_;
+  Corrector corrector_;
+  CurvePoint at_;
+  Gradient gradient_;
+  std::array<Branch, 2> sides_;
+};
+
+}  // namespace arcslip::continuation
