@@ -1,6 +1,8 @@
 #include "arcslip/continuation/curves/corner_slopes.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 
 #include "arcslip/zero_between.hpp"
 
@@ -103,16 +105,18 @@ double CornerSlopes::slope_inside(const BasePoint& corner, Side side, double way
   return point ? slope(*point, side) : std::nan("");
 }
 
-std::optional<BasePoint> CornerSlopes::extremum_inside(const BasePoint& corner, Side side) {
-  constexpr double nearest = 1e-12;
+namespace {
+constexpr double nearest_inside = 1e-14;  // in the scale
+}
+
+std::optional<BasePoint> CornerSlopes::extremum_inside(const BasePoint& corner, Side side, double from) {
   constexpr double farthest = 0.1;
-  const double at_border = slope(corner, side);
-  double before = 0;
-  double at_before = at_border;
-  for (double way = nearest; way < farthest; way *= 4) {
+  double before = from;
+  double at_before = from > 0 ? slope_inside(corner, side, from) : slope(corner, side);
+  for (double way = 4 * std::max(from, nearest_inside); way < farthest; way *= 4) {
     const double here = slope_inside(corner, side, way);
     if (std::isnan(here)) return std::nullopt;
-    if (here * at_border <= 0) {
+    if (here * at_before <= 0) {
       const auto at = [&](double s) { return slope_inside(corner, side, s); };
       return inside(corner, side, zero_between(at, before, way, at_before, here));
     }
@@ -120,6 +124,29 @@ std::optional<BasePoint> CornerSlopes::extremum_inside(const BasePoint& corner, 
     at_before = here;
   }
   return std::nullopt;
+}
+
+std::optional<CornerSlopes::Steepest> CornerSlopes::steepest_inside(const BasePoint& corner, Side side,
+                                                                    double sign, double farthest) {
+  const double unit = sign < 0 ? -1 : 1;
+  constexpr int half_the_digits = 26;
+  const auto falls = [&](double log_way) { return -unit * slope_inside(corner, side, std::exp(log_way)); };
+  // Brent's search begins in the middle; the slope first rises from the border.
+  double best = std::log(nearest_inside);
+  double least = std::numeric_limits<double>::infinity();
+  for (double way = nearest_inside; way <= farthest; way *= 2) {
+    const double here = falls(std::log(way));
+    if (here < least) {
+      least = here;
+      best = std::log(way);
+    }
+  }
+  const double reach = std::log(2.0);
+  const auto [place, value] =
+      boost::math::tools::brent_find_minima(falls, best - reach, best + reach, half_the_digits);
+  const auto point = inside(corner, side, std::exp(place));
+  if (!point) return std::nullopt;
+  return Steepest{*point, -value};
 }
 
 }  // namespace arcslip::continuation

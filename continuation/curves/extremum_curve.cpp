@@ -9,20 +9,18 @@
 #include "arcslip/continuation/curves/half_curve.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 namespace {
 
 using Side = CornerSlopes::Side;
 
-constexpr double near = 1e-6;          // a border, in the scale: here a curve of smooth extrema is left,
-constexpr double nearest_left = 1e-9;  // or here at last, where it turns between here and there
+constexpr double near = 1e-6;          // a border, in the scale: here a curve of smooth extrema is left
+constexpr double narrow = 1e-5;        // the same: what turns within this is not traced
 constexpr double within_reach = 1e-2;  // the same: nearer than this one that cannot go on may come to one
 constexpr double shortest_way = 1e-9;  // in the scale, from a place along a border or into a regime,
 constexpr double longest_way = 1e-3;   // and as far as this one goes for a slope that is surely not rounding
-
-/// Of a slope that vanishes but for what is left of it: all others are surely no rounding.
-double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
 
 /// A place on a border to which a curve comes.
 struct Place {
@@ -61,7 +59,14 @@ class ExtremumCurve {
   bool go_on();
   bool leave(const Place& place);
   bool enter(Side side);
-  std::optional<BasePoint> first_inside(const BasePoint& corner, Side side);
+  std::optional<BasePoint> first_inside(const BasePoint& corner, Side side, double inside, double least);
+  std::optional<BasePoint> fold_beside(const BasePoint& corner, int border, Side side);
+  bool add_fold(const BasePoint& corner, int border, Side side);
+  BasePoint settled(const BasePoint& point, int border) const;
+  BasePoint at_value(const BasePoint& next, int border, double value) const;
+  BasePoint refined(const BasePoint& point, int border, Side side);
+  double distance(const BasePoint& point) const;
+  double observable_rate(const BranchPoint& at, const Vector& direction) const;
   std::optional<Place> meeting();
   std::optional<Place> meeting_beside(const BranchPoint& last, const NearestBorder& nearest);
   bool turns_between(const BasePoint& point, const NearestBorder& nearest, const BasePoint& beside,
@@ -71,14 +76,18 @@ class ExtremumCurve {
   std::vector<BranchPoint> step_off(BorderProblem& edge, const BasePoint& from, bool up, double way) const;
   std::vector<BranchPoint> surely_off(BorderProblem& edge, const BasePoint& from, bool up,
                                       std::optional<int> vanishing);
-  double sign_inside(const BasePoint& corner, Side side);
+  struct Inside {
+    double slope;
+    double way;
+  };
+  Inside next_inside(const BasePoint& corner, Side side);
   bool fill(int border, const BasePoint& corner, double from, double to, Side side);
 
   void smooth(const Guess& guess, bool towards_to, std::size_t skipped);
   void along(const Ledge& ledge, std::optional<int> vanishing);
   void append(Branch piece, std::size_t skipped);
   void add(BranchPoint point);
-  void turn(const Vector& tangent, int regime);
+  void turn(Vector tangent, int regime);
   void stop(Stop reason, std::string explanation);
   bool came_back();
 
@@ -107,8 +116,8 @@ class ExtremumCurve {
   int border_ = 0;        // of a ledge
   bool peak_ = false;     // the same: whether it is one of peaks
   std::size_t seen_ = 0;  // rows in which the start was looked for
-  bool near_ = false;     // whether the last piece was left before a border,
-  double least_ = near;   // nearer than this
+  bool near_ = false;     // whether the last piece was left before a border
+  bool passes_ = false;   // whether it is so near to a border that it does not meet
   bool told_to_end_ = false;
 };
 
@@ -177,7 +186,7 @@ TraceOptions ExtremumCurve::freely(double way) const {
   free.from = -far;
   free.to = far;
   free.max_step = std::min(1.0, 10 * way);  // the first step is a tenth
-  free.min_step = 1e-12;
+  free.min_step = 1e-3 * free.max_step;
   free.max_points = 2;
   return free;
 }
@@ -231,8 +240,8 @@ void ExtremumCurve::smooth(const Guess& guess, bool towards_to, std::size_t skip
     const auto border = nearest_border(base_, problem_.active(), split(point), point.regime);
     const double distance = border ? border->distance : 1;
     const bool goes_on = !observer_ || observer_(point);
-    near_ = goes_on && distance < least_ && distance < last && point.type == PointType::regular;
-    if (distance > near) least_ = near;
+    passes_ = passes_ && distance < near;
+    near_ = goes_on && !passes_ && distance < near && distance < last && point.type == PointType::regular;
     last = distance;
     return goes_on && !near_;
   };
@@ -298,7 +307,7 @@ void ExtremumCurve::along(const Ledge& ledge, std::optional<int> vanishing) {
 }
 
 /// Rows of what the curve turns at, where it goes on in another direction than that in which it came.
-void ExtremumCurve::turn(const Vector& tangent, int regime) {
+void ExtremumCurve::turn(Vector tangent, int regime) {
   const BranchPoint here = curve_.points.back();
   const Index last = tangent.size() - 1;
   const auto add_as = [&](PointType type) {
@@ -310,18 +319,10 @@ void ExtremumCurve::turn(const Vector& tangent, int regime) {
     add(std::move(point));
   };
   if (here.arrival(last) * tangent(last) < 0) add_as(PointType::corner_fold);
-  if (options_.extrema_of.empty()) return;
-  const Index which = index_of(observable_names(problem_), options_.extrema_of.front());
-  Gradient gradient{Vector::Zero(problem_.size()), Vector::Zero(here.parameters.size())};
-  const auto rate = [&](const Vector& direction) {
-    problem_.observe(here.unknowns, here.parameters, regime, which, gradient);
-    return gradient.unknowns.dot(direction.head(last)) + gradient.parameters(parameter_) * direction(last);
-  };
-  constexpr double level = 1e-9;  // of the observable: the rate is rounding
-  const double size = std::abs(problem_.observe(here.unknowns, here.parameters, regime, which, gradient));
-  const double before = rate(here.arrival);
-  const double behind = rate(tangent);
-  const bool told = std::min(std::abs(before), std::abs(behind)) > level * size;
+  constexpr double level = 1e-9;  // the rate is rounding
+  const double before = observable_rate(curve_.points.back(), here.arrival);
+  const double behind = observable_rate(curve_.points.back(), tangent);
+  const bool told = std::min(std::abs(before), std::abs(behind)) > level;
   if (told && before * behind < 0) add_as(before > 0 ? PointType::peak : PointType::trough);
 }
 
@@ -349,13 +350,15 @@ std::vector<BranchPoint> ExtremumCurve::surely_off(BorderProblem& edge, const Ba
   return step;
 }
 
-/// The sign of a slope inside, next to a place on the border where it vanishes.
-double ExtremumCurve::sign_inside(const BasePoint& corner, Side side) {
+/// A slope inside that is no rounding, next to a place on the border where it vanishes. What turns nearer
+/// than the shortest way is not told apart from the place.
+ExtremumCurve::Inside ExtremumCurve::next_inside(const BasePoint& corner, Side side) {
   const double level = rounding_of(slopes_.slope(corner, side));
-  double slope = 0;
-  for (double way = shortest_way; way <= longest_way && !(std::abs(slope) > level); way *= 10)
-    slope = slopes_.slope_inside(corner, side, way);
-  return slope;
+  double slope = slopes_.slope_inside(corner, side, shortest_way);
+  double way = shortest_way;
+  while (!(std::abs(slope) > level) && way < longest_way)
+    slope = slopes_.slope_inside(corner, side, way *= 10);
+  return {slope, way};
 }
 
 /// The pieces that leave a point along a border of its regime.
@@ -459,46 +462,174 @@ bool ExtremumCurve::enter(Side side) {
   here.arrival = here.tangent;
   BasePoint corner = split(here);
   corner.regime = slopes_.regime(CornerSlopes::arriving);
-  const auto next = first_inside(corner, side);
+  corner = refined(corner, border_, side);
+  const Guess moved = guess_at(corner);
+  here.unknowns = moved.unknowns;
+  here.parameters = moved.parameters;
+  const auto [inside, from] = next_inside(corner, side);
+  const auto outer = slopes_.extremum_inside(corner, side, from);
+  const bool turns = outer && distance(*outer) < narrow;
+  const auto next =
+      turns ? first_inside(corner, side, -inside, distance(*outer)) : first_inside(corner, side, inside, 0);
   if (!next) {
     stop(Stop::grazing_border,
          fmt::format("the extremum leaves a border and no smooth one goes on from there, at {}", place()));
     return false;
   }
-  const BranchPoint there = row(*next, PointType::regular);
-  Vector direction = way(here, there);
+  Vector direction = way(here, row(*next, PointType::regular));
+  if (turns) {
+    const auto fold = fold_beside(corner, border_, side);
+    if (fold && fold->parameters != corner.parameters) direction = way(here, row(*fold, PointType::fold));
+  }
   direction /= steps(direction, here).norm();
   here.tangent = direction;
   turn(direction, slopes_.regime(side));
-  if (told_to_end_ || !fill(border_, corner, value(corner), value(*next), side)) return false;
+  if (turns) {
+    if (!add_fold(corner, border_, side)) {
+      stop(Stop::grazing_border, fmt::format("the extremum turns beside a border, at {}", place()));
+      return false;
+    }
+  } else if (told_to_end_ || !fill(border_, corner, value(corner), value(*next), side)) {
+    return false;
+  }
+  passes_ = true;
   smooth(guess_at(*next, direction), true, 0);
   return true;
 }
 
-/// The extremum that leaves a corner into the regime of a side, as far away as is sure.
-std::optional<BasePoint> ExtremumCurve::first_inside(const BasePoint& corner, Side side) {
-  const double inside = sign_inside(corner, side);
+/// An extremum inside the regime of a side, beside a corner: of those along the border where the slope on it
+/// has another sign than `inside` the farthest to which they lead. At the corner their distance is `least`.
+std::optional<BasePoint> ExtremumCurve::first_inside(const BasePoint& corner, Side side, double inside,
+                                                     double least) {
   BorderProblem edge(base_, problem_.active(), border_);
-  const auto distance = [&](const BasePoint& point) {
-    return nearest_border(base_, problem_.active(), point, point.regime)->distance;
+  struct Found {
+    BasePoint point;
+    double way;  // along the border, which may be shorter than asked for
   };
-  const auto beside = [&](bool up, double way) -> std::optional<BasePoint> {
-    // Where the slope on the border has the other sign than it has inside an extremum lies between the two.
+  const auto beside = [&](bool up, double way) -> std::optional<Found> {
     const std::vector<BranchPoint> step = step_off(edge, corner, up, way);
     if (step.empty() || !(slopes_.slope(split(step.back()), side) * inside < 0)) return std::nullopt;
-    return slopes_.extremum_inside(split(step.back()), side);
+    const auto found = slopes_.extremum_inside(split(step.back()), side);
+    return found ? std::optional(Found{*found, step.back().arclength}) : std::nullopt;
   };
-  for (double way = longest_way; way >= 100 * shortest_way; way *= 0.1) {
-    for (const bool up : {true, false}) {
-      const auto far = beside(up, way);
-      const auto halfway = far ? beside(up, 0.5 * way) : std::nullopt;
-      if (!halfway) continue;
-      // It comes to the border as the way does, or as its square.
-      const double ratio = distance(*halfway) / distance(*far);
-      if (ratio > 0.2 && ratio < 0.6) return far;
+  std::optional<Found> last;
+  for (const bool up : {true, false}) {
+    for (double way = 10 * shortest_way; way <= 1.1 * longest_way; way *= 4) {
+      const auto next = beside(up, way);
+      // They come to the border as the way does, or as its square: all that is farther is another extremum.
+      const auto leads = [&](const Found& from, const Found& to) {
+        const double growth = to.way / from.way;
+        const double most = 2 * growth * growth * std::abs(distance(from.point) - least);
+        return distance(to.point) - least < std::max(most, shortest_way);
+      };
+      if (last && (!next || !leads(*last, *next))) break;
+      if (next && distance(next->point) < narrow) last = next;
+      if (next && last) last = next;
+    }
+    if (last) return last->point;
+  }
+  return std::nullopt;
+}
+
+/// A point on a border to rounding, if Newton's method comes so far.
+BasePoint ExtremumCurve::settled(const BasePoint& point, int border) const {
+  constexpr double rounding = 1e-14;
+  BorderProblem edge(base_, problem_.active(), border);
+  const auto located = locate(edge, point, rounding);
+  return located ? located->point : point;
+}
+
+/// The point on a border at a value of the parameter, next to another one.
+BasePoint ExtremumCurve::at_value(const BasePoint& next, int border, double value) const {
+  Guess guess = guess_at(next);
+  guess.parameters(parameter_) = value;
+  return settled(problem_.split(guess.unknowns, guess.parameters, next.regime), border);
+}
+
+/// A place on a border where the slope on a side vanishes, to rounding: the tracer's points are good to its
+/// tolerance, and of a sharp response the slope there is not.
+BasePoint ExtremumCurve::refined(const BasePoint& point, int border, Side side) {
+  constexpr double farthest = 1e-5;
+  const double place = value(point);
+  const double scale =
+      1 / steps(Vector::Ones(problem_.size() + 1), row(point, PointType::regular))(problem_.size());
+  const auto slope_at = [&](double at) { return slopes_.slope(at_value(point, border, at), side); };
+  for (double reach = shortest_way; reach <= farthest; reach *= 10) {
+    const double low = place - reach * scale;
+    const double high = place + reach * scale;
+    const double at_low = slope_at(low);
+    const double at_high = slope_at(high);
+    if (!(at_low * at_high < 0)) continue;
+    return at_value(point, border, zero_between(slope_at, low, high, at_low, at_high));
+  }
+  return settled(point, border);
+}
+
+/// From a border.
+double ExtremumCurve::distance(const BasePoint& point) const {
+  const auto nearest = nearest_border(base_, problem_.active(), point, point.regime);
+  return nearest ? nearest->distance : std::numeric_limits<double>::infinity();
+}
+
+/// Where the curve that leaves a corner into the regime of a side turns in its parameter, close to the
+/// border: the slope inside, which has another sign at the border and further on, just touches zero. It is
+/// the corner itself if that is nearer than the shortest way.
+std::optional<BasePoint> ExtremumCurve::fold_beside(const BasePoint& corner, int border, Side side) {
+  const double inside = next_inside(corner, side).slope;
+  std::optional<BasePoint> top;
+  const double scale =
+      1 / steps(Vector::Ones(problem_.size() + 1), row(corner, PointType::regular))(problem_.size());
+  const auto height = [&](double along, bool up) {
+    const BasePoint from = at_value(corner, border, value(corner) + (up ? along : -along) * scale);
+    if (!(slopes_.slope(from, side) * inside < 0)) return std::nan("");
+    const auto highest = slopes_.steepest_inside(from, side, inside, narrow);
+    if (highest) top = highest->point;
+    return highest ? highest->slope : std::nan("");
+  };
+  for (const bool up : {true, false}) {
+    double before = shortest_way;
+    double at_before = height(before, up);
+    if (at_before <= 0) return corner;
+    for (double along = 2 * before; at_before > 0 && along < longest_way; along *= 2) {
+      const double here = height(along, up);
+      if (here <= 0) {
+        height(zero_between([&](double x) { return height(x, up); }, before, along, at_before, here), up);
+        return top;
+      }
+      before = along;
+      at_before = here;
     }
   }
   return std::nullopt;
+}
+
+/// Rows of where the curve turns close to a border, coming from the last row.
+bool ExtremumCurve::add_fold(const BasePoint& corner, int border, Side side) {
+  const auto found = fold_beside(corner, border, side);
+  if (!found) return false;
+  if (found->parameters == corner.parameters) return true;
+  BranchPoint fold = row(*found, PointType::fold);
+  fold.tangent = way(curve_.points.back(), fold);
+  fold.tangent /= steps(fold.tangent, fold).norm();
+  fold.tangent(fold.tangent.size() - 1) = 0;
+  const double rises = observable_rate(fold, way(curve_.points.back(), fold));
+  add(fold);
+  if (!options_.extrema_of.empty()) {
+    fold.type = rises > 0 ? PointType::peak : PointType::trough;
+    add(fold);
+  }
+  return !told_to_end_;
+}
+
+/// How the observable whose extrema are looked for along the curve changes in a direction.
+double ExtremumCurve::observable_rate(const BranchPoint& at, const Vector& direction) const {
+  if (options_.extrema_of.empty()) return 0;
+  const Index which = index_of(observable_names(problem_), options_.extrema_of.front());
+  const Index last = problem_.size();
+  Gradient gradient{Vector::Zero(last), Vector::Zero(at.parameters.size())};
+  const double size = std::abs(problem_.observe(at.unknowns, at.parameters, at.regime, which, gradient));
+  return (gradient.unknowns.dot(direction.head(last)) + gradient.parameters(parameter_) * direction(last)) /
+         size;
 }
 
 /// Where a piece within a regime comes to a border, as the last row.
@@ -523,7 +654,7 @@ bool ExtremumCurve::turns_between(const BasePoint& point, const NearestBorder& n
   const double on_edge = slopes_.slope(beside, CornerSlopes::arriving);
   const auto first = slopes_.extremum_inside(beside, CornerSlopes::arriving);
   slopes_.begin(place, nearest.border);
-  if (!first || on_edge * sign_inside(place, CornerSlopes::arriving) > 0) return true;
+  if (!first || on_edge * next_inside(place, CornerSlopes::arriving).slope > 0) return true;
   const auto there = nearest_border(base_, problem_.active(), *first, point.regime);
   return !(std::abs(there->distance / nearest.distance - 1) < same);
 }
@@ -531,7 +662,6 @@ bool ExtremumCurve::turns_between(const BasePoint& point, const NearestBorder& n
 /// Where the slope vanishes on the border beside the last row.
 std::optional<Place> ExtremumCurve::meeting_beside(const BranchPoint& last, const NearestBorder& nearest) {
   const Index active = problem_.active();
-  const BranchPoint before = last;
   const BasePoint from = split(last);
   Gradient gradient{Vector::Zero(problem_.size()), Vector::Zero(last.parameters.size())};
   const double border =
@@ -541,7 +671,8 @@ std::optional<Place> ExtremumCurve::meeting_beside(const BranchPoint& last, cons
       gradient.unknowns.dot(last.tangent.head(n)) + gradient.parameters(parameter_) * last.tangent(n);
   // A curve that touches the border comes to it twice as far on as one that crosses it.
   constexpr double sure = 10;
-  const double most = std::min(sure * std::abs(border / rate), std::sqrt(within_reach));
+  const double most = std::clamp(sure * std::abs(border / rate), shortest_way, std::sqrt(within_reach));
+  if (!std::isfinite(most)) return std::nullopt;
   BorderProblem edge(base_, active, nearest.border);
   const auto beside = locate(edge, from, options_.tolerance);
   if (!beside || !slopes_.begin(beside->point, nearest.border)) return std::nullopt;
@@ -560,13 +691,16 @@ std::optional<Place> ExtremumCurve::meeting_beside(const BranchPoint& last, cons
     if (!found || way.points.back().arclength < found->arclength) found = way.points.back();
   }
   if (!found) return std::nullopt;
-  const BasePoint at = split(*found);
-  if (turns_between(from, nearest, beside->point, at)) return std::nullopt;
-  if (!fill(nearest.border, at, value(from), value(at), CornerSlopes::arriving)) return std::nullopt;
+  const BasePoint at = refined(split(*found), nearest.border, CornerSlopes::arriving);
+  const bool turns = turns_between(from, nearest, beside->point, at);
+  if (turns && !add_fold(at, nearest.border, CornerSlopes::arriving)) return std::nullopt;
+  if (!turns && !fill(nearest.border, at, value(from), value(at), CornerSlopes::arriving))
+    return std::nullopt;
   BranchPoint corner = row(at, PointType::regime_switch);
-  // Between the two a parabola.
-  const Vector chord = way(before, corner);
-  corner.arrival = 2 * chord / steps(chord, corner).norm() - before.tangent;
+  const Vector chord = way(curve_.points.back(), corner);
+  corner.arrival = chord / steps(chord, corner).norm();
+  // A parabola in between.
+  if (!turns) corner.arrival = 2 * corner.arrival - curve_.points.back().tangent;
   corner.arrival /= steps(corner.arrival, corner).norm();
   corner.tangent = corner.arrival;
   const Vector arrival = corner.arrival;
@@ -614,7 +748,7 @@ bool ExtremumCurve::go_on() {
   if (!is_stuck) return false;
   if (const auto place = meeting()) return leave(*place);
   if (told_to_end_ || !near_ || curve_.stop != Stop::interrupted) return false;
-  least_ = least_ > nearest_left ? 0.1 * least_ : 0;
+  passes_ = true;
   const Guess guess{last.unknowns, last.parameters, last.regime, last.tangent};
   smooth(guess, true, 1);
   return true;

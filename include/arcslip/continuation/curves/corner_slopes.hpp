@@ -5,6 +5,7 @@
 // extremum.
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "arcslip/continuation/path/corrector.hpp"
@@ -23,6 +24,9 @@ struct NearestBorder {
 };
 std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
                                             int regime, int except = -1);
+
+/// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
+inline double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
 
 class CornerSlopes {
  public:
@@ -46,8 +50,15 @@ class CornerSlopes {
   /// The slope a little way, in the base's scale, from a point on the border into the regime of a side.
   double slope_inside(const BasePoint& corner, Side side, double way);
 
-  /// The first extremum inside the regime of a side, next to a point on the border.
-  std::optional<BasePoint> extremum_inside(const BasePoint& corner, Side side);
+  /// The first extremum inside the regime of a side, next to a point on the border and farther than `from`.
+  std::optional<BasePoint> extremum_inside(const BasePoint& corner, Side side, double from = 0);
+
+  /// Where the slope times a sign is largest inside the regime of a side, up to a distance.
+  struct Steepest {
+    BasePoint point;
+    double slope;  ///< times 1 or -1
+  };
+  std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign, double farthest);
 
  private:
   struct Branch {

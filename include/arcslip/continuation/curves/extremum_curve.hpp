@@ -8,9 +8,9 @@
 // beyond which the branch goes on; where it turns back in its parameter, a peak and a trough meet, one of
 // which may be a corner.
 //
-// Next to a border the derivative may grow like the square root of the distance, as where a contact begins to
-// slip. A curve of smooth extrema then touches the border, and Newton's method does not converge there. Hence
-// it is left a little way before, and its end found on the border, along which the slopes are smooth.
+// Next to a border the derivative may grow like the square root of the distance. A curve of smooth extrema
+// then touches the border, and Newton's method does not converge there. Hence it is left a little way before,
+// and its end found on the border, along which the slopes are smooth.
 
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
