@@ -90,6 +90,7 @@ class ExtremumCurve {
   void turn(Vector tangent, int regime);
   void stop(Stop reason, std::string explanation);
   bool came_back();
+  bool is_satisfied();
 
   TraceOptions rest() const;
   TraceOptions freely(double way) const;
@@ -189,6 +190,15 @@ TraceOptions ExtremumCurve::freely(double way) const {
   free.min_step = 1e-3 * free.max_step;
   free.max_points = 2;
   return free;
+}
+
+/// Whether the rows so far are all that was asked for.
+bool ExtremumCurve::is_satisfied() {
+  const std::vector<StopAfter> left = rest().stop_after;
+  if (std::none_of(left.begin(), left.end(), [](const StopAfter& rule) { return rule.count <= 0; }))
+    return false;
+  stop(Stop::requested, "stop_after was satisfied at " + place());
+  return true;
 }
 
 void ExtremumCurve::stop(Stop reason, std::string explanation) {
@@ -403,6 +413,7 @@ std::vector<Ledge> ExtremumCurve::ledges(const Place& place) {
 
 /// Goes on along a border: as a peak where it came as one, straight on if there are several.
 bool ExtremumCurve::leave(const Place& place) {
+  if (is_satisfied()) return false;
   const std::vector<Ledge> all = ledges(place);
   const BranchPoint& here = curve_.points.back();
   const auto rank = [&](const Ledge& ledge) {
@@ -460,6 +471,7 @@ bool ExtremumCurve::enter(Side side) {
   here.label.clear();
   here.regime = slopes_.regime(side);
   here.arrival = here.tangent;
+  if (is_satisfied()) return false;
   BasePoint corner = split(here);
   corner.regime = slopes_.regime(CornerSlopes::arriving);
   corner = refined(corner, border_, side);

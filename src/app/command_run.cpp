@@ -38,10 +38,10 @@ void require_provable(const CaseBranch& branch, const RunOptions& options) {
     throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", options.case_path, why));
   if (options.certify) why = why_not_certifiable(branch);
   if (why.empty()) return;
-  throw InputError(
-      fmt::format("{}: --certify is for forced responses of one contact with linear structures, which are one "
-                  "equation in one unknown, ln R, that intervals enclose in closed form; not for {}",
-                  options.case_path, why));
+  throw InputError(fmt::format(
+      "{}: --certify is for forced responses of one contact with linear structures, which are one "
+      "equation in one unknown, ln R, that intervals enclose in closed form; not for {}",
+      options.case_path, why));
 }
 
 /// The same before anything runs, of as many branches as are looked at in no time.

@@ -1,0 +1,147 @@
+// Curves of extrema that go on across borders, against closed forms.
+
+#include <cmath>
+
+#include "arcslip/continuation/curves/curve.hpp"
+#include "branches.hpp"
+#include "catch.hpp"
+#include "scalar_problem.hpp"
+
+using namespace arcslip;
+using namespace arcslip::continuation;
+using namespace arcslip::testing;
+
+namespace {
+
+/// u = p, with two regimes on both sides of u = q: before it Y = 10 - u^2, behind it, with t = u - q,
+///
+///   Y = 10 - q^2 + a(q) t - t^(3/2),   a(q) = slope + rise q.
+class Edge : public Problem {
+ public:
+  Edge(double slope, double rise) : slope_(slope), rise_(rise) {}
+  enum Regime : int { before, behind };
+
+  Index size() const override { return 1; }
+  std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
+  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    if (out.residual != nullptr) (*out.residual)(0) = u(0) - p(0);
+    if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << -1, 0;
+    return true;
+  }
+  std::vector<std::string> regime_names() const override { return {"before", "behind"}; }
+  int border_count(int /*regime*/) const override { return 1; }
+  double border(const Vector& u, const Vector& p, int regime, int /*border*/,
+                Gradient* gradient) const override {
+    const double sign = regime == before ? 1 : -1;
+    if (gradient != nullptr) {
+      gradient->unknowns(0) = sign;
+      gradient->parameters << 0, -sign;
+    }
+    return sign * (u(0) - p(1));
+  }
+  int regime_beyond(int regime, int /*border*/) const override { return regime == before ? behind : before; }
+  std::vector<Observable> observables() const override { return {{"Y", true}}; }
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override {
+    Gradient unused{Vector::Zero(1), Vector::Zero(2)};
+    values = Vector::Constant(1, observe(u, p, regime, 0, unused));
+  }
+  double observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
+                 Gradient& gradient) const override {
+    gradient.parameters.setZero();
+    if (regime == before) {
+      gradient.unknowns(0) = -2 * u(0);
+      return 10 - u(0) * u(0);
+    }
+    const double t = std::max(0.0, u(0) - p(1));
+    gradient.unknowns(0) = steepness(p(1)) - 1.5 * std::sqrt(t);
+    gradient.parameters(1) = -2 * p(1) + rise_ * t - gradient.unknowns(0);
+    return 10 - p(1) * p(1) + steepness(p(1)) * t - std::pow(t, 1.5);
+  }
+
+ private:
+  double steepness(double q) const { return slope_ + rise_ * q; }
+
+  double slope_;
+  double rise_;
+};
+
+/// The curve through the first extremum of a type at some q, over q from -3 to 2.
+Branch curve_of(const Edge& problem, PointType type, double q, const TraceOptions& wanted) {
+  TraceOptions options = over("p", -5, 5);
+  options.extrema_of = {"Y"};
+  const Branch response = trace(problem, {vector_of({-5}), vector_of({-5, q}), Edge::before}, options);
+  const auto found = of_type(response, type);
+  REQUIRE(!found.empty());
+  const CurveStart start = curve_through(problem, "p", found[0], "Y");
+  return trace_curve(*start.problem, start.point, wanted);
+}
+
+std::vector<double> places(const Branch& curve, PointType type) {
+  std::vector<double> all;
+  for (const BranchPoint& point : of_type(curve, type)) all.push_back(point.parameters(0));
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("A peak goes on from a regime along its border and into the next one") {
+  // Smooth behind up to q = -1, where it touches the border, then a corner, from q = 0 on smooth before.
+  const Edge problem(-1, -1);
+  const double q = GENERATE(-2.0, -0.5, 1.5);  // of the seed
+  TraceOptions options = over("q", -3, 2);
+  options.extrema_of = {"Y"};
+  options.stop_at = {-1.0001, -0.9999, 0.00005};
+  const Branch curve = curve_of(problem, PointType::peak, q, options);
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == -3);
+  CHECK(curve.points.back().parameters(0) == 2);
+  for (const BranchPoint& point : curve.points) {
+    const double at = point.parameters(0);
+    const double t = at < -1 ? std::pow((at + 1) / 1.5, 2) : 0;
+    CAPTURE(at);
+    CHECK_THAT(point.unknowns(1), WithinAbs(at < 0 ? at + t : 0, 1e-10));
+    CHECK_THAT(point.unknowns(0), WithinAbs(point.unknowns(1), 1e-10));
+  }
+  const std::vector<double> switches = places(curve, PointType::regime_switch);
+  REQUIRE(switches.size() == 2);
+  CHECK_THAT(switches[0], WithinAbs(-1, 1e-10));
+  CHECK_THAT(switches[1], WithinAbs(0, 1e-10));
+  CHECK(places(curve, PointType::user) == std::vector<double>{-1.0001, -0.9999, 0.00005});
+  CHECK(places(curve, PointType::corner_fold).empty());
+  for (std::size_t i = 1; i < curve.points.size(); ++i)
+    CHECK(curve.points[i].arclength >= curve.points[i - 1].arclength);
+}
+
+TEST_CASE("Where a peak meets a corner trough its curve turns back along the border") {
+  const Edge problem(1, 0);
+  TraceOptions options = over("q", -3, 2);
+  options.extrema_of = {"Y"};
+  const Branch curve = curve_of(problem, PointType::peak, 1.5, options);
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == 2);
+  CHECK(curve.points.back().parameters(0) == 2);
+  const std::vector<double> folds = places(curve, PointType::corner_fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0], WithinAbs(0, 1e-10));
+  bool on_border = std::abs(curve.points.front().unknowns(1)) > 1;
+  for (const BranchPoint& point : curve.points) {
+    if (point.type == PointType::corner_fold) on_border = !on_border;
+    if (point.parameters(0) < 1e-9) continue;
+    CHECK_THAT(point.unknowns(1), WithinAbs(on_border ? point.parameters(0) : 0, 1e-9));
+  }
+}
+
+TEST_CASE("A curve of extrema that crosses borders counts, and ends where it is told to") {
+  const Edge problem(-1, -1);
+  TraceOptions options = over("q", -3, 2);
+  options.stop_after = {{PointType::regime_switch, 2, {}}};
+  const Branch counted = curve_of(problem, PointType::peak, -2, options);
+  CHECK(counted.stop == Stop::requested);
+  CHECK_THAT(counted.points.back().parameters(0), WithinAbs(0, 1e-10));
+  options.stop_after.clear();
+  options.max_points = 40;
+  const Branch few = curve_of(problem, PointType::peak, -2, options);
+  CHECK(few.stop == Stop::max_points);
+  CHECK(std::ssize(few.points) <= 2 * options.max_points);
+}
