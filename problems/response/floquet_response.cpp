@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 
 namespace arcslip::problems {
@@ -53,10 +54,19 @@ FloquetResponse::FloquetResponse(const HarmonicSystem& system, const RingWaves& 
                                  std::shared_ptr<const FloquetResponse> finer)
     : HarmonicResponse(system), disturbances_(system, waves), finer_(std::move(finer)) {}
 
+FloquetResponse::FloquetResponse(const HarmonicSystem& system, const HarmonicSystem& in_modes,
+                                 const RingWaves& waves, std::shared_ptr<const FloquetResponse> finer)
+    : HarmonicResponse(system),
+      disturbances_(in_modes, waves),
+      is_in_modes_(false),
+      finer_(std::move(finer)) {}
+
 std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vector& p, int regime) const {
   std::vector<StickPattern> all;
   for (Index i = 0; i < contacts(); ++i)
     all.push_back(stick_pattern(system().orders, motion(u, i), slip_threshold(i, p), slips(regime, i)));
+  for (Index i = contacts(); i < coordinates_.size(); ++i)
+    all.push_back({false, {}, coordinates_.element(i).stiffness_in_time(system().orders, motion(u, i))});
   return all;
 }
 
@@ -66,7 +76,7 @@ RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vec
   RingDisturbances::Disturbances found = disturbances_.at(p(eta), contacts, active);
   const bool may_fold =
       std::any_of(found.all.begin(), found.all.end(), [](const auto& one) { return one.is_own; });
-  if (disturbances_.is_balanced() || !may_fold) return found;
+  if ((disturbances_.is_balanced() && is_in_modes_) || !may_fold) return found;
   Matrix jacobian(size(), size());
   continuation::Evaluation out;
   out.jacobian = &jacobian;
@@ -142,7 +152,7 @@ void FloquetResponse::observe(const Vector& u, const Vector& p, int regime, Vect
 /// What is left out falls as h^-3, though not from each harmonic to the next: twice what that gives.
 double FloquetResponse::growth_error(const Vector& u, const Vector& p, int regime, double growth) const {
   if (finer_ == nullptr) return none;
-  if (regime == 0) return 0;
+  if (regime == 0 && !coordinates_.has_others()) return 0;
   const std::optional<Guess> at = solved_in(*finer_, *this, {u, p, regime});
   if (!at) return none;
   const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;
@@ -193,9 +203,16 @@ std::set<Index> disturbed_waves(const SystemParameters& parameters) {
 }
 
 std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
-  const auto build = [](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
-    return std::make_shared<FloquetResponse>(build_harmonic_system(one),
-                                             ring_waves(one, one.harmonics.back() + 1), std::move(finer));
+  const bool is_full = parameters.sectors && parameters.sectors->path() == SectorPath::full;
+  const std::shared_ptr<const SectorPair> modal = is_full ? reduced(*parameters.sectors) : parameters.sectors;
+  const auto build = [&](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
+    SystemParameters in_modes = one;
+    in_modes.sectors = modal;
+    const RingWaves waves = ring_waves(in_modes, one.harmonics.back() + 1);
+    const HarmonicSystem system = build_harmonic_system(one);
+    if (!is_full) return std::make_shared<FloquetResponse>(system, waves, std::move(finer));
+    return std::make_shared<FloquetResponse>(system, build_harmonic_system(in_modes), waves,
+                                             std::move(finer));
   };
   SystemParameters other = parameters;
   other.harmonics = odd_up_to(other_highest(parameters));

@@ -101,6 +101,19 @@ void SectorPair::check(const SectorWave& wave) const {
   if (damper_) check(*damper_, wave);
 }
 
+std::shared_ptr<const SectorPair> reduced(const SectorPair& pair) {
+  const auto diagonal = [](SectorPart part) {
+    FiniteSector& sector = part.sector;
+    if (sector.damping.size() != 0)
+      part.fixed = part.fixed + proportional_loss(sector.damping, sector.mass, sector.stiffness);
+    sector.damping = SparseMatrix();
+    return part;
+  };
+  std::optional<SectorPart> damper;
+  if (pair.damper() != nullptr) damper = diagonal(*pair.damper());
+  return std::make_shared<const SectorPair>(diagonal(pair.base()), std::move(damper), pair.tolerance());
+}
+
 bool needs_contact_system(const SystemParameters& parameters) {
   return parameters.sectors &&
          (parameters.contacts.size() > 1 || parameters.sectors->path() == SectorPath::full);

@@ -101,12 +101,17 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
-  if (problem.response != Response::forced || system.cubic_stiffness != 0)
-    section.fail("stability", "only for the forced response without cubic springs");
+  if (problem.response != Response::forced) section.fail("stability", "only for the forced response");
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
-  if (system.sectors && system.sectors->path() == SectorPath::full)
-    section.fail("stability", R"(needs the modes of path = "reduced")");
+  if (system.sectors) {
+    try {
+      reduced(*system.sectors);
+    } catch (const SectorError& error) {
+      section.fail("stability", fmt::format("disturbances are told by modes, which this damping couples: {}",
+                                            error.what()));
+    }
+  }
   check_disturbed_waves(section, system);
 }
 

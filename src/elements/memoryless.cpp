@@ -58,6 +58,23 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   }
 }
 
+VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> orders,
+                                                      const HarmonicVector& x) const {
+  // The slope has harmonics up to (degree - 1) h.
+  const int count = (degree() - 1) * orders.back() + 1;
+  VaryingStiffness stiffness;
+  stiffness.harmonics.resize(static_cast<std::size_t>(count / 2 + 1));
+  const OddMotion motion(orders, x);
+  for (int k = 0; k < count; ++k) {
+    const double theta = pi * k / count;
+    const double share = slope(motion.value(theta)) / count;
+    for (std::size_t m = 0; m < stiffness.harmonics.size(); ++m)
+      stiffness.harmonics[m] +=
+          (m == 0 ? 1 : 2) * share * std::polar(1.0, -2 * static_cast<double>(m) * theta);
+  }
+  return stiffness;
+}
+
 void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> orders,
                                const HarmonicVector& x, double /*load*/, const HarmonicVector& motion,
                                double /*log_load*/, ElementForce& change) const {

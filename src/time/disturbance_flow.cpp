@@ -6,12 +6,21 @@
 
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
+#include "time/kernel.hpp"
 
 namespace arcslip {
 namespace {
 
 // On an arc as long as half a period e^{jh theta} needs some h pi/2 points, and 16 more give it to rounding.
 Index points_for(int highest) { return 16 + 2 * highest; }
+
+/// Those of the contacts, and 0 for further coordinates.
+Vector springs_of(const HarmonicSystem& system) {
+  Vector springs = Vector::Zero(std::ssize(system.contacts) + std::ssize(system.others));
+  for (Index i = 0; i < std::ssize(system.contacts); ++i)
+    springs(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
+  return springs;
+}
 
 /// cos(pi i/n) from -1 to 1, i = n .. 0.
 Vector chebyshev_points(Index n) {
@@ -60,16 +69,15 @@ struct DisturbanceFlow::Flow {
   Matrix matrix;
 };
 
-DisturbanceFlow::DisturbanceFlow(const HarmonicSystem& system, int highest) : orders_(system.orders) {
+DisturbanceFlow::DisturbanceFlow(const HarmonicSystem& system, int highest)
+    : orders_(system.orders), springs_(springs_of(system)), contacts_(std::ssize(system.contacts)) {
   check(system);
-  springs_.resize(std::ssize(system.contacts));
-  for (Index i = 0; i < springs_.size(); ++i)
-    springs_(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < orders_.size(); ++a)
     slowest = std::min(slowest, slowest_rate(system.base[a], system.damper[a]));
   for (std::size_t a = 0; a < orders_.size(); ++a) {
-    for (Oscillator& mode : oscillators(system.base[a], system.damper[a], slowest, orders_[a] == 0)) {
+    for (Oscillator& mode :
+         oscillators(system.base[a], system.damper[a], slowest, orders_[a] == 0, system.others)) {
       coordinates_.push_back({std::move(mode), static_cast<Index>(a), modal_states_});
       modal_states_ += 2 * parts(static_cast<Index>(a));
     }
@@ -113,6 +121,22 @@ void DisturbanceFlow::add_sliders(double eta, Index contact, const StickPattern&
   if (orders_.front() == 0) flow.force.row(contact * orders) *= 0.5;
 }
 
+/// The force of what does not slip.
+void DisturbanceFlow::add_stiffness(Index coordinate, const VaryingStiffness& stiffness, Flow& flow) const {
+  const Index orders = std::ssize(orders_);
+  const auto motion = flow.relative.middleRows(coordinate * orders, orders);
+  for (Index a = 0; a < orders; ++a) {
+    auto force = flow.force.row(coordinate * orders + a);
+    const int h = orders_[static_cast<std::size_t>(a)];
+    for (Index b = 0; b < orders; ++b) {
+      const int l = orders_[static_cast<std::size_t>(b)];
+      force += stiffness.coefficient(h - l) * motion.row(b);
+      force += stiffness.coefficient(h + l) * motion.row(b).conjugate();
+    }
+    if (h == 0) force *= 0.5;
+  }
+}
+
 void DisturbanceFlow::add_modes(double eta, Flow& flow) const {
   const Index orders = std::ssize(orders_);
   Matrix& matrix = flow.matrix;
@@ -141,25 +165,31 @@ void DisturbanceFlow::add_modes(double eta, Flow& flow) const {
   }
 }
 
-/// Where all contacts slip, base and damper are free to move as rigid bodies with all sliders.
-Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> contacts) const {
+/// Where all contacts slip, base and damper are free to move as rigid bodies with all sliders, unless other
+/// elements hold them.
+Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> elements) const {
   Matrix found(size, 0);
-  if (orders_.front() != 0 ||
-      !std::all_of(contacts.begin(), contacts.end(), [](const StickPattern& one) { return one.slips; }))
+  if (orders_.front() != 0 || std::any_of(elements.begin(), elements.begin() + contacts_,
+                                          [](const StickPattern& one) { return !one.slips; }))
     return found;
-  const Index inner = places_.size() - 1;
+  std::vector<const Coordinate*> rigid;
   for (const Coordinate& one : coordinates_) {
-    if (one.order != 0 || one.mode.frequency > 0) continue;
-    found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-    auto drift = found.col(found.cols() - 1);
-    drift.setZero();
-    drift(one.place) = 1;
-    Index slider = modal_states_;
-    for (Index i = 0; i < springs_.size(); ++i) {
-      const Index count = inner * std::ssize(contacts[static_cast<std::size_t>(i)].arcs);
-      drift.segment(slider, count).setConstant(one.mode.shape(i).real());
-      slider += count;
-    }
+    if (one.order == 0 && one.mode.frequency == 0) rigid.push_back(&one);
+  }
+  Matrix shapes(springs_.size(), std::ssize(rigid));
+  for (Index k = 0; k < shapes.cols(); ++k)
+    shapes.col(k) = rigid[static_cast<std::size_t>(k)]->mode.shape.real();
+  const Matrix free = kernel_of(Matrix(shapes.bottomRows(springs_.size() - contacts_)));
+  const Matrix moved = shapes * free;
+  const Index inner = places_.size() - 1;
+  found.setZero(size, free.cols());
+  for (Index k = 0; k < shapes.cols(); ++k)
+    found.row(rigid[static_cast<std::size_t>(k)]->place) = free.row(k);
+  Index slider = modal_states_;
+  for (Index i = 0; i < contacts_; ++i) {
+    const Index count = inner * std::ssize(elements[static_cast<std::size_t>(i)].arcs);
+    found.middleRows(slider, count).rowwise() = moved.row(i);
+    slider += count;
   }
   return found;
 }
@@ -178,18 +208,23 @@ ComplexMatrix DisturbanceFlow::relative_motion(Index size) const {
   return relative;
 }
 
-Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> contacts) const {
+Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> elements) const {
   const Index orders = std::ssize(orders_);
   const Index inner = places_.size() - 1;
   Index size = modal_states_;
-  for (const StickPattern& contact : contacts) size += inner * std::ssize(contact.arcs);
+  for (const StickPattern& element : elements) size += inner * std::ssize(element.arcs);
   Flow flow{relative_motion(size), ComplexMatrix::Zero(springs_.size() * orders, size),
             Matrix::Zero(size, size)};
   Index slider = modal_states_;
   for (Index i = 0; i < springs_.size(); ++i) {
-    const StickPattern& contact = contacts[static_cast<std::size_t>(i)];
+    const StickPattern& contact = elements[static_cast<std::size_t>(i)];
     if (!contact.slips) {
-      flow.force.middleRows(i * orders, orders) = springs_(i) * flow.relative.middleRows(i * orders, orders);
+      if (!contact.stiffness.harmonics.empty()) {
+        add_stiffness(i, contact.stiffness, flow);
+      } else {
+        flow.force.middleRows(i * orders, orders) =
+            springs_(i) * flow.relative.middleRows(i * orders, orders);
+      }
       continue;
     }
     add_sliders(eta, i, contact, slider, flow);
@@ -199,9 +234,9 @@ Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> contact
   return flow.matrix;
 }
 
-ComplexVector DisturbanceFlow::exponents(double eta, std::span<const StickPattern> contacts) const {
-  const Matrix flow = matrix(eta, contacts);
-  ComplexVector found = spectrum(deflated(flow, drifts(flow.rows(), contacts)));
+ComplexVector DisturbanceFlow::exponents(double eta, std::span<const StickPattern> elements) const {
+  const Matrix flow = matrix(eta, elements);
+  ComplexVector found = spectrum(deflated(flow, drifts(flow.rows(), elements)));
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * flow.norm();
   for (Complex& sigma : found) {
     if (std::abs(sigma.real()) < rounding) sigma.real(0);
@@ -209,7 +244,7 @@ ComplexVector DisturbanceFlow::exponents(double eta, std::span<const StickPatter
   return found;
 }
 
-Index DisturbanceFlow::wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+Index DisturbanceFlow::wave_of(const Complex& exponent, double eta, std::span<const StickPattern> elements,
                                const RingWaves& ring) const {
   std::vector<WavePlace> all;
   for (const Coordinate& one : coordinates_) {
@@ -218,7 +253,7 @@ Index DisturbanceFlow::wave_of(const Complex& exponent, double eta, std::span<co
     all.push_back({wave, one.mode.frequency, std::max(one.mode.frequency, eta), one.place, one.place + both,
                    both == 2});
   }
-  return disturbed_wave(all, eigenvector(matrix(eta, contacts).cast<Complex>(), exponent), ring.nodes());
+  return disturbed_wave(all, eigenvector(matrix(eta, elements).cast<Complex>(), exponent), ring.nodes());
 }
 
 }  // namespace arcslip

@@ -29,6 +29,7 @@ double passage(const std::vector<Complex>& exponents, double at, double step) {
 HarmonicSystem even_system(const HarmonicSystem& system, const RingWaves& waves) {
   HarmonicSystem even;
   even.contacts = system.contacts;
+  even.others = system.others;
   for (int h = 0; h <= system.orders.back() + 1; h += 2) {
     RingWaves::Structures under = waves.structures(h * waves.wave_number());
     even.orders.push_back(h);
@@ -44,6 +45,7 @@ HarmonicSystem even_system(const HarmonicSystem& system, const RingWaves& waves)
 struct RingDisturbances::Builder {
   const RingWaves& waves;
   Vector springs;
+  std::span<const Coordinate> others;
   int highest;  // H
   std::vector<Cell>& cells;
   Index common = std::gcd(waves.wave_number(), waves.nodes());
@@ -58,7 +60,7 @@ struct RingDisturbances::Builder {
     std::vector<TurnedFlow::Wave> all;
     for (Index f = from; f <= to; f += 2) {
       const Index moved = waves.within(wave + f * waves.wave_number());
-      all.push_back({moved, static_cast<int>(f), waves.at(moved)});
+      all.push_back({moved, static_cast<int>(f), waves.at(moved, others)});
     }
     cells.push_back({TurnedFlow(kind, nodes, all, springs), wave, own, symmetries});
   }
@@ -129,7 +131,7 @@ RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves
   for (Index i = 0; i < springs.size(); ++i)
     springs(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
   const int highest = system.orders.back();
-  Builder builder{waves_, springs, highest, cells_};
+  Builder builder{waves_, springs, system.others, highest, cells_};
   builder.build();
   if (!builder.is_small()) {
     balanced_.emplace(
@@ -144,7 +146,7 @@ std::set<Index> RingDisturbances::waves(Index wave_number, Index nodes, int high
     return RingWaves::Structures{ContactModes(1, {}, {}), ContactModes(1, {}, {})};
   });
   std::vector<Cell> cells;
-  Builder builder{asked, Vector::Ones(1), highest, cells};
+  Builder builder{asked, Vector::Ones(1), {}, highest, cells};
   builder.build();
   if (!builder.is_small()) {
     for (int h = 0; h <= highest + 1; h += 2) asked.structures(h * wave_number);
@@ -158,10 +160,10 @@ std::size_t RingDisturbances::symmetries() const {
       [](std::size_t sum, const Cell& cell) { return sum + static_cast<std::size_t>(cell.symmetries); });
 }
 
-void RingDisturbances::add(Index which, double eta, std::span<const StickPattern> contacts,
+void RingDisturbances::add(Index which, double eta, std::span<const StickPattern> elements,
                            Disturbances& found) const {
   const Cell& cell = cells_[static_cast<std::size_t>(which)];
-  const std::vector<Complex> exponents = cell.flow.exponents(eta, contacts);
+  const std::vector<Complex> exponents = cell.flow.exponents(eta, elements);
   const double edge = eta * static_cast<double>(cell.flow.nodes());
   for (const Complex& sigma : exponents) {
     if (cell.flow.kind() == TurnedFlow::Kind::general) {
@@ -182,11 +184,11 @@ void RingDisturbances::add(Index which, double eta, std::span<const StickPattern
   if (cell.is_own || cell.symmetries > 1) found.symmetries.push_back(passage(exponents, -1, step));
 }
 
-void RingDisturbances::add_balanced(double eta, std::span<const StickPattern> contacts,
+void RingDisturbances::add_balanced(double eta, std::span<const StickPattern> elements,
                                     Disturbances& found) const {
-  const ComplexVector own = balanced_->own.exponents(eta, contacts);
+  const ComplexVector own = balanced_->own.exponents(eta, elements);
   for (const Complex& sigma : own) found.all.push_back({sigma, 0, sigma.imag() == 0, own_balance, sigma});
-  const ComplexVector even = balanced_->even.exponents(eta, contacts);
+  const ComplexVector even = balanced_->even.exponents(eta, elements);
   Complex product = 1;
   for (const Complex& sigma : even) {
     found.all.push_back({sigma, 0, false, even_balance, sigma});
@@ -195,14 +197,17 @@ void RingDisturbances::add_balanced(double eta, std::span<const StickPattern> co
   found.symmetries.push_back(product.real());
 }
 
-RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const StickPattern> contacts,
+RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const StickPattern> elements,
                                                     bool active) const {
   Disturbances found;
-  if (balanced_) add_balanced(eta, contacts, found);
+  // What swings may excite others.
+  const bool varies = std::any_of(elements.begin(), elements.end(),
+                                  [](const StickPattern& one) { return !one.stiffness.is_constant(); });
+  if (balanced_) add_balanced(eta, elements, found);
   for (Index i = 0; i < std::ssize(cells_); ++i) {
     const Cell& cell = cells_[static_cast<std::size_t>(i)];
-    if (!active || cell.is_own || !cell.flow.is_passive()) {
-      add(i, eta, contacts, found);
+    if (!active || cell.is_own || varies || !cell.flow.is_passive()) {
+      add(i, eta, elements, found);
     } else {
       found.symmetries.insert(found.symmetries.end(), static_cast<std::size_t>(cell.symmetries), 1);
     }
@@ -217,9 +222,9 @@ Complex RingDisturbances::turned(const Disturbance& one, double eta) const {
 }
 
 Index RingDisturbances::wave_of(const Disturbance& one, double eta,
-                                std::span<const StickPattern> contacts) const {
+                                std::span<const StickPattern> elements) const {
   const auto wave = [&](const auto& flow, const auto&... ring) {
-    return flow.wave_of(one.in_cell, eta, contacts, ring...);
+    return flow.wave_of(one.in_cell, eta, elements, ring...);
   };
   if (one.cell == own_balance) return wave(balanced_->own, waves_);
   if (one.cell == even_balance) return wave(balanced_->even, waves_);

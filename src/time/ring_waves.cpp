@@ -93,16 +93,24 @@ double slowest_rate(const ContactModes& base, const ContactModes& damper) {
 }
 
 std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes& damper, double slowest,
-                                    bool real) {
+                                    bool real, std::span<const Coordinate> others) {
   std::vector<Oscillator> all;
   std::vector<Oscillator> rigid;
   for (const ContactModes* structure : {&base, &damper}) {
+    // Modes of the base have the sign with which they move the contacts as those of the damper do.
+    const auto entry = [&](const Coordinate& one) { return structure == &base ? -one.base : one.damper; };
     const Loss& loss = structure->loss();
     if (loss.structural != 0 || structure->is_solved())
       throw std::invalid_argument("stability needs modes with viscous or modal damping");
     std::vector<Oscillator> of_structure;
     for (const ContactMode& mode : noticeable(*structure, slowest)) {
-      of_structure.push_back({mode.frequency, loss.part_eta(mode.frequency), mode.shape});
+      ContactVector shape(mode.shape.size() + std::ssize(others));
+      shape.head(mode.shape.size()) = mode.shape;
+      for (Index i = 0; i < std::ssize(others); ++i) {
+        const Coordinate& one = others[static_cast<std::size_t>(i)];
+        shape(mode.shape.size() + i) = entry(one) * mode.shape(one.dof);
+      }
+      of_structure.push_back({mode.frequency, loss.part_eta(mode.frequency), std::move(shape)});
     }
     if (real) of_structure = made_real(std::move(of_structure));
     for (Oscillator& one : of_structure) (one.frequency > 0 ? all : rigid).push_back(std::move(one));
@@ -124,9 +132,10 @@ RingWaves::Structures RingWaves::structures(Index wave) const {
   return {conjugate(found.base), conjugate(found.damper)};
 }
 
-std::vector<Oscillator> RingWaves::at(Index wave) const {
+std::vector<Oscillator> RingWaves::at(Index wave, std::span<const Coordinate> others) const {
   const Structures found = structures(wave);
-  return oscillators(found.base, found.damper, slowest_rate(found.base, found.damper), within(2 * wave) == 0);
+  return oscillators(found.base, found.damper, slowest_rate(found.base, found.damper), within(2 * wave) == 0,
+                     others);
 }
 
 RingWaves ring_waves(const SystemParameters& parameters, int highest) {

@@ -28,7 +28,7 @@ StickSchedule::StickSchedule(std::span<const StickPattern> contacts, Index nodes
   double from = 0;
   for (const double to : changes) {
     if (!(to - from > same * whole)) continue;
-    intervals_.push_back({to - from, sticking(contacts, start + 0.5 * (from + to))});
+    intervals_.push_back({start + from, to - from, sticking(contacts, start + 0.5 * (from + to))});
     from = to;
   }
   for (Slot slot : intervals_.front().sticking) {

@@ -23,6 +23,7 @@ class StickSchedule {
 
   /// What sticks stays the same for an angle `width`.
   struct Interval {
+    double begin;  ///< phase of node 0
     double width;
     std::vector<Slot> sticking;  ///< ascending; of contacts that slip at times
   };

@@ -9,6 +9,7 @@
 
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
+#include "time/kernel.hpp"
 #include "time/stick_schedule.hpp"
 
 namespace arcslip {
@@ -41,15 +42,17 @@ template <class Scalar>
 class Flow {
  public:
   Flow(const std::vector<Coordinate>& coordinates, Index nodes, const Vector& springs, double eta,
-       std::span<const StickPattern> contacts)
+       std::span<const StickPattern> elements)
       : coordinates_(coordinates),
         nodes_(nodes),
         springs_(springs / static_cast<double>(nodes)),
         eta_(eta),
-        contacts_(contacts),
-        schedule_(contacts, nodes) {
+        contacts_(elements.first(static_cast<std::size_t>(springs.size()))),
+        others_(elements.subspan(static_cast<std::size_t>(springs.size()))),
+        schedule_(contacts_, nodes) {
     const auto size = std::ssize(coordinates);
     relative_.resize(nodes * springs.size(), size);
+    other_motion_.resize(nodes * std::ssize(others_), size);
     scale_.resize(size);
     for (Index column = 0; column < size; ++column) {
       const Coordinate& one = coordinates[static_cast<std::size_t>(column)];
@@ -58,6 +61,10 @@ class Flow {
         const Complex lag = std::polar(1.0, -turned(one) * static_cast<double>(node));
         for (Index i = 0; i < springs.size(); ++i)
           relative_(node * springs.size() + i, column) = motion<Scalar>(one, lag * one.mode.shape(i));
+        for (Index i = 0; i < std::ssize(others_); ++i) {
+          other_motion_(node * std::ssize(others_) + i, column) =
+              motion<Scalar>(one, lag * one.mode.shape(springs.size() + i));
+        }
       }
     }
   }
@@ -72,29 +79,30 @@ class Flow {
       sticking = &interval.sticking;
       const Dense<Scalar> rates = generator(*sticking) * (interval.width / eta_);
       rate_ += rates.cwiseAbs().colwise().sum().maxCoeff();
-      state.topRows(2 * size) = (rates.exp().topRows(2 * size) * state).eval();
+      pass(interval, rates, state);
     }
     change(*sticking, schedule_.behind(), state);
     turn_back(state);
     return state;
   }
 
-  /// Rigid motions that all sliders follow, which nothing resists.
+  /// Rigid motions that all sliders follow, which nothing resists: no element moves but contacts that slip.
   Dense<Scalar> drifts() const {
     const auto size = std::ssize(coordinates_);
     const std::vector<Slot>& sticking = schedule_.intervals().front().sticking;
     const bool all_slip =
         std::all_of(contacts_.begin(), contacts_.end(), [](const StickPattern& one) { return one.slips; });
     Dense<Scalar> found(2 * size + std::ssize(sticking), 0);
-    for (Index i = 0; i < size && all_slip; ++i) {
-      if (coordinates_[static_cast<std::size_t>(i)].mode.frequency > 0) continue;
-      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-      auto drift = found.col(found.cols() - 1);
-      drift.setZero();
-      drift(i) = 1;
-      Index slider = 2 * size;
-      for (const Slot& slot : sticking) drift(slider++) = row(slot)(i);
+    if (!all_slip) return found;
+    std::vector<Index> rigid;
+    for (Index i = 0; i < size; ++i) {
+      if (coordinates_[static_cast<std::size_t>(i)].mode.frequency == 0) rigid.push_back(i);
     }
+    const Dense<Scalar> free = kernel_of(Dense<Scalar>(other_motion_(Eigen::all, rigid)));
+    found.setZero(found.rows(), free.cols());
+    found(rigid, Eigen::all) = free;
+    Index slider = 2 * size;
+    for (const Slot& slot : sticking) found.row(slider++) = row(slot) * found.topRows(size);
     return found;
   }
 
@@ -106,6 +114,67 @@ class Flow {
 
   auto row(const Slot& slot) const {
     return relative_.row(slot.node * springs_.size() + static_cast<Index>(slot.contact));
+  }
+
+  /// Takes the state over an interval, in which `rates` are those of springs that do not vary: where others
+  /// do, by Taylor series, of which a step's terms exceed their sum by so little that no digit is lost.
+  void pass(const StickSchedule::Interval& interval, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
+    if (others_.empty()) {
+      const auto size = 2 * std::ssize(coordinates_);
+      state.topRows(size) = (rates.exp().topRows(size) * state).eval();
+      return;
+    }
+    constexpr double longest = 4;  // step, of the fastest rate
+    double fastest = rates.cwiseAbs().colwise().sum().maxCoeff();
+    for (const StickPattern& other : others_) {
+      for (const Complex& harmonic : other.stiffness.harmonics)
+        fastest += std::abs(harmonic) * other_motion_.squaredNorm() / scale_.minCoeff() * interval.width /
+                   (eta_ * static_cast<double>(nodes_));
+    }
+    const auto steps = static_cast<Index>(std::ceil(fastest / longest));
+    const double width = interval.width / static_cast<double>(steps);
+    const Dense<Scalar> of_step = rates / static_cast<double>(steps);
+    for (Index i = 0; i < steps; ++i)
+      step(interval.begin + static_cast<double>(i) * width, width, of_step, state);
+  }
+
+  /// The series of one step from a phase of node 0 on.
+  void step(double phase, double width, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
+    constexpr double nothing = 1e-18;
+    const auto size = std::ssize(coordinates_);
+    const Dense<Scalar> push = (width / (eta_ * static_cast<double>(nodes_))) *
+                               (scale_.cwiseInverse().asDiagonal() * other_motion_.adjoint());
+    std::vector<Dense<Scalar>> motions;  // terms of those of the coordinates
+    std::vector<Vector> stiffness;       // terms of the springs
+    Dense<Scalar> term = state;
+    double last = 1;
+    for (Index m = 0;; ++m) {
+      motions.push_back(other_motion_ * term.topRows(size));
+      stiffness.push_back(stiffness_term(phase, width, m));
+      Dense<Scalar> forces = stiffness.back().asDiagonal() * motions.front();
+      for (std::size_t j = 1; j < motions.size(); ++j)
+        forces += stiffness[motions.size() - 1 - j].asDiagonal() * motions[j];
+      term = (rates * term).eval();
+      term.middleRows(size, size).noalias() -= push * forces;
+      term /= static_cast<double>(m + 1);
+      state += term;
+      const double part = term.norm() / state.norm();
+      if (!(part + last > nothing)) return;
+      last = part;
+    }
+  }
+
+  /// The m-th term of the Taylor series of all springs' stiffness over a step.
+  Vector stiffness_term(double phase, double width, Index m) const {
+    const auto count = std::ssize(others_);
+    Vector terms = Vector::Zero(nodes_ * count);
+    for (Index node = 0; node < nodes_; ++node) {
+      const double here = phase - pi * static_cast<double>(node) / static_cast<double>(nodes_);
+      for (Index i = 0; i < count; ++i) {
+        terms(node * count + i) = others_[static_cast<std::size_t>(i)].stiffness.term(here, width, m);
+      }
+    }
+    return terms;
   }
 
   /// Of (p, v, x) while these slots stick, as do the contacts that never slip.
@@ -182,8 +251,10 @@ class Flow {
   Vector springs_;
   double eta_;
   std::span<const StickPattern> contacts_;
+  std::span<const StickPattern> others_;
   StickSchedule schedule_;
-  Dense<Scalar> relative_;  // node by node, its contacts
+  Dense<Scalar> relative_;      // node by node, its contacts
+  Dense<Scalar> other_motion_;  // node by node, its further coordinates
   Vector scale_;
   double rate_ = 0;
 };
@@ -250,12 +321,12 @@ std::array<Complex, 2> TurnedFlow::free_exponents(const Coordinate& coordinate, 
 /// Of real motions the flow is real.
 template <class Use>
 auto TurnedFlow::with_flow(const std::vector<Coordinate>& held, double eta,
-                           std::span<const StickPattern> contacts, const Use& use) const {
-  return kind_ == Kind::general ? use(Flow<Complex>(held, nodes_, springs_, eta, contacts))
-                                : use(Flow<double>(held, nodes_, springs_, eta, contacts));
+                           std::span<const StickPattern> elements, const Use& use) const {
+  return kind_ == Kind::general ? use(Flow<Complex>(held, nodes_, springs_, eta, elements))
+                                : use(Flow<double>(held, nodes_, springs_, eta, elements));
 }
 
-std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPattern> contacts) const {
+std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPattern> elements) const {
   const Parts apart = parts(eta);
   std::vector<Complex> all;
   for (const Coordinate& one : apart.free) {
@@ -272,13 +343,13 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
                        angle * static_cast<double>(nodes_) * eta);
     }
   };
-  if (!apart.held.empty()) with_flow(apart.held, eta, contacts, add);
+  if (!apart.held.empty()) with_flow(apart.held, eta, elements, add);
   std::stable_sort(all.begin(), all.end(),
                    [](const Complex& a, const Complex& b) { return a.real() > b.real(); });
   return all;
 }
 
-Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const StickPattern> elements,
                           Index ring) const {
   const Parts apart = parts(eta);
   for (const Coordinate& one : apart.free) {
@@ -286,7 +357,7 @@ Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const S
       if (sigma == exponent) return std::min(one.wave, ring - one.wave);
     }
   }
-  return with_flow(apart.held, eta, contacts, [&](auto flow) {
+  return with_flow(apart.held, eta, elements, [&](auto flow) {
     const ComplexVector vector =
         eigenvector(flow.turned_map().template cast<Complex>(), std::exp(exponent * step(eta)));
     return disturbed_wave(places(apart.held, eta), vector, ring);

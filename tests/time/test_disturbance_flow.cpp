@@ -207,7 +207,6 @@ TEST_CASE("Stability of what has no exponents is refused in one line", "[stabili
   const auto mistake = GENERATE(values<Mistake>({
       {"true", "1", ":12:13", "branch.stability", "true or false", "1"},
       {"base = 0.01", "kind = \"structural\", base = 0.01", ":12:13", "branch.stability", "viscous", ""},
-      {"preload = 0.6", "cubic_stiffness = 1.0\npreload = 0.6", ":13:13", "branch.stability", "cubic", ""},
       {"to = 2.4", "to = 2.4\nresponse = \"one_way\"", ":12:13", "branch.stability", "forced response", ""},
   }));
   CHECK_NOTHROW(read_case(folder.write("case.toml", text)));

@@ -297,6 +297,23 @@ TEST_CASE("What grows without bounds takes no digits from the rest", "[stability
   CHECK_THAT(most, WithinRel(own, 1e-9));
 }
 
+TEST_CASE("Disturbances on the full path of a sector are those on the reduced one", "[stability]") {
+  const TemporaryFolder folder;
+  const std::string branch = "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 3.4\nto = 3.5\n";
+  std::string text = paper_system(folder, false, 5);
+  const Traced reduced(folder, text + branch);
+  text.insert(text.find("wave_number"), "path = \"full\"\n");
+  const Traced full(folder, text + branch);
+  for (const bool last : {false, true}) {
+    for (const char* name : {"growth", "worst_wave", "stable"}) {
+      const auto value = [&](const Traced& of) {
+        return of.value_of(last ? of.traced.branch.points.back() : of.traced.branch.points.front(), name);
+      };
+      CHECK_THAT(value(full), WithinRel(value(reduced), 1e-8));
+    }
+  }
+}
+
 TEST_CASE("Sectors of several elements and contacts grow as the rods that they are", "[stability]") {
   const TemporaryFolder folder;
   const std::string branch = "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 3.4\nto = 3.5\n";

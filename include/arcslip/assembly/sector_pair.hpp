@@ -102,6 +102,10 @@ class SectorPair {
   mutable std::mutex mutex_;
 };
 
+/// The pair on the reduced path. Throws SectorError where its damping has no modes, as a matrix beyond mass
+/// and stiffness.
+std::shared_ptr<const SectorPair> reduced(const SectorPair& pair);
+
 /// The model of `parameters`, whose `sectors` are given, reduced and with one contact. Throws SectorError.
 FrictionSystem build_sector_system(const SystemParameters& parameters);
 

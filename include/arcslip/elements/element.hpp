@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "arcslip/elements/varying_stiffness.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
@@ -56,6 +57,10 @@ class Element {
   /// with ln(load). Of the energy and the maximum nothing is said.
   ElementForce change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
                       double load, bool slips, const HarmonicVector& motion, double log_load) const;
+
+  /// What small disturbances of the motion x meet in an element that does not slip; one that slips has a
+  /// memory and no such stiffness.
+  virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const = 0;
 
   /// The border of one that may slip, smooth where the motion is zero; `top` is the motion's maximum.
   virtual StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,

@@ -19,6 +19,11 @@ class Jenkins final : public Element {
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
              ElementForce& out) const override;
 
+  VaryingStiffness stiffness_in_time(std::span<const int> /*orders*/,
+                                     const HarmonicVector& /*x*/) const override {
+    return {{stiffness_}};
+  }
+
   /// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in stick, its negative in slip.
   StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
                      bool slips) const override;

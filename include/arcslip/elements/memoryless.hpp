@@ -11,6 +11,7 @@ class MemorylessElement : public Element {
   bool is_linear(bool /*slips*/) const final { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
              ElementForce& out) const final;
+  VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const final;
 
  protected:
   virtual double value(double x) const = 0;      ///< f

@@ -12,7 +12,12 @@
 //   f_h = (2/pi) sum_arcs int (delta r(theta) - x(theta)) e^{-jh theta} dtheta,   half of it for h = 0
 //   sigma x + eta dx/dtheta = 0 on each arc of stick,   x = delta r where it begins
 //
-// as the slider rests while its contact sticks. With x given by its values at Chebyshev points of each arc,
+// as the slider rests while its contact sticks. A smooth element, whose stiffness varies as the response's
+// motion x passes in its coordinate, has
+//
+//   f_h = sum_l c_{h-l} delta x_l + c_{h+l} conj(delta x_l),   k(theta) = sum_n c_n e^{jn theta}:
+//
+// half of it for h = 0. With sliders given by their values at Chebyshev points of each arc,
 // the exponents sigma are the eigenvalues of one real matrix, and converge faster than any power of the
 // number of points. Response and loop being odd, odd and even h do not mix. The matrix of the response's own
 // harmonics is singular exactly where the Jacobian of their balance is.
@@ -32,13 +37,14 @@ class DisturbanceFlow {
   /// `highest`. Throws as oscillators() does.
   DisturbanceFlow(const HarmonicSystem& system, int highest);
 
+  /// `elements`: of each contact, then of each further coordinate.
   /// sigma, in any order: a disturbance grows by |mu| = e^{2 pi Re sigma/eta} in a period. Real parts within
   /// rounding of 0 are 0. Sliders of contacts that do not slip are constants of the motion and left out, as
   /// is the neutral drift of base against damper as rigid bodies where all contacts slip.
-  ComplexVector exponents(double eta, std::span<const StickPattern> contacts) const;
+  ComplexVector exponents(double eta, std::span<const StickPattern> elements) const;
 
   /// The wave round a ring that the disturbance with this exponent mostly is, as disturbed_wave.hpp says.
-  Index wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+  Index wave_of(const Complex& exponent, double eta, std::span<const StickPattern> elements,
                 const RingWaves& ring) const;
 
  private:
@@ -48,16 +54,18 @@ class DisturbanceFlow {
     Index place = 0;  ///< of its state
   };
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
-  Matrix drifts(Index size, std::span<const StickPattern> contacts) const;
+  Matrix drifts(Index size, std::span<const StickPattern> elements) const;
 
-  Matrix matrix(double eta, std::span<const StickPattern> contacts) const;
+  Matrix matrix(double eta, std::span<const StickPattern> elements) const;
   ComplexMatrix relative_motion(Index size) const;
   struct Flow;
   void add_sliders(double eta, Index contact, const StickPattern& pattern, Index first, Flow& flow) const;
+  void add_stiffness(Index coordinate, const VaryingStiffness& stiffness, Flow& flow) const;
   void add_modes(double eta, Flow& flow) const;
 
   std::vector<int> orders_;
-  Vector springs_;  ///< k of each contact
+  Vector springs_;  ///< k of each contact, 0 of further coordinates
+  Index contacts_;
   std::vector<Coordinate> coordinates_;
   Index modal_states_ = 0;
   Vector places_;      ///< Chebyshev points from -1 to 1

@@ -55,14 +55,15 @@ class RingDisturbances {
   /// vanish where its folds are.
   bool is_balanced() const { return balanced_.has_value(); }
 
-  /// `active`: only those of cells in which something may grow, and of the response's own.
-  Disturbances at(double eta, std::span<const StickPattern> contacts, bool active) const;
+  /// `elements`: of each contact, then of each further coordinate of the system. `active`: only those of
+  /// cells in which something may grow, and of the response's own.
+  Disturbances at(double eta, std::span<const StickPattern> elements, bool active) const;
 
   /// nu of ring_stability.hpp, which is the same for whatever l and lambda stand for a disturbance.
   Complex turned(const Disturbance& one, double eta) const;
 
   /// The wave, of 0 .. N - 1, that one of these mostly is (disturbed_wave.hpp).
-  Index wave_of(const Disturbance& one, double eta, std::span<const StickPattern> contacts) const;
+  Index wave_of(const Disturbance& one, double eta, std::span<const StickPattern> elements) const;
 
  private:
   struct Cell {
@@ -76,8 +77,8 @@ class RingDisturbances {
     DisturbanceFlow even;
   };
   struct Builder;
-  void add(Index cell, double eta, std::span<const StickPattern> contacts, Disturbances& found) const;
-  void add_balanced(double eta, std::span<const StickPattern> contacts, Disturbances& found) const;
+  void add(Index cell, double eta, std::span<const StickPattern> elements, Disturbances& found) const;
+  void add_balanced(double eta, std::span<const StickPattern> elements, Disturbances& found) const;
 
   RingWaves waves_;
   std::optional<Balanced> balanced_;

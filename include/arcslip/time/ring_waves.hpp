@@ -2,14 +2,15 @@
 
 // Base and damper as disturbances of l = 0, 1, ..., N - 1 waves round the ring meet them: oscillators
 //
-//   p'' + damping p' + frequency^2 p = -shape^H F,   relative motion of the contacts = sum shape p
+//   p'' + damping p' + frequency^2 p = -shape^H F,   x = sum shape p
 //
-// in time in units of 1/(2 pi), F the forces on the base's contacts of the node whose phase is 0. Waves of l
-// and N - l lengths are each other's conjugates.
+// in time in units of 1/(2 pi), x the coordinates in which elements act (coordinates.hpp) of the node whose
+// phase is 0, F the forces against them. Waves of l and N - l lengths are each other's conjugates.
 
 #include <functional>
 #include <vector>
 
+#include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -19,18 +20,19 @@ struct SystemParameters;
 struct Oscillator {
   double frequency;
   double damping;
-  ContactVector shape;
+  ContactVector shape;  ///< of the contacts, then of further coordinates
 };
 
 /// The oscillators of both structures under one wave, rigid ones at the end. Left out is what moves the
 /// contacts by less than rounding at rates far above `slowest`, as the second modes of short elements do.
-/// Rigid motions of the same damping act on the contacts by sum s s^H alone: combinations of them that move
-/// no contact, as base and damper together, would add a defective exponent and are left out. `real`: of a
-/// wave that is its own conjugate, whose shapes are real but for their phases. Throws std::invalid_argument
+/// Rigid motions of the same damping act on the coordinates by sum s s^H alone: combinations of them that
+/// move none, as base and damper together, would add a defective exponent and are left out. `real`: of a
+/// wave that is its own conjugate, whose shapes are real but for their phases. `others`: coordinates beside
+/// the contacts. Throws std::invalid_argument
 /// where damping is structural, of which there is no motion in time, or where the response is not a sum over
 /// modes.
 std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes& damper, double slowest,
-                                    bool real);
+                                    bool real, std::span<const Coordinate> others = {});
 
 /// The lowest frequency but 0 of both; infinite without any.
 double slowest_rate(const ContactModes& base, const ContactModes& damper);
@@ -55,7 +57,7 @@ class RingWaves {
 
   /// Under l waves, any whole number.
   Structures structures(Index wave) const;
-  std::vector<Oscillator> at(Index wave) const;
+  std::vector<Oscillator> at(Index wave, std::span<const Coordinate> others = {}) const;
 
  private:
   Index wave_number_;

@@ -1,11 +1,13 @@
 #pragma once
 
-// When a contact sticks: all that small disturbances of a response see of it.
+// All that small disturbances of a response see of an element: when a contact sticks, or the stiffness of a
+// smooth element as its motion passes.
 
 #include <span>
 #include <vector>
 
 #include "arcslip/elements/hysteresis_loop.hpp"
+#include "arcslip/elements/varying_stiffness.hpp"
 
 namespace arcslip {
 
@@ -14,6 +16,7 @@ struct StickPattern {
   /// Of stick, in half a period; one at least where it slips. Between two there is slip: a gap of 1e-9 at
   /// least, for sliders rest over no longer a time than one arc lasts.
   std::vector<HysteresisLoop::Arc> arcs;
+  VaryingStiffness stiffness = {};  ///< of a smooth element; of a contact that sticks empty, for its spring
 };
 
 /// Of a contact whose motion has these harmonics.

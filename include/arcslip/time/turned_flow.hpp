@@ -17,7 +17,9 @@
 //   nu = e^{lambda pi/(M w)},   |mu| = |nu|^{2 M} over a period,
 //
 // each multiplier once. Between the moments at which a contact begins or ceases to stick the flow is the
-// exponential of a matrix; a slider rests while its contact sticks, where r has been when it began to.
+// exponential of a matrix; a slider rests while its contact sticks, where r has been when it began to. Where
+// the stiffness of smooth elements varies it is summed as a Taylor series to rounding, as the ring's motion
+// is.
 //
 // Where fewer f are given than hang together, M is their number: the others are taken for what these are.
 //
@@ -46,7 +48,7 @@ class TurnedFlow {
   };
 
   /// Of M = `nodes` waves with f in steps of 2; of a self-conjugate class those from f = 0 or 1 to at most M.
-  /// `springs`: k of each contact.
+  /// `springs`: k of each contact; what is left of the waves' shapes is of further coordinates.
   TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs);
 
   Kind kind() const { return kind_; }
@@ -59,11 +61,11 @@ class TurnedFlow {
   /// of those on the unit circle to rounding the real part 0. In descending order of real parts, without
   /// those of sliders that forget themselves, |nu| < 1e-13, and of rigid motions that all sliders follow,
   /// which nothing resists.
-  std::vector<Complex> exponents(double eta, std::span<const StickPattern> contacts) const;
+  std::vector<Complex> exponents(double eta, std::span<const StickPattern> elements) const;
 
   /// The wave, of 0 .. N - 1, that the disturbance with this exponent mostly is, as disturbed_wave.hpp says;
   /// `ring`: N.
-  Index wave_of(const Complex& exponent, double eta, std::span<const StickPattern> contacts,
+  Index wave_of(const Complex& exponent, double eta, std::span<const StickPattern> elements,
                 Index ring) const;
 
   /// A coordinate of the motion: of a wave, or of two conjugate ones, which move by (a + jb)/sqrt 2 and its
@@ -84,7 +86,7 @@ class TurnedFlow {
   Parts parts(double eta) const;
   double step(double eta) const;  ///< time in which theta grows by pi/M
   template <class Use>
-  auto with_flow(const std::vector<Coordinate>& held, double eta, std::span<const StickPattern> contacts,
+  auto with_flow(const std::vector<Coordinate>& held, double eta, std::span<const StickPattern> elements,
                  const Use& use) const;
   std::array<Complex, 2> free_exponents(const Coordinate& coordinate, double eta) const;
 

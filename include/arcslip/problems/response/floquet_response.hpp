@@ -8,8 +8,8 @@
 // which the response does twice with turned signs, and so would need a pair at +-j.
 //
 // At a fold the balance of harmonics is singular. Exponents taken exactly vanish there but for what the
-// harmonics leave out; so that they change their number where the branch turns, the sign of the determinant
-// decides on that of the one nearest to zero.
+// harmonics leave out, or a reduction to modes; so that they change their number where the branch turns, the
+// sign of the determinant decides on that of the one nearest to zero.
 
 #include <memory>
 
@@ -28,6 +28,11 @@ class FloquetResponse : public HarmonicResponse {
   /// HarmonicResponse and RingDisturbances do.
   FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
                   std::shared_ptr<const FloquetResponse> finer = nullptr);
+
+  /// Of a system whose response is not a sum over modes; `in_modes`: the same one as such, good to some
+  /// tolerance, for disturbances.
+  FloquetResponse(const HarmonicSystem& system, const HarmonicSystem& in_modes, const RingWaves& waves,
+                  std::shared_ptr<const FloquetResponse> finer);
 
   /// sigma, lambda = 2 pi sigma, of all cells of waves in which something may grow.
   bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
@@ -67,6 +72,7 @@ class FloquetResponse : public HarmonicResponse {
   double growth_error(const Vector& u, const Vector& p, int regime, double growth) const;
 
   RingDisturbances disturbances_;
+  bool is_in_modes_ = true;  ///< as disturbances are
   std::shared_ptr<const FloquetResponse> finer_;
 };
 
