@@ -115,9 +115,8 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
   return {std::abs(record.base()(0)), growth};
 }
 
-/// The ring in full, where it is one of rods or beams that can be assembled, linear but for its contacts.
+/// The ring in full, where it is one of rods or beams that can be assembled.
 std::optional<Ring> assembled(const SystemParameters& parameters) {
-  if (parameters.cubic_stiffness != 0) return std::nullopt;
   try {
     return build_ring(parameters);
   } catch (const std::invalid_argument&) {
@@ -134,7 +133,8 @@ std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem, 
   const std::vector<int>& orders = problem.system().orders;
   std::vector<ContactHarmonic> harmonics;
   for (std::size_t a = 0; a < orders.size(); ++a)
-    harmonics.push_back({orders[a], r(static_cast<Index>(a)), -forces.damper[a](0)});
+    harmonics.push_back({orders[a], r(static_cast<Index>(a)), -forces.damper[a](0),
+                         -(forces.base[a](0) + forces.damper[a](0))});
   return harmonics;
 }
 

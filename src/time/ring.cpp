@@ -80,16 +80,13 @@ ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, I
   return load;
 }
 
-void refuse_what_is_not_linear_and_viscous(const SystemParameters& parameters) {
+void refuse_what_is_not_viscous(const SystemParameters& parameters) {
   if (parameters.model == StructureModel::sector || parameters.sectors) {
     throw std::invalid_argument("build_ring: rods or beams are needed, not sectors");
   }
   if (parameters.base_damping_kind != DampingKind::viscous) {
     throw std::invalid_argument("build_ring: motion in time needs viscous damping, not " +
                                 to_string(parameters.base_damping_kind));
-  }
-  if (parameters.cubic_stiffness != 0) {
-    throw std::invalid_argument("build_ring: a cubic stiffness is not piecewise linear");
   }
 }
 
@@ -109,6 +106,8 @@ Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   ring.contact_stiffness = parameters.interface_stiffness / static_cast<double>(nodes);
   ring.slip_per_preload = parameters.stiffness_ratio() / parameters.interface_stiffness;
   ring.preload_growth = parameters.preload_growth;
+  ring.cubic_stiffness = cubic_coefficient(parameters);
+  ring.drifts = ring.cubic_stiffness == 0;
   return ring;
 }
 
@@ -141,6 +140,37 @@ void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damp
   ring.turn = turn;
 }
 
+/// The same where springs hold the base: the damper's rigid motion is by itself, and the first coordinate.
+void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
+  const Index own = ring.base.cols();
+  const Index nodes = ring.base.rows();
+  const Index elastic = damper.shapes.cols() - 1;
+  ring.load(0) = 0;  // the travelling load has no mean
+  const auto joined = [&](const auto& rigid, const auto& of_base, const auto& of_damper, auto& all) {
+    auto sum = all;
+    sum.resize(1 + own + elastic);
+    sum << rigid, of_base, of_damper;
+    all = sum;
+  };
+  const Vector stiffness = damper.stiffness.tail(elastic).cast<double>();
+  joined(0.0, ring.stiffness, stiffness, ring.stiffness);
+  joined(0.0, ring.damping, Vector(damping_factor / (two_pi)*stiffness), ring.damping);
+  joined(Complex(0), ring.load, ComplexVector::Zero(elastic).eval(), ring.load);
+  const Matrix shapes = at_contacts(damper.shapes, nodes);
+  const Matrix base = ring.base;
+  ring.base = Matrix::Zero(nodes, 1 + own + elastic);
+  ring.base.middleCols(1, own) = base;
+  ring.damper = Matrix::Zero(nodes, 1 + own + elastic);
+  ring.damper.col(0) = shapes.col(0);
+  ring.damper.rightCols(elastic) = shapes.rightCols(elastic);
+  Matrix turn = Matrix::Zero(1 + own + elastic, 1 + own + elastic);
+  turn(0, 0) = 1;
+  turn.block(1, 1, own, own) = ring.turn;
+  turn.bottomRightCorner(elastic, elastic) = damper.turn.bottomRightCorner(elastic, elastic).cast<double>();
+  ring.turn = turn;
+  ring.drifts = true;
+}
+
 }  // namespace
 
 double Ring::fastest_rate() const {
@@ -150,7 +180,7 @@ double Ring::fastest_rate() const {
 }
 
 Ring build_ring(const SystemParameters& parameters) {
-  refuse_what_is_not_linear_and_viscous(parameters);
+  refuse_what_is_not_viscous(parameters);
   const Index nodes = parameters.elements;
   const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
   const Modes base = modes_of(
@@ -158,7 +188,12 @@ Ring build_ring(const SystemParameters& parameters) {
   Ring ring = ring_of_base(parameters, base);
   if (!parameters.fixed_damper) {
     const Modes damper = modes_of(make(1, 1, parameters.wave_number, nodes), nodes);
-    join_damper(ring, base, damper, damper_damping_factor(parameters));
+    const double factor = damper_damping_factor(parameters);
+    if (ring.drifts) {
+      join_damper(ring, base, damper, factor);
+    } else {
+      join_free_damper(ring, damper, factor);
+    }
   }
   ring.relative = ring.damper - ring.base;
   return ring;

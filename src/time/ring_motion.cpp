@@ -53,6 +53,12 @@ Index series_order(double reach_of_step) {
   return order;
 }
 
+Vector product_term(const Matrix& a, const Matrix& b, Index m) {
+  Vector sum = Vector::Zero(a.rows());
+  for (Index j = 0; j <= m; ++j) sum += a.col(j).cwiseProduct(b.col(m - j));
+  return sum;
+}
+
 Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip) {
   Matrix rows(std::count(slip.begin(), slip.end(), 0), ring.coordinates());
   Index next = 0;
@@ -100,6 +106,7 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
       wave(i) = std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
     }
     add(harmonic.order, -(ring_.relative.transpose() * wave) * harmonic.force);
+    if (harmonic.ground != 0.0) add(harmonic.order, -(ring_.base.transpose() * wave) * harmonic.ground);
     force += (wave * harmonic.force).real();
     relative += (wave * harmonic.relative).real();
   }
@@ -108,8 +115,15 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
   return state;
 }
 
-void RingMotion::expand(const RingState& state, double length) {
-  const Index order = series_order(rate_ * length + frequency_ * length);
+/// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
+bool RingMotion::expands(const RingState& state, double length) {
+  const bool is_cubic = ring_.cubic_stiffness != 0;
+  const Index order = series_order(rate_ * length + frequency_ * length) + (is_cubic ? 10 : 0);
+  Matrix base, square;  // series of y and y^2
+  if (is_cubic) {
+    base.resize(ring_.nodes(), order + 1);
+    square.resize(ring_.nodes(), order + 1);
+  }
   const Matrix sticking = sticking_rows(ring_, state.slip);
   const double k = ring_.contact_stiffness;
   Vector offset(ring_.nodes());  // contact forces at r = 0
@@ -127,6 +141,7 @@ void RingMotion::expand(const RingState& state, double length) {
   Vector forces(ring_.coordinates());
   double largest = 0;
   Index needed = order;
+  bool is_summed = !is_cubic;
   for (Index m = 0; m + 2 <= order; ++m) {
     const auto next = static_cast<double>(m + 1);
     forces = ring_.load.real() * phase.real() - ring_.load.imag() * phase.imag();
@@ -134,16 +149,23 @@ void RingMotion::expand(const RingState& state, double length) {
     forces -= (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
     if (sticking.rows() > 0) forces.noalias() -= sticking.transpose() * (k * (sticking * p.col(m)));
     if (m == 0) forces.noalias() -= ring_.relative.transpose() * offset;
+    if (is_cubic) {
+      base.col(m) = ring_.base * p.col(m);
+      square.col(m) = product_term(base, base, m);
+      forces.noalias() -= ring_.base.transpose() * (ring_.cubic_stiffness * product_term(square, base, m));
+    }
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
     phase *= Complex(0, frequency_ * length / next);
     const double size = p.middleCols(m + 1, 2).cwiseAbs().maxCoeff();
     largest = std::max(largest, size);
     if (next * size > negligible * largest || next < frequency_ * length) continue;
     needed = m + 2;
+    is_summed = true;
     break;
   }
   p.conservativeResize(Eigen::NoChange, needed + 1);
   segment_.relative.noalias() = ring_.relative * p;
+  return is_summed;
 }
 
 std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& state) const {
@@ -200,7 +222,8 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
   int at_once = 0;
   note(state);
   while (duration - elapsed > 1e-15 * period_) {
-    expand(state, std::min(longest_step_, duration - elapsed));
+    double length = std::min(longest_step_, duration - elapsed);
+    while (!expands(state, length)) length *= 0.5;
     ++count_.steps;
     const std::vector<Crossing> crossings = first_crossings(state);
     const double ratio = crossings.empty() ? 1 : crossings.front().ratio;
@@ -233,6 +256,7 @@ double RingMotion::energy(const RingState& state) const {
         state.slip[i] == 0 ? ring_.relative.row(i).dot(state.position) - state.slider(i) : threshold_;
     energy += ring_.contact_stiffness * spring * spring;
   }
+  energy += 0.5 * ring_.cubic_stiffness * (ring_.base * state.position).array().pow(4).sum();
   return 0.5 * energy;
 }
 

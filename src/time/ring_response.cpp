@@ -103,10 +103,25 @@ RingTangent::RingTangent(const RingMotion& motion)
   slider_ = all.bottomRows(nodes);
 }
 
+/// Terms of 3 k_3 y^2 in a step's own length: nodes x (order + 1).
+Matrix RingTangent::spring_slopes(const RingSegment& segment, Index order) const {
+  Matrix base = Matrix::Zero(ring_.nodes(), order + 1);
+  const Index known = std::min(order + 1, segment.position.cols());
+  double power = 1;
+  for (Index m = 0; m < known; ++m, power *= segment.length / segment.scale)
+    base.col(m) = power * (ring_.base * segment.position.col(m));
+  Matrix slopes(ring_.nodes(), order + 1);
+  for (Index m = 0; m <= order; ++m) slopes.col(m) = 3 * ring_.cubic_stiffness * product_term(base, base, m);
+  return slopes;
+}
+
 void RingTangent::follow(const RingSegment& segment, const RingState& state) {
   const double h = segment.length;
   if (h == 0) return;
-  const Index order = series_order(rate_ * h);
+  const bool is_cubic = ring_.cubic_stiffness != 0;
+  const Index order = series_order(rate_ * h) + (is_cubic ? segment.position.cols() : 0);
+  const Matrix slopes = is_cubic ? spring_slopes(segment, order) : Matrix();
+  std::vector<Matrix> of_base;  // terms of its motion
   const Matrix sticking = sticking_rows(ring_, state.slip);
   const double k = ring_.contact_stiffness;
   Matrix sliders(sticking.rows(), slider_.cols());
@@ -125,6 +140,12 @@ void RingTangent::follow(const RingSegment& segment, const RingState& state) {
     Matrix force = -(ring_.stiffness.asDiagonal() * now);
     force -= (up / h) * (ring_.damping.asDiagonal() * next);
     force.noalias() -= k * sticking.transpose() * spring;
+    if (is_cubic) {
+      of_base.push_back(ring_.base * now);
+      for (Index j = 0; j <= m; ++j)
+        force -=
+            ring_.base.transpose() * (slopes.col(m - j).asDiagonal() * of_base[static_cast<std::size_t>(j)]);
+    }
     now.swap(next);
     next = force * (h * h / (up * (up + 1)));
     position_ += next;
@@ -149,6 +170,7 @@ Matrix RingTangent::at(const RingState& state) const {
 
 Vector neutral_drift(const Ring& ring) {
   Vector drift = Vector::Zero(2 * ring.coordinates() + ring.nodes());
+  if (!ring.drifts) return drift;
   drift(0) = 1;
   drift.tail(ring.nodes()) = ring.relative.col(0);
   return drift.normalized();

@@ -26,9 +26,11 @@ RingStability floquet_stability(RingMotion& motion, const RingState& state) {
   stability.periods = static_cast<double>(ring.nodes()) / static_cast<double>(ring.wave_number);
   stability.slips = motion.count().events > before ||
                     std::any_of(state.slip.begin(), state.slip.end(), [](int sign) { return sign != 0; });
-  const Matrix free = stability.slips ? deflated(derivative, Matrix(neutral_drift(ring)))
-                                      : Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates));
-  stability.turned = spectrum(free);
+  if (!stability.slips) {
+    stability.turned = spectrum(Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates)));
+  } else {
+    stability.turned = spectrum(ring.drifts ? deflated(derivative, Matrix(neutral_drift(ring))) : derivative);
+  }
   return stability;
 }
 

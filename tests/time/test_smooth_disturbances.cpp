@@ -7,6 +7,9 @@
 
 #include "arcslip/elements/memoryless.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/problems/tasks/verification.hpp"
+#include "arcslip/time/ring_record.hpp"
+#include "arcslip/time/ring_stability.hpp"
 #include "branches.hpp"
 #include "case_runs.hpp"
 #include "catch.hpp"
@@ -223,6 +226,34 @@ TEST_CASE("Disturbances of a response on cubic springs grow as those of all node
   CHECK(testing::worst_match(above(found, 0.3 + 1e-6), wanted) < 1e-7);
   CHECK(wanted.size() <=
         above(found, 0.3 - 1e-6).size() + (at.regime != 0 || ring.fixed ? 2 * system.elements : 0));
+}
+
+TEST_CASE("The ring in time settles to a response on cubic springs, and grows as told", "[stability]") {
+  struct Ring {
+    int highest;
+    double preload;
+    bool fixed;
+    double tolerance;  // of what the harmonics leave out
+  };
+  const auto ring =
+      GENERATE(Ring{21, 10, false, 1e-8}, Ring{41, 0.1, false, 1e-5}, Ring{41, 0.1, true, 1e-5});
+  CAPTURE(ring.preload, ring.fixed);
+  SystemParameters system = rods_on_springs(1, 5, ring.highest, ring.preload);
+  system.fixed_damper = ring.fixed;
+  const double eta = ring.fixed ? 2.2 : 2.3;
+  const FloquetResponse problem = response_of(system);
+  const continuation::Guess at = problem.guess(eta, ring.preload);
+  RingMotion motion(build_ring(system), eta, ring.preload);
+  const SettledMotion settled = shoot(motion, motion.travelling(problems::contact_harmonics(problem, at)));
+  REQUIRE(settled.settled);
+  RingState state = settled.state;
+  HarmonicRecord record(motion, {1});
+  motion.advance(state, motion.period(), &record);
+  Vector values;
+  problem.observe(at.unknowns, at.parameters, at.regime, values);
+  CHECK_THAT(std::abs(record.base()(0)), WithinRel(values(FloquetResponse::Y), ring.tolerance));
+  const double growth = floquet_stability(motion, settled.state).growth();
+  CHECK_THAT(problem.worst(at.unknowns, at.parameters, at.regime).growth, WithinAbs(growth, ring.tolerance));
 }
 
 TEST_CASE("Stability changes at the folds of a response on cubic springs", "[stability]") {

@@ -11,10 +11,10 @@
 // where node i carries the load of node 1 times e^{-ja(i-1)}. It is held in the undamped modes of the two
 // uncoupled structures, q = Phi p, which leave every matrix but that of the contacts diagonal:
 //
-//   p'' + D p' + W p + B^T g = Re(L e^{jw*t}),   r = B p
+//   p'' + D p' + W p + B^T g + Y^T k_3 y^3 = Re(L e^{jw*t}),   r = B p,   y = Y p
 //
 // Where the damper is free, base and damper can move together as one rigid body. No force of this model does
-// it: that coordinate stays at rest and is left out.
+// it, unless the base stands on springs k_3 y^3: that coordinate stays at rest and is left out.
 
 #include "arcslip/assembly/system.hpp"
 
@@ -34,6 +34,8 @@ struct Ring {
   double contact_stiffness;  ///< k = K_FD/N
   double slip_per_preload;   ///< S/P
   double preload_growth;     ///< P_2
+  double cubic_stiffness;    ///< k_3
+  bool drifts;               ///< whether the first coordinate is a rigid motion that contacts alone resist
 
   Index nodes() const { return relative.rows(); }
   Index coordinates() const { return relative.cols(); }
@@ -42,8 +44,7 @@ struct Ring {
   double fastest_rate() const;
 };
 
-/// Assembles the ring. Throws std::invalid_argument for sectors, for damping that is not viscous and for a
-/// cubic stiffness.
+/// Assembles the ring. Throws std::invalid_argument for sectors and for damping that is not viscous.
 Ring build_ring(const SystemParameters& parameters);
 
 }  // namespace arcslip

@@ -5,7 +5,8 @@
 //
 //   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - B^T g_m
 //
-// is summed to rounding, over steps of a few units of the fastest rate of the ring. So every displacement is
+// is summed to rounding, over steps of a few units of the fastest rate of the ring, or shorter ones where
+// cubic springs add products of series to it. So every displacement is
 // a polynomial in a step, of which the first crossing is found without sampling: |r - x| = S ends stick,
 // r' = 0 ends slip. It needs no decomposition for each pattern of sticking contacts, of which a transient has
 // hundreds, and has no exception where the damped modes are defective.
@@ -61,8 +62,9 @@ struct RingCount {
 /// One harmonic of the relative displacement and the friction force of node 1, phasors.
 struct ContactHarmonic {
   int order;
-  Complex relative;  ///< r_h
-  Complex force;     ///< of the force on the base, k phi r for one harmonic
+  Complex relative;    ///< r_h
+  Complex force;       ///< of the friction force on the base, k phi r for one harmonic
+  Complex ground = 0;  ///< of the force of cubic springs against the base's motion
 };
 
 /// Equation of motion of `ring` at one eta and preload.
@@ -95,7 +97,7 @@ class RingMotion {
     double ratio;  ///< of the segment's scale
   };
 
-  void expand(const RingState& state, double length);
+  bool expands(const RingState& state, double length);
   std::vector<Crossing> first_crossings(const RingState& state) const;
   void change(Index contact, RingState& state) const;
   void note(const RingState& state);
@@ -109,6 +111,9 @@ class RingMotion {
   RingSegment segment_;
   RingCount count_;
 };
+
+/// Coefficient m of the product of two series, row by row, in columns.
+Vector product_term(const Matrix& a, const Matrix& b, Index m);
 
 /// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
 Index series_order(double reach);

@@ -12,7 +12,8 @@
 // taken it: delta x = delta r, for r' = 0 at that moment whatever its delay.
 //
 // One direction is neutral in every state: base against damper as rigid bodies, with all sliders. Neither
-// structure resists it, and r - x stays as it was. Responses that differ by such a drift are one here.
+// structure resists it, and r - x stays as it was. Responses that differ by such a drift are one here. On
+// cubic springs the base has none, and the damper, if it is free, has it alone.
 
 #include "arcslip/time/ring_motion.hpp"
 
@@ -31,6 +32,8 @@ class RingTangent : public RingObserver {
   Matrix at(const RingState& state) const;
 
  private:
+  Matrix spring_slopes(const RingSegment& segment, Index order) const;
+
   const Ring& ring_;
   double rate_;
   Matrix position_;
@@ -48,7 +51,7 @@ struct StateDerivative {
 };
 StateDerivative next_derivative(RingMotion& motion, const RingState& state);
 
-/// The unit vector of the neutral drift in (position, velocity, slider), 2D + N.
+/// The unit vector of the neutral drift in (position, velocity, slider), 2D + N; zero without one.
 Vector neutral_drift(const Ring& ring);
 
 /// |a - b| over |b| in (position, velocity/w*, slider), each without its part along the drift.
