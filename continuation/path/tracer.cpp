@@ -148,7 +148,7 @@ void Tracer::step() {
     ++corrector_.work().rejected_steps;
     if (stopped_) return;
     if (length() >= options_.min_step) continue;
-    if (turn_back()) return;
+    if (options_.turns_at_corners && turn_back()) return;
     const Correction last = stepper_.last_correction();
     return stop(last == Correction::cannot_evaluate ? Stop::no_value : Stop::min_step,
                 fmt::format("no step of at least min_step = {:g} is acceptable from {}: {}",

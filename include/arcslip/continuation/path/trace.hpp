@@ -42,6 +42,9 @@ struct TraceOptions {
   /// Whether two branch points within one step are looked for, where the Jacobian's determinant leaves room.
   /// A problem that is known to have none is traced faster without, where its Jacobian jumps often.
   bool branch_point_pairs = true;
+  /// Whether, at a corner within its regime that no step can pass, the branch is looked for where it goes
+  /// back.
+  bool turns_at_corners = true;
   /// On the largest entry of F and on the correction that is left, in the problem's scale. Of a problem whose
   /// F is in units in which its terms are above 1e3, relative to these.
   double tolerance = 1e-10;

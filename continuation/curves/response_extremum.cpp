@@ -1,0 +1,92 @@
+#include "arcslip/continuation/curves/response_extremum.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "arcslip/zero_between.hpp"
+
+namespace arcslip::continuation {
+
+ResponseExtremum::ResponseExtremum(const Problem& base, Index active, Index observable)
+    : base_(base),
+      active_(active),
+      observable_(observable),
+      corrector_(base, active, {}),
+      origin_(corrector_.make_point()),
+      at_(origin_) {
+  gradient_ = {Vector::Zero(base.size()), Vector::Zero(at_.parameters.size())};
+}
+
+bool ResponseExtremum::begin(const BasePoint& point) {
+  forward_ = Vector::Unit(base_.size() + 1, base_.size());
+  at_.unknowns = point.unknowns;
+  at_.parameters = point.parameters;
+  at_.regime = point.regime;
+  corrector_.set_scale(at_);
+  if (corrector_.linearise(at_, forward_) != Correction::converged) return false;
+  forward_ = corrector_.direction().normalized();
+  return true;
+}
+
+/// Along the branch from the origin.
+bool ResponseExtremum::go(double way) {
+  corrector_.displace(origin_, way * forward_, at_);
+  at_.regime = origin_.regime;
+  return corrector_.correct(at_, origin_, forward_, way, true) == Correction::converged;
+}
+
+double ResponseExtremum::slope(double way) {
+  if (!go(way)) return std::numeric_limits<double>::quiet_NaN();
+  const Vector tangent = corrector_.direction();  // forward . tangent = 1
+  const double value = base_.observe(at_.unknowns, at_.parameters, at_.regime, observable_, gradient_);
+  const Index n = base_.size();
+  return (gradient_.unknowns.dot(origin_.scale.head(n).cwiseProduct(tangent.head(n))) +
+          gradient_.parameters(active_) * origin_.scale(n) * tangent(n)) /
+         std::abs(value);
+}
+
+std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint& guess, bool peak,
+                                                                 double farthest) {
+  constexpr double nearest = 1e-13;
+  constexpr double growth = 1.5;
+  origin_.unknowns = guess.unknowns;
+  origin_.parameters = guess.parameters;
+  origin_.regime = guess.regime;
+  corrector_.set_scale(origin_);
+  if (!go(0)) return std::nullopt;
+  const CurvePoint solved = at_;
+  origin_ = solved;
+  const double sign = peak ? 1 : -1;
+  struct End {
+    double way;
+    double slope;
+  };
+  const auto found = [&](const End& low, const End& high) -> std::optional<Found> {
+    if (!(sign * low.slope > 0 && sign * high.slope <= 0)) return std::nullopt;
+    const double way =
+        zero_between([&](double s) { return slope(s); }, low.way, high.way, low.slope, high.slope);
+    if (!go(way)) return std::nullopt;
+    const BasePoint at{at_.unknowns, at_.parameters, at_.regime, {}};
+    // A slope that is as large four times as near jumps; a smooth one is half as large at most.
+    constexpr double beside = 1e-9;
+    constexpr double like = 1.5;
+    const auto jumps = [&](double side) {
+      return std::abs(slope(way + 4 * side * beside)) < like * std::abs(slope(way + side * beside));
+    };
+    return Found{at, way, jumps(-1) && jumps(1)};
+  };
+  End low{-nearest, slope(-nearest)};
+  End high{nearest, slope(nearest)};
+  if (const auto here = found(low, high)) return here;
+  for (double way = growth * nearest; way < farthest; way *= growth) {
+    const End below{-way, slope(-way)};
+    const End above{way, slope(way)};
+    if (const auto here = found(below, low)) return here;
+    if (const auto here = found(high, above)) return here;
+    low = below;
+    high = above;
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,45 @@
+#pragma once
+
+// An extremum of an observable along the branch over one parameter, whatever makes it: a zero of the slope,
+// or a jump of it from one sign to the other. It is bracketed on the branch itself, so that nothing need be
+// smooth but the branch on either side.
+
+#include <optional>
+
+#include "arcslip/continuation/path/corrector.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
+
+namespace arcslip::continuation {
+
+class ResponseExtremum {
+ public:
+  ResponseExtremum(const Problem& base, Index active, Index observable);
+
+  struct Found {
+    BasePoint at;
+    double way;   ///< from the guess along the branch, in the base's scale
+    bool corner;  ///< whether the slope jumps there
+  };
+
+  /// The peak or trough that is nearest to a guess within its regime, at the guess's other parameters; none
+  /// within `farthest`.
+  std::optional<Found> next_to(const BasePoint& guess, bool peak, double farthest);
+
+  /// Sets the way that counts as forward: that of rising active parameter at this point.
+  bool begin(const BasePoint& point);
+
+ private:
+  bool go(double way);
+  double slope(double way);
+
+  const Problem& base_;
+  Index active_;
+  Index observable_;
+  Corrector corrector_;
+  CurvePoint origin_;
+  CurvePoint at_;
+  Vector forward_;
+  Gradient gradient_;
+};
+
+}  // namespace arcslip::continuation
