@@ -79,10 +79,24 @@ bool CornerSlopes::begin(const BasePoint& point, int border) {
   return true;
 }
 
+/// A point that lies on the border but for rounding, by no more than that beyond it: inside, where the slope
+/// may grow like the square root of the distance, that rounding would show in eight digits less.
+BasePoint CornerSlopes::just_beyond(const BasePoint& point, const Branch& side) {
+  constexpr double rounding = 1e-13;
+  constexpr double beyond = 2e-15;
+  const double value = base_.border(point.unknowns, point.parameters, side.regime, side.border, &gradient_);
+  const double square = gradient_.unknowns.squaredNorm();
+  BasePoint moved = point;
+  if (std::abs(value) < rounding && square > 0)
+    moved.unknowns += (beyond - value) / square * gradient_.unknowns;
+  return moved;
+}
+
 double CornerSlopes::slope(const BasePoint& point, Side side) {
   Branch there = sides_[side];
-  if (!set_tangent(point, there)) return std::nan("");
-  const double value = base_.observe(point.unknowns, point.parameters, there.regime, observable_, gradient_);
+  const BasePoint at = just_beyond(point, there);
+  if (!set_tangent(at, there)) return std::nan("");
+  const double value = base_.observe(at.unknowns, at.parameters, there.regime, observable_, gradient_);
   return rate(gradient_, there.tangent) / std::abs(value);
 }
 
@@ -96,7 +110,7 @@ std::optional<BasePoint> CornerSlopes::inside(const BasePoint& corner, Side side
   const Vector normal = (border_rate(corner, there) > 0 ? -1 : 1) * there.tangent;
   const CurvePoint origin = at_;
   corrector_.displace(origin, way * normal, at_);
-  if (corrector_.correct(at_, origin, normal, way) != Correction::converged) return std::nullopt;
+  if (corrector_.correct(at_, origin, normal, way, true) != Correction::converged) return std::nullopt;
   return BasePoint{at_.unknowns, at_.parameters, there.regime, {}};
 }
 

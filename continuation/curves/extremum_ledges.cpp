@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arcslip/continuation/points/normal_form.hpp"
-
 namespace arcslip::continuation {
 
 /// The point and one a little way along the border; empty where the border does not go on in the regime.
@@ -19,10 +17,8 @@ std::vector<BranchPoint> ExtremumTracer::step_off(BorderProblem& edge, const Bas
   Branch step = trace_one_way(edge, guess_at(from), up, free);
   const bool goes = step.points.size() == 2 && step.points.back().arclength > 0.01 * way;
   if (!goes) return {};
-  constexpr double rounding = 1e-14;
   BranchPoint& beside = step.points.back();
-  if (const auto settled = locate(edge, split(beside), rounding))
-    beside.unknowns = guess_at(settled->point).unknowns;
+  beside.unknowns = guess_at(settled(edge, split(beside))).unknowns;
   return std::move(step.points);
 }
 
@@ -31,7 +27,8 @@ std::vector<BranchPoint> ExtremumTracer::surely_off(BorderProblem& edge, const B
                                                     std::optional<int> vanishing) {
   const Side side =
       vanishing == slopes_.regime(CornerSlopes::leaving) ? CornerSlopes::leaving : CornerSlopes::arriving;
-  const double level = vanishing ? rounding_of(slopes_.slope(from, side)) : 0;
+  constexpr double plainly = 1e-8;  // of points that are known to rounding, also where the response is sharp
+  const double level = vanishing ? plainly + rounding_of(slopes_.slope(from, side)) : 0;
   std::vector<BranchPoint> step;
   for (double way = shortest_way; way <= longest_way; way *= 10) {
     step = step_off(edge, from, up, way);

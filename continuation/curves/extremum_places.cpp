@@ -122,12 +122,16 @@ std::optional<BasePoint> ExtremumTracer::first_inside(const BasePoint& corner, S
   return std::nullopt;
 }
 
-/// A point on a border to rounding, if Newton's method comes so far.
+/// A point on a border to rounding, as far as Newton's method comes.
+BasePoint ExtremumTracer::settled(BorderProblem& edge, const BasePoint& point) {
+  for (double rounding = 1e-15; rounding < 1e-11; rounding *= 10)
+    if (const auto located = locate(edge, point, rounding)) return located->point;
+  return point;
+}
+
 BasePoint ExtremumTracer::settled(const BasePoint& point, int border) const {
-  constexpr double rounding = 1e-14;
   BorderProblem edge(base_, problem_.active(), border);
-  const auto located = locate(edge, point, rounding);
-  return located ? located->point : point;
+  return settled(edge, point);
 }
 
 /// The point on a border at a value of the parameter, next to another one.

@@ -247,9 +247,23 @@ bool ExtremumTracer::came_back() {
   return false;
 }
 
+/// Whether the last pieces have led nowhere.
+bool ExtremumTracer::stalls() {
+  constexpr int most = 5;
+  constexpr double nowhere = 1e-9;  // in the scale
+  const BranchPoint& last = curve_.points.back();
+  const bool moves = !stood_ || !(steps(way(*stood_, last), last).norm() < nowhere);
+  stood_ = last;
+  stalled_ = moves ? 0 : stalled_ + 1;
+  if (stalled_ < most) return false;
+  stop(Stop::min_step, "no piece leads on from " + place());
+  return true;
+}
+
 /// Adds the next piece; false where the curve has come to an end.
 bool ExtremumTracer::go_on() {
   if (curve_.points.empty() || curve_.stop == Stop::closed_loop || came_back()) return false;
+  if (stalls()) return false;
   const BranchPoint& last = curve_.points.back();
   if (told_to_end_ || (curve_.stop == Stop::interrupted && !near_)) return false;
   if (std::ssize(curve_.points) >= options_.max_points && curve_.stop != Stop::max_points &&

@@ -82,32 +82,48 @@ bool ExtremumTracer::has_turned_here() const {
   return false;
 }
 
+/// The extremum that the last rows belong to, as the last row. These may lie a little beside it, or where it
+/// has vanished, as the conditions of an extremum are steep next to corners.
+std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, bool& peak) {
+  constexpr std::size_t most_back = 100;  // rows that may lie on none
+  constexpr std::size_t most_beside = 20;
+  constexpr double beside = 1e-8;  // on the response, in the scale: still the row's
+  constexpr double same = 1e-10;   // the same: as well as points are located
+  const auto nearest = [&](bool as_peak) {
+    const BasePoint at = split(curve_.points.back());
+    return extrema.begin(at) ? extrema.next_to(at, as_peak, beside) : std::nullopt;
+  };
+  std::optional<ResponseExtremum::Found> found;
+  for (std::size_t back = 0; back < most_back && curve_.points.size() > 1 && !found; ++back) {
+    const auto as_peak = nearest(true);
+    const auto as_trough = nearest(false);
+    peak = as_peak && (!as_trough || std::abs(as_peak->way) <= std::abs(as_trough->way));
+    found = peak ? as_peak : as_trough;
+    if (!found) curve_.points.pop_back();
+  }
+  if (!found || std::abs(found->way) <= same) return found ? std::optional(found->at) : std::nullopt;
+  for (std::size_t i = 0; i < most_beside && curve_.points.size() > 1; ++i) {
+    const auto here = nearest(peak);
+    if (here && std::abs(here->way) <= same) break;
+    curve_.points.pop_back();
+  }
+  BranchPoint corrected = row(found->at, PointType::regular);
+  corrected.tangent = way(curve_.points.back(), corrected);
+  corrected.tangent /= steps(corrected.tangent, corrected).norm();
+  add(std::move(corrected));
+  return found->at;
+}
+
 bool ExtremumTracer::walk() {
   constexpr double least_step = 1e-12;  // of the parameter, in its scale
   constexpr double first_step = 1e-9;
   constexpr double far =
       1e-5;  // on the response, in the scale: to the other extremum of a pair that vanishes
   ResponseExtremum extrema(base_, problem_.active(), *problem_.extremum_of());
-  // Which kind it is shows on the response. The last rows may lie on none, where it has vanished by less than
-  // rounding.
-  constexpr std::size_t most_back = 100;
-  constexpr double here_at = 1e-7;  // on the response, in the scale: the one that was followed
-  std::optional<ResponseExtremum::Found> found;
   bool peak = false;
-  for (std::size_t back = 0; back < most_back && curve_.points.size() > 1; ++back) {
-    const BasePoint at = split(curve_.points.back());
-    if (!extrema.begin(at)) return false;
-    for (const bool as_peak : {true, false}) {
-      const auto one = extrema.next_to(at, as_peak, here_at);
-      if (!one || (found && std::abs(found->way) < std::abs(one->way))) continue;
-      found = one;
-      peak = as_peak;
-    }
-    if (found) break;
-    curve_.points.pop_back();
-  }
-  if (!found) return false;
-  BasePoint here = found->at;
+  const auto begin = begin_walk(extrema, peak);
+  if (!begin) return false;
+  BasePoint here = *begin;
   const BranchPoint last = curve_.points.back();
   const Index n = problem_.size();
   const double scale = 1 / steps(Vector::Ones(n + 1), last)(n);

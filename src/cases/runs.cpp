@@ -1,6 +1,7 @@
 #include "arcslip/cases/runs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -164,6 +165,22 @@ bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
   return std::count(options.stop_at.begin(), options.stop_at.end(), value) > 0;
 }
 
+/// Why a branch that was traced whole begins no curve.
+std::string why_none(const continuation::Problem& problem, const Branch& branch, const std::string& second) {
+  const std::vector<std::string> names = problem.regime_names();
+  std::vector<std::string> met;
+  for (const BranchPoint& point : branch.points) {
+    const std::string& name = names[static_cast<std::size_t>(point.regime)];
+    if (std::find(met.begin(), met.end(), name) == met.end()) met.push_back(name);
+  }
+  const std::string regimes =
+      names.size() > 1
+          ? fmt::format(" in the {} {}", met.size() > 1 ? "regimes" : "regime", fmt::join(met, ", "))
+          : "";
+  return fmt::format(": the branch there, traced from end to end{}, has none; at another {} it may", regimes,
+                     second);
+}
+
 /// The special points on the branch over the first parameter, then the curve through each, but once.
 std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject, const TimeBudget& time,
                                        const continuation::Observer& observer) {
@@ -204,7 +221,8 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
   return {unstarted(request, none,
                     fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
                                 asked.active, asked.from, asked.to, options.parameter, asked.seed,
-                                seeds.complete() ? "" : ": " + seeds.explanation))};
+                                seeds.complete() ? why_none(*subject.problem, seeds, options.parameter)
+                                                 : ": " + seeds.explanation))};
 }
 
 std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& request) {

@@ -66,8 +66,20 @@ class Edge : public Problem {
   double rise_;
 };
 
+/// The same as one regime, which tells of no border.
+class HiddenEdge : public Edge {
+ public:
+  using Edge::Edge;
+  std::vector<std::string> regime_names() const override { return {"whole"}; }
+  int border_count(int /*regime*/) const override { return 0; }
+  double observe(const Vector& u, const Vector& p, int /*regime*/, Index which,
+                 Gradient& gradient) const override {
+    return Edge::observe(u, p, u(0) < p(1) ? before : behind, which, gradient);
+  }
+};
+
 /// The curve through the first extremum of a type at some q, over q from -3 to 2.
-Branch curve_of(const Edge& problem, PointType type, double q, const TraceOptions& wanted) {
+Branch curve_of(const Problem& problem, PointType type, double q, const TraceOptions& wanted) {
   TraceOptions options = over("p", -5, 5);
   options.extrema_of = {"Y"};
   const Branch response = trace(problem, {vector_of({-5}), vector_of({-5, q}), Edge::before}, options);
@@ -144,4 +156,34 @@ TEST_CASE("A curve of extrema that crosses borders counts, and ends where it is 
   const Branch few = curve_of(problem, PointType::peak, -2, options);
   CHECK(few.stop == Stop::max_points);
   CHECK(std::ssize(few.points) <= 2 * options.max_points);
+}
+
+TEST_CASE("An extremum is followed along a corner that no border tells of") {
+  const HiddenEdge problem(-1, -1);
+  TraceOptions options = over("q", -3, 2);
+  options.stop_at = {-0.5};
+  const Branch curve = curve_of(problem, PointType::peak, 1.5, options);
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == -3);
+  CHECK(curve.points.back().parameters(0) == 2);
+  CHECK(places(curve, PointType::user) == std::vector<double>{-0.5});
+  CHECK(places(curve, PointType::corner_fold).empty());
+  CHECK(curve.points.size() < 400);
+  for (const BranchPoint& point : curve.points) {
+    const double at = point.parameters(0);
+    const double t = at < -1 ? std::pow((at + 1) / 1.5, 2) : 0;
+    CAPTURE(at);
+    CHECK_THAT(point.unknowns(1), WithinAbs(at < 0 ? at + t : 0, 1e-9));
+  }
+}
+
+TEST_CASE("Where a peak vanishes on a corner that no border tells of its curve goes back as a trough") {
+  const HiddenEdge problem(1, 0);
+  const Branch curve = curve_of(problem, PointType::peak, 1.5, over("q", -3, 2));
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == 2);
+  CHECK(curve.points.back().parameters(0) == 2);
+  const std::vector<double> folds = places(curve, PointType::corner_fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0], WithinAbs(0, 1e-10));
 }

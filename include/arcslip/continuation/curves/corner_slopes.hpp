@@ -68,6 +68,7 @@ class CornerSlopes {
   };
 
   bool set_tangent(const BasePoint& point, Branch& side);
+  BasePoint just_beyond(const BasePoint& point, const Branch& side);
   double border_rate(const BasePoint& point, const Branch& side);
   std::optional<BasePoint> inside(const BasePoint& corner, Side side, double way);
   double rate(const Gradient& gradient, const Vector& tangent) const;

@@ -8,6 +8,7 @@
 
 #include "arcslip/continuation/curves/corner_slopes.hpp"
 #include "arcslip/continuation/curves/half_curve.hpp"
+#include "arcslip/continuation/curves/response_extremum.hpp"
 #include "arcslip/continuation/points/border_problem.hpp"
 
 namespace arcslip::continuation {
@@ -68,6 +69,7 @@ class ExtremumTracer {
   std::optional<BasePoint> fold_beside(const BasePoint& corner, int border, Side side);
   bool add_fold(const BasePoint& corner, int border, Side side);
   BasePoint settled(const BasePoint& point, int border) const;
+  static BasePoint settled(BorderProblem& edge, const BasePoint& point);
   BasePoint at_value(const BasePoint& next, int border, double value) const;
   BasePoint refined(const BasePoint& point, int border, Side side);
   double distance(const BasePoint& point) const;
@@ -95,6 +97,7 @@ class ExtremumTracer {
   void turn(Vector tangent, int regime);
   void stop(Stop reason, std::string explanation);
   bool walk();
+  std::optional<BasePoint> begin_walk(ResponseExtremum& extrema, bool& peak);
   bool smoothly_on(const BasePoint& here, double sense);
   bool has_turned_here() const;
   double way_so_far(double scale) const;
@@ -102,6 +105,7 @@ class ExtremumTracer {
   bool is_asked_for(double value) const;
   bool finish_walk(double value);
   bool came_back();
+  bool stalls();
   bool is_satisfied();
 
   TraceOptions rest() const;
@@ -133,6 +137,8 @@ class ExtremumTracer {
   bool passes_ = false;   // whether it is so near to a border that it does not meet
   int patience_ = 3;      // steps from response to response before a smooth piece is tried again
   bool told_to_end_ = false;
+  std::optional<BranchPoint> stood_;  // the last row when a piece was to be added before
+  int stalled_ = 0;                   // how often in a row there was none since
 };
 
 }  // namespace arcslip::continuation
