@@ -1,0 +1,111 @@
+// Curves of peaks over the preload, across the border of stick and corners within slip.
+
+#include <cmath>
+#include <map>
+
+#include "arcslip/assembly/system.hpp"
+#include "arcslip/cases/runs.hpp"
+#include "arcslip/problems/ridges/response_slopes.hpp"
+#include "arcslip/zero_between.hpp"
+#include "branches.hpp"
+#include "case_texts.hpp"
+#include "catch.hpp"
+#include "places.hpp"
+
+using namespace arcslip;
+using namespace arcslip::testing;
+using continuation::BasePoint;
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::PointType;
+
+namespace {
+
+const std::string rods_peaks = R"([system]
+model = "rods"
+wave_number = 1
+elements = 12
+mass_ratio = 3.0
+frequency_ratio = 1.5
+interface_stiffness = 40.0
+damping = { base = 1e-2, damper = 2e-2 }
+force = 1.0
+preload = 0.3
+[branch]
+curve = "peak"
+parameters = ["eta", "P"]
+window = [0.5, 5.0]
+from = 0.3
+to = 3.0
+)";
+
+}  // namespace
+
+TEST_CASE("The peak of the rods comes to the border of stick where the slope in slip vanishes", "[cases]") {
+  const Case input = case_texts::read_text(rods_peaks);
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  REQUIRE(curves.size() == 2);
+  for (const TracedBranch& curve : curves) CHECK(curve.branch.complete());
+  const auto switches = of_type(curves[0].branch, PointType::regime_switch);
+  REQUIRE(switches.size() == 1);
+
+  // By closed slopes on the border.
+  const FrictionSystem system = build_system(input.branches.front().problem.system);
+  const auto slope = [&](double eta) {
+    return problems::ResponseSlopes::on_border(system, eta).slipping().by_eta().log_Y;
+  };
+  const double eta = zero_between(slope, 1.27, 1.285, slope(1.27), slope(1.285));
+  CHECK_THAT(switches[0].unknowns(1), WithinRel(eta, 1e-10));
+  const double preload = problems::ResponseSlopes::on_border(system, eta).preload();
+  CHECK_THAT(switches[0].parameters(0), WithinRel(preload, 1e-10));
+  // From there it is a corner: R = S, and Y falls on both sides.
+  for (const BranchPoint& point : curves[0].branch.points) {
+    if (!(point.parameters(0) > preload * (1 + 1e-9))) continue;
+    const auto border = problems::ResponseSlopes::on_border(system, point.unknowns(1));
+    CHECK_THAT(border.preload(), WithinRel(point.parameters(0), 1e-9));
+    CHECK(border.slipping().by_eta().log_Y * border.by_eta().log_Y < 0);
+  }
+}
+
+TEST_CASE("Peaks of every contact's border are peaks of the responses", "[cases]") {
+  for (const std::string settings : {"system.harmonics=1", "system.harmonics=5"}) {
+    const Case input =
+        case_texts::read_text(rods_peaks, {settings, "continuation.stop_at=[0.5, 1.9917, 2.5]"});
+    const std::vector<TracedBranch> curves = trace(input.branches.front());
+    REQUIRE(curves.size() == 2);
+    std::map<double, std::vector<double>> seen;
+    for (const TracedBranch& curve : curves) {
+      CHECK(curve.branch.complete());
+      for (const BranchPoint& point : of_type(curve.branch, PointType::user)) {
+        const BasePoint at = curve.curve->split(point.unknowns, point.parameters, point.regime);
+        seen[at.parameters(1)].push_back(at.parameters(0));
+      }
+    }
+    REQUIRE(seen.size() == 3);
+    for (const auto& [preload, etas] : seen) {
+      CaseBranch response = seed_branch(input.branches.front());
+      response.problem.system.preload = preload;
+      const Branch branch = trace(response).front().branch;
+      std::vector<double> peaks;
+      for (const BranchPoint& point : of_type(branch, PointType::peak)) peaks.push_back(point.parameters(0));
+      REQUIRE(peaks.size() == etas.size());
+      for (std::size_t i = 0; i < peaks.size(); ++i) CHECK_THAT(etas[i], WithinRel(peaks[i], 1e-9));
+    }
+  }
+}
+
+TEST_CASE("A peak of three harmonics vanishes on a corner within slip and goes back as a trough", "[cases]") {
+  const Case input = read_case(source_folder() + "/problems/ridge.toml",
+                               {"system.harmonics=3", "system.preload=0.14", "branch.from=0.125",
+                                "branch.to=0.14", "branch.window=[2.0, 3.0]"});
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  REQUIRE(!curves.empty());
+  std::vector<double> folds;
+  for (const TracedBranch& curve : curves) {
+    CHECK(curve.branch.complete());
+    for (const BranchPoint& point : of_type(curve.branch, PointType::corner_fold))
+      folds.push_back(point.parameters(0));
+  }
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0], WithinRel(0.1300119914, 1e-8));  // where bisection on responses loses the peak
+}
