@@ -181,22 +181,25 @@ Branch ResponsePeaks::response_at(double across) {
 
 std::vector<ResponsePeak> ResponsePeaks::at(double across) {
   const Branch branch = response_at(across);
+  const Edge first = edge(branch.points.front());
+  const Edge last = edge(branch.points.back());
   std::vector<ResponsePeak> peaks;
-  add_edge(branch.points.front(), -1, peaks);
+  if (first.slope < 0) peaks.push_back(first.peak);
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {
     if (branch.points[i].type == PointType::peak) add_peak(branch, i, peaks);
   }
-  add_edge(branch.points.back(), 1, peaks);
+  if (last.slope > 0) peaks.push_back(last.peak);
+  if (peaks.empty())  // flat but for rounding
+    peaks.push_back((first.peak.log_height > last.peak.log_height ? first : last).peak);
   return peaks;
 }
 
-void ResponsePeaks::add_edge(const BranchPoint& point, double way, std::vector<ResponsePeak>& peaks) {
+ResponsePeaks::Edge ResponsePeaks::edge(const BranchPoint& point) {
   const Guess at = guess_at(point);
   const Slopes::Values slopes = slopes_->at(at);
-  if (!(way * slopes.along > 0)) return;
-  const double across = point.parameters(across_);
-  peaks.push_back(
-      {ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height, slopes.across * across});
+  return {{ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height,
+           slopes.across * point.parameters(across_)},
+          slopes.along};
 }
 
 /// A solution beside a point, with its parameter changed by a part of itself.

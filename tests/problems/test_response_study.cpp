@@ -199,3 +199,18 @@ TEST_CASE("An observable without a gradient cannot be an objective") {
   CHECK_THROWS_AS(ResponsePeaks({problem, "eta", "P", 0.5, 6, "beta", problem->guess(0.5, 100), {}}),
                   std::invalid_argument);
 }
+
+TEST_CASE("A response that is flat to rounding has its higher end as its peak") {
+  SystemParameters system = beams(3);
+  system.frequency_ratio = 4294967296;  // the window is far below all resonances of the base
+  const PreloadRange range = range_with(0.5, 500);
+  const auto problem = std::make_shared<HarmonicResponse>(build_harmonic_system(system));
+  for (const double preload : {0.1, 1.0, 100.0}) {
+    const std::vector<ResponsePeak> peaks = peaks_of(problem, range).at(preload);
+    REQUIRE_FALSE(peaks.empty());
+    Vector first(problem->observables().size());
+    const continuation::Guess edge = problem->guess(range.eta_low, preload);
+    problem->observe(edge.unknowns, edge.parameters, edge.regime, first);
+    CHECK(peaks[highest_of(peaks)].log_height >= std::log(first(HarmonicResponse::Y)) - 1e-15);
+  }
+}

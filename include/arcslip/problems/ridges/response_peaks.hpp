@@ -56,7 +56,7 @@ class ResponsePeaks {
   /// Throws std::invalid_argument where the objective has no gradient, std::out_of_range without such names.
   explicit ResponsePeaks(PeakedResponse response);
 
-  /// All peaks at a value of `across`, in the order of the response. Throws std::runtime_error, or Unfinished
+  /// All peaks at a value of `across`, one at least, in the order of the response. Throws std::runtime_error, or Unfinished
   /// for want of time, where it cannot be traced from end to end.
   std::vector<ResponsePeak> at(double across);
 
@@ -74,7 +74,12 @@ class ResponsePeaks {
   const continuation::Guess& start(double across);
   continuation::Branch trace_over(double across, double longest);
   void add_peak(const continuation::Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks);
-  void add_edge(const continuation::BranchPoint& point, double way, std::vector<ResponsePeak>& peaks);
+  /// An end of a branch, which is a peak where the height rises towards it.
+  struct Edge {
+    ResponsePeak peak;
+    double slope;  // of ln height
+  };
+  Edge edge(const continuation::BranchPoint& point);
   ResponsePeak corner(const continuation::Guess& before, const continuation::Guess& behind);
   continuation::Guess beside(const continuation::BranchPoint& point, double change) const;
 
