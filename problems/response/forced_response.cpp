@@ -30,7 +30,9 @@ bool ForcedResponse::evaluate(const Vector& u, const Vector& p, int regime,
 
 std::vector<continuation::Observable> ForcedResponse::observables() const {
   std::vector<continuation::Observable> all = ContactProblem::observables();
-  for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
+  for (const Index one : {R, S, R_over_S, Y, U, dissipated})
+    all[static_cast<std::size_t>(one)].has_gradient = true;
+  for (const ContactOutput& output : system_.outputs) all.push_back({output.name, true});
   return all;
 }
 
@@ -50,8 +52,81 @@ void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vecto
         system_.outputs[i].amplitude(p(eta), system_.outputs[i].on_base ? force : -force);
 }
 
-double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
+namespace {
+
+/// What changes as rho, eta and P do.
+struct Change {
+  Complex by_log_R;
+  Complex by_eta;
+  Complex by_preload;
+
+  friend Change operator+(const Change& a, const Change& b) {
+    return {a.by_log_R + b.by_log_R, a.by_eta + b.by_eta, a.by_preload + b.by_preload};
+  }
+  friend Change operator*(Complex factor, const Change& change) {
+    return {factor * change.by_log_R, factor * change.by_eta, factor * change.by_preload};
+  }
+
+  /// Its real part as a gradient.
+  void put(continuation::Gradient& gradient) const {
+    gradient.unknowns(0) = by_log_R.real();
+    gradient.parameters << by_eta.real(), by_preload.real();
+  }
+};
+
+}  // namespace
+
+double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index which,
                                continuation::Gradient& gradient) const {
+  if (which == Y) return observe_base(u, p, regime, gradient);
+  const State at = state(u(0), p, regime);
+  const ContactResponse& damper = at.damper;
+  const Complex c = at.base.compliance + damper.compliance;
+  const Complex r = motion(at);
+  const Change log_ratio{1, -at.threshold.by_eta, -at.threshold.by_preload};
+  const Change force = system_.contact_stiffness * at.law.phi_log * log_ratio;
+  const Change by_free{0, at.base.free_eta / at.base.free, 0};
+  const Change log_closed =
+      1.0 / (1.0 + at.force * c) *
+      (c * force + Change{0, at.force * (at.base.compliance_eta + damper.compliance_eta), 0});
+  Change log_r = by_free + -1.0 * log_closed;  // of which the unknown gives the real part
+  log_r = {Complex(1, log_r.by_log_R.imag()), Complex(0, log_r.by_eta.imag()),
+           Complex(0, log_r.by_preload.imag())};
+  const Change by_damper = damper.compliance * force + Change{0, at.force * damper.compliance_eta, 0};
+  const auto of = [&](Complex factor, const Change& change) { (factor * change).put(gradient); };
+  const auto relative = [](Complex value, const Change& change) {
+    return value == 0.0 ? Change{} : 1.0 / value * change;
+  };
+  const Complex over_r = at.force * damper.compliance;  // -u/r, and q - 1
+  const double amplitude = std::exp(u(0));
+  switch (which) {
+    case R: of(amplitude, {1, 0, 0}); return amplitude;
+    case S:
+      of(system_.slip_threshold(p(eta), p(preload)), {0, at.threshold.by_eta, at.threshold.by_preload});
+      return system_.slip_threshold(p(eta), p(preload));
+    case R_over_S: of(std::exp(at.log_ratio), log_ratio); return std::exp(at.log_ratio);
+    case U:
+      of(amplitude * std::abs(over_r), log_r + relative(over_r, by_damper));
+      return amplitude * std::abs(over_r);
+    case dissipated:
+      of(regime == slip ? 4 * std::exp(at.log_ratio) : 0, log_ratio);
+      return regime == slip ? dissipated_energy(at.log_ratio) : 0;
+    default: break;
+  }
+  const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
+  const ContactReceptance receptance = output.modes.at(p(eta));
+  const double side = output.on_base ? 1 : -1;
+  const Complex z = receptance.free(1) + side * receptance.compliance(1, 0) * at.force * r;
+  const Change dz =
+      Change{0, receptance.free_eta(1) + side * receptance.compliance_eta(1, 0) * at.force * r, 0} +
+      side * receptance.compliance(1, 0) * r * (force + at.force * log_r);
+  of(std::conj(z) / std::abs(z), dz);
+  return std::abs(z);
+}
+
+/// Y.
+double ForcedResponse::observe_base(const Vector& u, const Vector& p, int regime,
+                                    continuation::Gradient& gradient) const {
   const LogThreshold threshold = log_threshold(p);
   const BaseAmplitude amplitude = base_amplitude(system_, system_.damper.at(p(eta)),
                                                  coefficient(u(0) - threshold.value, regime), threshold);

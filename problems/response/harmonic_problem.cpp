@@ -2,23 +2,355 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "arcslip/problems/response/contact_problem.hpp"
+
 namespace arcslip::problems {
 
-HarmonicProblem::HarmonicProblem(HarmonicSystem system) : system_(std::move(system)), coordinates_(system_) {
+/// Forces of all elements with what they were found for: work space of a thread.
+struct HarmonicProblem::Forces {
+  std::vector<int> orders;
+  Vector unknowns;
+  Vector parameters;
+  int regime = 0;
+  std::vector<ElementForce> of_elements;
+};
+
+HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
+    : system_(std::move(system)), coordinates_(system_), layout_(layout) {
   check(system_);
 }
 
-void HarmonicProblem::add_further_contacts(std::vector<continuation::Observable>& all) const {
+HarmonicProblem::Forces& HarmonicProblem::last_forces() {
+  thread_local Forces last;
+  return last;
+}
+
+HarmonicVector HarmonicProblem::motion(const Vector& u, const Vector& p, Index coordinate) const {
+  HarmonicVector x(harmonics());
+  for (Index a = 0; a < harmonics(); ++a) {
+    const Index place = 2 * (coordinate * harmonics() + a);
+    x(a) = place == 0 ? Complex(value(layout_.real, u, p), value(layout_.imaginary, u, p))
+                      : Complex(u(place), u(place + 1));
+  }
+  return x;
+}
+
+const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const Vector& p, int regime,
+                                                         bool derivatives) const {
+  Forces& last = last_forces();
+  last.orders = system_.orders;
+  last.unknowns = u;
+  last.parameters = p;
+  last.regime = regime;
+  last.of_elements.resize(at(coordinates_.size()));
+  for (Index i = 0; i < coordinates_.size(); ++i) {
+    coordinates_.element(i).force(system_.orders, motion(u, p, i), load(u, p), slips(regime, i), derivatives,
+                                  last.of_elements[at(i)]);
+  }
+  return last.of_elements;
+}
+
+/// max |x| of a contact: known where the forces were last found, as at each point that a corrector ends on.
+OddMotion::Maximum HarmonicProblem::maximum(const Vector& u, const Vector& p, Index contact) const {
+  const Forces& last = last_forces();
+  if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u &&
+      last.parameters == p)
+    return last.of_elements[at(contact)].maximum;
+  const HarmonicVector x = motion(u, p, contact);
+  return OddMotion(system_.orders, x).maximum();
+}
+
+void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index order, const Vector& u,
+                              const Vector& p, Response& response) const {
+  const double h = system_.orders[at(order)];
+  const double eta = frequency(u, p);
+  if (layout_.damping.of == Place::nowhere) {
+    static_cast<ContactReceptance&>(response) = structure.at(h * eta);
+    response.compliance_eta *= h;
+    response.free_eta *= h;
+    return;
+  }
+  const double zeta = value(layout_.damping, u, p);
+  Loss loss = structure.loss();
+  Loss rate{.mass = 1};
+  if (!layout_.of_base) {
+    loss = loss + Loss{.mass = -2 * zeta * eta};
+  } else if (is_base) {
+    rate = system_.base_loss_per_zeta;
+    loss = system_.base_loss_fixed + zeta * rate;
+  } else {
+    rate = {};
+  }
+  DampedReceptance found = structure.damped(h * eta, loss, rate);
+  response.set_zero(structure.contacts());
+  response.compliance = found.compliance;
+  response.compliance_eta = h * found.compliance_eta;
+  if (!layout_.of_base) response.compliance_eta -= 2 * zeta * found.compliance_loss;
+  response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_loss;
+}
+
+/// What is known of one point, with the gradient of what is asked of it.
+class HarmonicProblem::Observation {
+ public:
+  Observation(const HarmonicProblem& problem, const Vector& u, const Vector& p, int regime,
+              continuation::Gradient* gradient)
+      : problem_(problem),
+        system_(problem.system_),
+        u_(u),
+        p_(p),
+        regime_(regime),
+        gradient_(gradient),
+        elements_(problem.forces(u, p, regime, gradient != nullptr)) {}
+
+  /// A quantity; its gradient is added.
+  double value(const Quantity& quantity) {
+    switch (quantity.measure) {
+      case Measure::frequency: return plain(problem_.layout_.eta);
+      case Measure::damping: return plain(problem_.layout_.damping);
+      case Measure::threshold: return threshold(quantity.which, 1);
+      case Measure::ratio: return ratio(quantity.which);
+      case Measure::amplitude: return amplitude(quantity, 1);
+      case Measure::lag: return lag(phasor(quantity.of, quantity.which, quantity.order));
+      case Measure::dissipated: return dissipated(quantity.which);
+      case Measure::greatest: return greatest(quantity.of);
+      case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
+    }
+    return 0;
+  }
+
+ private:
+  double plain(const Place& place) {
+    add(place, 1);
+    return problem_.value(place, u_, p_);
+  }
+
+  /// S of a contact, with so much of its gradient.
+  double threshold(Index contact, double part) {
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    add_log_load(part * S);
+    return S;
+  }
+
+  double ratio(Index contact) {
+    const double R = std::abs(phasor(Body::contact, contact, 0));
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    if (gradient_ != nullptr) {
+      amplitude({"", Measure::amplitude, Body::contact, contact, 0}, 1 / S);
+      threshold(contact, -R / (S * S));
+    }
+    return R / S;
+  }
+
+  double amplitude(const Quantity& quantity, double part) {
+    const Complex z = phasor(quantity.of, quantity.which, quantity.order);
+    const double size = std::abs(z);
+    if (size > 0) add(quantity.of, quantity.which, quantity.order, part / size * z);
+    return size;
+  }
+
+  /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics.
+  double dissipated(Index contact) {
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    const double unit = system_.contacts[at(contact)].stiffness * S * S;
+    const ElementForce& element = elements_[at(contact)];
+    if (gradient_ != nullptr) {
+      const HarmonicVector x = problem_.motion(u_, p_, contact);
+      for (Index a = 0; a < problem_.harmonics(); ++a) {
+        const Complex per = Complex(0, pi * system_.orders[at(a)] / unit);
+        add_force(contact, a, per * x(a));
+        add_motion(contact, a, -per * element.harmonics(a));
+      }
+      threshold(contact, -2 * element.energy / (unit * S));
+    }
+    return element.energy / unit;
+  }
+
+  /// The greatest value in time, which changes as the value at its own time.
+  double greatest(Body of) {
+    HarmonicVector motion(problem_.harmonics());
+    for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, 0, a);
+    const OddMotion::Maximum top = OddMotion(system_.orders, motion).maximum();
+    for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a)
+      add(of, 0, a, std::polar(1.0, -system_.orders[at(a)] * top.angle));
+    return top.value;
+  }
+
+  /// One harmonic of a motion: of the base y = u - x.
+  Complex phasor(Body of, Index which, Index order) {
+    if (of == Body::contact) return problem_.motion(u_, p_, which)(order);
+    const Row row = row_of(of, which);
+    const Response& response = respond(row.structure, row.is_base, order);
+    const ContactVector on = problem_.coordinates_.forces_on(row.is_base, elements_, order);
+    const Index m = on.size();
+    Complex z = (response.compliance.row(row.index).head(m) * on).value();
+    if (of == Body::output) z += response.free(row.index);
+    if (of == Body::base) z -= problem_.motion(u_, p_, which)(order);
+    return z;
+  }
+
+  /// Adds Re(conj(weight) dz) of that harmonic.
+  void add(Body of, Index which, Index order, Complex weight) {
+    if (gradient_ == nullptr) return;
+    if (of == Body::contact) return add_motion(which, order, weight);
+    if (of == Body::base) add_motion(which, order, -weight);
+    const Row row = row_of(of, which);
+    const Response& response = respond(row.structure, row.is_base, order);
+    const ContactVector on = problem_.coordinates_.forces_on(row.is_base, elements_, order);
+    const Index m = on.size();
+    Complex by_eta = (response.compliance_eta.row(row.index).head(m) * on).value();
+    if (of == Body::output) by_eta += response.free_eta(row.index);
+    add(problem_.layout_.eta, std::real(std::conj(weight) * by_eta));
+    if (problem_.layout_.damping.of != Place::nowhere) {
+      const Complex by_damping = (response.by_damping.row(row.index).head(m) * on).value();
+      add(problem_.layout_.damping, std::real(std::conj(weight) * by_damping));
+    }
+    for (Index j = 0; j < problem_.coordinates(); ++j) {
+      const double share = problem_.coordinates_[j].push(row.is_base);
+      if (share == 0) continue;
+      const Complex c = response.compliance(row.index, problem_.coordinates_[j].dof);
+      add_force(j, order, -share * std::conj(c) * weight);
+    }
+  }
+
+  void add_motion(Index coordinate, Index order, Complex weight) {
+    const Index place = 2 * (coordinate * problem_.harmonics() + order);
+    add_unknown(place, weight.real());
+    add_unknown(place + 1, weight.imag());
+  }
+
+  void add_force(Index coordinate, Index order, Complex weight) {
+    const ElementForce& element = elements_[at(coordinate)];
+    const Complex w = std::conj(weight);
+    for (Index b = 0; b < problem_.harmonics(); ++b) {
+      const Complex linear = w * element.linear(order, b);
+      const Complex conjugate = w * element.conjugate(order, b);
+      add_motion(coordinate, b, {std::real(linear + conjugate), -std::imag(linear - conjugate)});
+    }
+    add_log_load(std::real(w * element.by_log_load(order)));
+  }
+
+  void add_log_load(double value) {
+    const double by_load = value / problem_.load(u_, p_);
+    add(problem_.layout_.preload, by_load);
+    add(problem_.layout_.eta, 2 * system_.preload_growth * problem_.frequency(u_, p_) * by_load);
+  }
+
+  void add_unknown(Index place, double value) {
+    if (place > 1) {
+      gradient_->unknowns(place) += value;
+    } else {
+      add(place == 0 ? problem_.layout_.real : problem_.layout_.imaginary, value);
+    }
+  }
+
+  void add(const Place& place, double value) {
+    if (gradient_ == nullptr || place.of == Place::nowhere) return;
+    (place.of == Place::unknowns ? gradient_->unknowns : gradient_->parameters)(place.index) += value;
+  }
+
+  /// Whose row of the compliance a motion is.
+  struct Row {
+    const ContactModes* structure;  // in the first harmonic
+    bool is_base;
+    Index index;
+  };
+  Row row_of(Body of, Index which) const {
+    if (of != Body::output) return {nullptr, false, which};
+    const ContactOutput& output = system_.outputs[at(which)];
+    return {&output.modes, output.on_base, problem_.contacts()};
+  }
+
+  /// Of a structure, or of the damper; found once for quantities that follow one another.
+  const Response& respond(const ContactModes* structure, bool is_base, Index order) {
+    const ContactModes* of = structure != nullptr ? structure : &system_.damper[at(order)];
+    if (of != responded_) problem_.respond(*of, is_base, order, u_, p_, response_);
+    responded_ = of;
+    return response_;
+  }
+
+  const HarmonicProblem& problem_;
+  const HarmonicSystem& system_;
+  const Vector& u_;
+  const Vector& p_;
+  int regime_;
+  continuation::Gradient* gradient_;
+  const std::vector<ElementForce>& elements_;
+  const ContactModes* responded_ = nullptr;
+  Response response_;
+};
+
+double HarmonicProblem::border(const Vector& u, const Vector& p, int regime, int border,
+                               continuation::Gradient* gradient) const {
+  const StateBorder at_border = coordinates_.element(border).border(system_.orders, maximum(u, p, border),
+                                                                    load(u, p), slips(regime, border));
+  if (gradient == nullptr) return at_border.value;
+  gradient->unknowns.setZero();
+  gradient->parameters.setZero();
+  const auto add = [&](const Place& place, double value) {
+    if (place.of == Place::nowhere) return;
+    (place.of == Place::unknowns ? gradient->unknowns : gradient->parameters)(place.index) += value;
+  };
+  for (Index a = 0; a < harmonics(); ++a) {
+    const Index place = 2 * (border * harmonics() + a);
+    add(place == 0 ? layout_.real : Place{Place::unknowns, place}, at_border.by_motion(a).real());
+    add(place == 0 ? layout_.imaginary : Place{Place::unknowns, place + 1}, at_border.by_motion(a).imag());
+  }
+  const double by_load = at_border.by_log_load / load(u, p);
+  add(layout_.preload, by_load);
+  add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load);
+  return at_border.value;
+}
+
+std::vector<continuation::Observable> HarmonicProblem::observables() const {
+  std::vector<continuation::Observable> all;
+  for (const Quantity& quantity : quantities_) {
+    const bool by_solves =
+        quantity.of == Body::output && system_.outputs[at(quantity.which)].modes.is_solved();
+    const bool is_told = quantity.measure == Measure::lag || quantity.measure == Measure::force;
+    all.push_back({quantity.name, !is_told && !by_solves});
+  }
+  return all;
+}
+
+void HarmonicProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+  values.resize(std::ssize(quantities_));
+  Observation at_point(*this, u, p, regime, nullptr);
+  for (std::size_t i = 0; i < quantities_.size(); ++i)
+    values(static_cast<Index>(i)) = at_point.value(quantities_[i]);
+}
+
+double HarmonicProblem::observe(const Vector& u, const Vector& p, int regime, Index which,
+                                continuation::Gradient& gradient) const {
+  gradient.unknowns.setZero();
+  gradient.parameters.setZero();
+  return Observation(*this, u, p, regime, &gradient).value(quantities_[at(which)]);
+}
+
+double HarmonicProblem::synthesised_force(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/) const {
+  return 0;
+}
+
+void HarmonicProblem::add_further_contacts() {
   for (Index i = 1; i < contacts(); ++i) {
-    for (const char* name : {"R", "R_over_S", "Y", "U", "dissipated"})
-      all.push_back({fmt::format("{}_contact_{}", name, i + 1)});
+    const auto name = [i](const char* quantity) { return fmt::format("{}_contact_{}", quantity, i + 1); };
+    quantities_.push_back({name("R"), Measure::amplitude, Body::contact, i});
+    quantities_.push_back({name("R_over_S"), Measure::ratio, Body::contact, i});
+    quantities_.push_back({name("Y"), Measure::amplitude, Body::base, i});
+    quantities_.push_back({name("U"), Measure::amplitude, Body::damper, i});
+    quantities_.push_back({name("dissipated"), Measure::dissipated, Body::contact, i});
   }
 }
 
-void HarmonicProblem::add_higher_harmonics(std::vector<continuation::Observable>& all) const {
+void HarmonicProblem::add_higher_harmonics() {
   for (Index a = 1; a < harmonics(); ++a) {
-    for (const char* name : {"R", "Y", "U"})
-      all.push_back({fmt::format("{}_h{}", name, system_.orders[at(a)])});
+    const auto name = [&](const char* quantity) {
+      return fmt::format("{}_h{}", quantity, system_.orders[at(a)]);
+    };
+    quantities_.push_back({name("R"), Measure::amplitude, Body::contact, 0, a});
+    quantities_.push_back({name("Y"), Measure::amplitude, Body::base, 0, a});
+    quantities_.push_back({name("U"), Measure::amplitude, Body::damper, 0, a});
   }
 }
 

@@ -19,53 +19,33 @@ void store(const ContactVector& values, Index which, Index n, Column&& column) {
 
 }  // namespace
 
-/// Forces of all elements with what they were found for: work space of a thread.
-struct HarmonicResponse::Forces {
-  std::vector<int> orders;
-  Vector unknowns;
-  int regime = 0;
-  std::vector<ElementForce> of_elements;
-};
-
-HarmonicResponse::Forces& HarmonicResponse::last_forces() {
-  thread_local Forces last;
-  return last;
+HarmonicResponse::HarmonicResponse(HarmonicSystem system)
+    : HarmonicProblem(std::move(system), {.eta = {Place::parameters, eta},
+                                          .preload = {Place::parameters, preload},
+                                          .real = {Place::unknowns, 0},
+                                          .imaginary = {Place::unknowns, 1}}) {
+  quantities_ = {{"R", Measure::amplitude},
+                 {"S", Measure::threshold},
+                 {"R_over_S", Measure::ratio},
+                 {"Y", Measure::amplitude, Body::base},
+                 {"U", Measure::amplitude, Body::damper},
+                 {"beta", Measure::lag, Body::base},
+                 {"alpha", Measure::lag, Body::damper},
+                 {"psi", Measure::lag},
+                 {"dissipated", Measure::dissipated}};
+  add_further_contacts();
+  for (const ContactOutput& output : system_.outputs) {
+    quantities_.push_back({output.name, Measure::amplitude, Body::output, &output - system_.outputs.data()});
+  }
+  if (harmonics() == 1) return;
+  quantities_.push_back({"R_peak", Measure::greatest});
+  quantities_.push_back({"Y_peak", Measure::greatest, Body::base});
+  quantities_.push_back({"U_peak", Measure::greatest, Body::damper});
+  add_higher_harmonics();
 }
 
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {
-  HarmonicVector r(harmonics());
-  for (Index a = 0; a < harmonics(); ++a) {
-    const Index place = 2 * (coordinate * harmonics() + a);
-    r(a) = {u(place), u(place + 1)};
-  }
-  return r;
-}
-
-double HarmonicResponse::slip_threshold(Index contact, const Vector& p) const {
-  return coordinates_.element(contact).slip_threshold(load(p));
-}
-
-const std::vector<ElementForce>& HarmonicResponse::forces(const Vector& u, const Vector& p, int regime,
-                                                          bool derivatives) const {
-  Forces& last = last_forces();
-  last.orders = system_.orders;
-  last.unknowns = u;
-  last.regime = regime;
-  last.of_elements.resize(at(coordinates_.size()));
-  for (Index i = 0; i < coordinates_.size(); ++i) {
-    coordinates_.element(i).force(system_.orders, motion(u, i), load(p), slips(regime, i), derivatives,
-                                  last.of_elements[at(i)]);
-  }
-  return last.of_elements;
-}
-
-/// max |r| of a contact: known where the forces were last found, as at each point that a corrector ends on.
-OddMotion::Maximum HarmonicResponse::maximum(const Vector& u, Index contact) const {
-  const Forces& last = last_forces();
-  if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u)
-    return last.of_elements[at(contact)].maximum;
-  const HarmonicVector r = motion(u, contact);
-  return OddMotion(system_.orders, r).maximum();
+  return HarmonicProblem::motion(u, {}, coordinate);
 }
 
 HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u, const Vector& p,
@@ -73,8 +53,8 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   const std::vector<ElementForce>& all = forces(u, p, regime, false);
   ElementForces sum{{}, {}, 0};
   for (Index a = 0; a < harmonics(); ++a) {
-    sum.base.push_back(coordinates_.forces_on(&Coordinate::base, all, a));
-    sum.damper.push_back(coordinates_.forces_on(&Coordinate::damper, all, a));
+    sum.base.push_back(coordinates_.forces_on(true, all, a));
+    sum.damper.push_back(coordinates_.forces_on(false, all, a));
   }
   for (const ElementForce& one : all) sum.energy += one.energy;
   return sum;
@@ -232,114 +212,6 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
 void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   unknowns.setConstant(u.norm());
   parameters = p;
-}
-
-double HarmonicResponse::border(const Vector& u, const Vector& p, int regime, int border,
-                                continuation::Gradient* gradient) const {
-  const StateBorder at_border =
-      coordinates_.element(border).border(system_.orders, maximum(u, border), load(p), slips(regime, border));
-  if (gradient != nullptr) {
-    gradient->unknowns.setZero();
-    for (Index a = 0; a < harmonics(); ++a) {
-      const Index place = 2 * (border * harmonics() + a);
-      gradient->unknowns(place) = at_border.by_motion(a).real();
-      gradient->unknowns(place + 1) = at_border.by_motion(a).imag();
-    }
-    const double by_load = at_border.by_log_load / load(p);
-    gradient->parameters << 2 * system_.preload_growth * p(eta) * by_load, by_load;
-  }
-  return at_border.value;
-}
-
-std::vector<continuation::Observable> HarmonicResponse::observables() const {
-  std::vector<continuation::Observable> all = {{"R"},    {"S"},     {"R_over_S"}, {"Y", true},   {"U"},
-                                               {"beta"}, {"alpha"}, {"psi"},      {"dissipated"}};
-  add_further_contacts(all);
-  for (const ContactOutput& output : system_.outputs) all.push_back({output.name});
-  if (harmonics() == 1) return all;
-  for (const char* name : {"R_peak", "Y_peak", "U_peak"}) all.push_back({name});
-  add_higher_harmonics(all);
-  return all;
-}
-
-void HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
-  const Index m = contacts();
-  const Index n = harmonics();
-  const std::vector<ElementForce>& elements = forces(u, p, regime, false);
-  values.resize(9 + 5 * (m - 1) + std::ssize(system_.outputs) + (n > 1 ? 3 * n : 0));
-  Index place = 9 + 5 * (m - 1) + std::ssize(system_.outputs) + 3;
-  HarmonicVector base(n), damper(n);  // of the first contact
-  const HarmonicVector first = motion(u, 0);
-  for (Index a = 0; a < n; ++a) {
-    const ContactVector on_damper = coordinates_.forces_on(&Coordinate::damper, elements, a);
-    const ContactVector moved =
-        system_.damper[at(a)].at(system_.orders[at(a)] * p(eta)).compliance * on_damper;
-    damper(a) = moved(0);
-    base(a) = moved(0) - first(a);
-    if (a > 0) {
-      for (const Complex value : {first(a), base(a), damper(a)}) values(place++) = std::abs(value);
-      continue;
-    }
-    for (Index i = 0; i < m; ++i) {
-      const Complex r = motion(u, i)(0);
-      const double amplitude = std::abs(r);
-      const double threshold = slip_threshold(i, p);
-      const double ratio = amplitude / threshold;
-      const double energy =
-          elements[at(i)].energy / (system_.contacts[at(i)].stiffness * threshold * threshold);
-      if (i > 0) {
-        values.segment<5>(9 + 5 * (i - 1)) << amplitude, ratio, std::abs(moved(i) - r), std::abs(moved(i)),
-            energy;
-      } else {
-        values.head<9>() << amplitude, threshold, ratio, std::abs(base(0)), std::abs(damper(0)), lag(base(0)),
-            lag(damper(0)), lag(r), energy;
-      }
-    }
-    const ContactVector on_base = coordinates_.forces_on(&Coordinate::base, elements, a);
-    for (std::size_t i = 0; i < system_.outputs.size(); ++i) {
-      const ContactOutput& output = system_.outputs[i];
-      values(9 + 5 * (m - 1) + static_cast<Index>(i)) =
-          output.amplitude(p(eta), output.on_base ? on_base : on_damper);
-    }
-  }
-  if (n == 1) return;
-  const auto peak = [&](const HarmonicVector& motion) {
-    return OddMotion(system_.orders, motion).maximum().value;
-  };
-  values.segment<3>(9 + 5 * (m - 1) + std::ssize(system_.outputs)) << peak(first), peak(base), peak(damper);
-}
-
-double HarmonicResponse::observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
-                                 continuation::Gradient& gradient) const {
-  const std::vector<ElementForce>& elements = forces(u, p, regime, true);
-  const ContactReceptance damper = system_.damper[0].at(p(eta));
-  const auto per_force = [&](Index j) {
-    return -coordinates_[j].damper * damper.compliance(0, coordinates_[j].dof);
-  };
-  Complex y = -Complex(u(0), u(1));
-  Complex by_eta = 0;
-  Complex by_log_load = 0;
-  for (Index j = 0; j < coordinates_.size(); ++j) {
-    y += per_force(j) * elements[at(j)].harmonics(0);
-    by_eta -=
-        coordinates_[j].damper * damper.compliance_eta(0, coordinates_[j].dof) * elements[at(j)].harmonics(0);
-    by_log_load += per_force(j) * elements[at(j)].by_log_load(0);
-  }
-  const double amplitude = std::abs(y);
-  const Complex direction = std::conj(y) / amplitude;
-  for (Index j = 0; j < coordinates_.size(); ++j) {
-    for (Index b = 0; b < harmonics(); ++b) {
-      const Index place = 2 * (j * harmonics() + b);
-      const Complex linear = per_force(j) * elements[at(j)].linear(0, b) - (place == 0 ? 1.0 : 0.0);
-      const Complex conjugate = per_force(j) * elements[at(j)].conjugate(0, b);
-      gradient.unknowns(place) = std::real(direction * (linear + conjugate));
-      gradient.unknowns(place + 1) = -std::imag(direction * (linear - conjugate));
-    }
-  }
-  const double by_load = std::real(direction * by_log_load) / load(p);
-  gradient.parameters << std::real(direction * by_eta) + 2 * system_.preload_growth * p(eta) * by_load,
-      by_load;
-  return amplitude;
 }
 
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {

@@ -66,7 +66,8 @@ double LimitCycle::border(const Vector& u, const Vector& p, int /*regime*/, int 
 }
 
 std::vector<continuation::Observable> LimitCycle::observables() const {
-  return {{"eta", true}, {"R", true}, {"S"}, {"R_over_S"}, {"Y", true}, {"U"}, {"dissipated"}};
+  return {{"eta", true}, {"R", true}, {"S", true},         {"R_over_S", true},
+          {"Y", true},   {"U", true}, {"dissipated", true}};
 }
 
 void LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const {
@@ -97,8 +98,36 @@ double LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Ind
     return amplitude;
   }
   const LogThreshold threshold = system_.log_threshold(u(eta), p(preload));
-  const BaseAmplitude base = base_amplitude(system_, system_.damper.at(u(eta)),
-                                            slip_coefficient(u(log_R) - threshold.value), threshold);
+  const double log_ratio = u(log_R) - threshold.value;
+  const HarmonicCoefficient law = slip_coefficient(log_ratio);
+  const ContactResponse damper = system_.damper.at(u(eta));
+  // value times a change by ln R and one by ln S, and by eta beside that
+  const auto filled = [&](double value, double by_log_R, double by_log_S, double by_eta) {
+    gradient.unknowns << value * (by_eta + by_log_S * threshold.by_eta), value * by_log_R;
+    gradient.parameters(preload) = value * by_log_S * threshold.by_preload;
+  };
+  if (which == S) {
+    const double value = system_.slip_threshold(u(eta), p(preload));
+    filled(value, 0, 1, 0);
+    return value;
+  }
+  if (which == R_over_S) {
+    filled(std::exp(log_ratio), 1, -1, 0);
+    return std::exp(log_ratio);
+  }
+  if (which == dissipated) {
+    filled(4 * std::exp(log_ratio), 1, -1, 0);
+    return dissipated_energy(log_ratio);
+  }
+  if (which == U) {
+    const Complex motion = system_.contact_stiffness * law.phi * damper.compliance;
+    if (motion == 0.0) return 0;  // a damper that is held
+    const double by_ratio = std::real(law.phi_log / law.phi);
+    filled(amplitude * std::abs(motion), 1 + by_ratio, -by_ratio,
+           std::real(damper.compliance_eta / damper.compliance));
+    return amplitude * std::abs(motion);
+  }
+  const BaseAmplitude base = base_amplitude(system_, damper, law, threshold);
   const double value = amplitude * base.over_R;
   gradient.unknowns << value * base.by_eta, value * base.by_log_R;
   gradient.parameters(preload) = value * base.by_preload;

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "arcslip/continuation/path/newton.hpp"
-#include "arcslip/problems/response/cubic_response.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
@@ -41,17 +40,14 @@ HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) 
   return HarmonicResponse(build_harmonic_system(parameters));
 }
 
-/// The points of a branch of HarmonicResponse, ForcedResponse or CubicResponse as those of the first.
+/// The points of a branch of HarmonicResponse or ForcedResponse as those of the first.
 class BalancedPoints {
  public:
   BalancedPoints(const SystemParameters& parameters, const std::vector<int>& orders,
                  const continuation::Branch& branch)
       : problem_(balanced(parameters, orders)) {
-    if (branch.points.empty() || branch.points.front().unknowns.size() == problem_.size()) return;
-    if (parameters.cubic_stiffness == 0)
+    if (!branch.points.empty() && branch.points.front().unknowns.size() != problem_.size())
       scalar_ = std::make_unique<ForcedResponse>(build_system(parameters));
-    else
-      scalar_ = std::make_unique<CubicResponse>(build_system(parameters));
   }
 
   const HarmonicResponse& problem() const { return problem_; }
@@ -67,7 +63,7 @@ class BalancedPoints {
 
  private:
   HarmonicResponse problem_;
-  std::unique_ptr<ContactProblem> scalar_;
+  std::unique_ptr<ForcedResponse> scalar_;
 };
 
 PowerBalance power(const HarmonicResponse& problem, const Guess& at) {

@@ -86,6 +86,9 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     system.contacts = std::move(of_order.contacts);
   }
   system.preload_growth = parameters.preload_growth;
+  system.one_way = parameters.one_way;
+  system.base_loss_per_zeta = base_loss_per_zeta(parameters);
+  system.base_loss_fixed = base_loss_fixed(parameters);
   if (parameters.cubic_stiffness != 0) add_cubic_springs(parameters, system);
   return system;
 }

@@ -51,8 +51,13 @@ ReducedPair reduce(const SystemParameters& parameters) {
 }
 
 Loss base_loss_per_zeta(const SystemParameters& parameters) {
+  if (parameters.sectors) return parameters.sectors->base().loss_per_zeta();
   if (parameters.base_damping_kind == DampingKind::structural) return {0, 2};
   return {2 / parameters.frequency_ratio, 0};
+}
+
+Loss base_loss_fixed(const SystemParameters& parameters) {
+  return parameters.sectors ? parameters.sectors->base().fixed : Loss{};
 }
 
 double cubic_coefficient(const SystemParameters& parameters) {

@@ -173,7 +173,7 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
   use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
-  use_.balanced = common_.problem.response == Response::forced || common_.problem.is_mode();
+  use_.is_free = common_.problem.is_free();
   if (use_.sectors)
     std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
 }
@@ -184,11 +184,8 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   branch.values = std::move(values);
   read_system(*document_, replacements, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
-  if (branch.problem.response != Response::forced && !branch.problem.is_mode() &&
-      branch.problem.system.cubic_stiffness != 0)
-    system.fail("cubic_stiffness",
-                "only for the forced response and nonlinear modes; expected 0 beside this branch.response");
-  if (branch.problem.harmonics_tolerance && branch.problem.is_mode())
+  branch.problem.system.one_way = branch.problem.response == Response::one_way;
+  if (branch.problem.harmonics_tolerance && branch.problem.is_free())
     system.fail("harmonics", "\"auto\" is only for the forced response");
   if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())
     branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());

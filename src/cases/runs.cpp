@@ -11,9 +11,9 @@
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "arcslip/problems/response/cubic_response.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/response/harmonic_cycle.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/limit_cycle.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
@@ -71,11 +71,11 @@ template <class Use>
 auto with_type(const ProblemRequest& request, const Use& use) {
   if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
   if (request.stability) return use(std::type_identity<problems::FloquetResponse>{});
-  if (needs_balance(request.system, request.harmonics_tolerance))
-    return use(std::type_identity<problems::HarmonicResponse>{});
+  const bool balanced = needs_balance(request.system, request.harmonics_tolerance);
+  if (balanced && request.is_limit_cycle()) return use(std::type_identity<problems::HarmonicCycle>{});
+  if (balanced) return use(std::type_identity<problems::HarmonicResponse>{});
   if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
   if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
-  if (request.system.cubic_stiffness != 0) return use(std::type_identity<problems::CubicResponse>{});
   return use(std::type_identity<problems::ForcedResponse>{});
 }
 
@@ -91,6 +91,8 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
         return problem->guess(request.eta, value, value_of("P"));
       } else if constexpr (std::is_base_of_v<problems::HarmonicResponse, Type>) {
         return problem->guess(value_of("eta"), value_of("P"), limits);
+      } else if constexpr (std::is_same_v<Type, problems::HarmonicCycle>) {
+        return problem->guess(value_of("zeta_B"), value_of("P"), limits);
       } else {
         return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
       }
@@ -235,7 +237,8 @@ std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& re
 }  // namespace
 
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance) {
-  return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance;
+  return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance ||
+         system.cubic_stiffness != 0;
 }
 
 void try_to_build(const ProblemRequest& request) { problem_of(request); }

@@ -232,19 +232,15 @@ NumberRule wave_rule(const S& settings) {
 }
 
 void check_path(const S& settings, const TomlSection& section) {
-  const bool forced = settings.use == nullptr || (settings.use->balanced && settings.use->parameter != "R");
-  if (settings.path == SectorPath::full && !forced)
-    section.fail("path",
-                 R"(expected "reduced" for nonlinear modes, limit cycles and one-way responses, got "full")");
+  const bool is_free = settings.use != nullptr && settings.use->is_free;
+  if (settings.path == SectorPath::full && is_free)
+    section.fail(
+        "path",
+        R"(expected "reduced" for nonlinear modes and limit cycles, which begin from modes, got "full")");
 }
 
 /// What is held to the modes and contacts that there are.
-void check_use(const TomlDocument& document, const TomlSection& section, const S& settings) {
-  const std::size_t count = settings.contacts.size();
-  if (count > 1 && !settings.use->balanced)
-    TomlSection(document, "system.base")
-        .fail("contact",
-              fmt::format("expected one dof for limit cycles and one-way responses, got {}", count));
+void check_use(const TomlSection& section, const S& settings) {
   try {
     settings.sectors->check({settings.wave_number, settings.elements});
   } catch (const SectorError& error) {
@@ -328,7 +324,7 @@ std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document) {
                                             settings.path);
 }
 
-void read_sector_system(const TomlDocument& document, const TomlSection& section, S& settings) {
+void read_sector_system(const TomlSection& section, S& settings) {
   const SystemUse& use = *settings.use;
   settings.model = StructureModel::sector;
   settings.sectors = use.sectors;
@@ -344,7 +340,7 @@ void read_sector_system(const TomlDocument& document, const TomlSection& section
   settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
   for (std::size_t i = 0; i < count; ++i)
     settings.contacts.push_back({k[i], settings.limit_per_preload[i] / k[i]});
-  check_use(document, section, settings);
+  check_use(section, settings);
 }
 
 }  // namespace arcslip

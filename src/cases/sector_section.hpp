@@ -26,6 +26,6 @@ bool is_sector(const TomlDocument& document);
 std::shared_ptr<const SectorPair> read_sectors(const TomlDocument& document);
 
 /// Reads [system]. Throws InputError.
-void read_sector_system(const TomlDocument& document, const TomlSection& section, FrictionSettings& settings);
+void read_sector_system(const TomlSection& section, FrictionSettings& settings);
 
 }  // namespace arcslip

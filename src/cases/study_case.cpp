@@ -24,8 +24,7 @@ struct Source {
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
-    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high, true},
-                problem);
+    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high}, problem);
     return problem;
   }
 

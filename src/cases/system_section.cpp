@@ -122,12 +122,10 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   if (use.sectors) {
     if (has_geometry(document))
       document.fail(document.root().get("geometry"), "geometry", "only for rods and beams");
-    read_sector_system(document, section, settings);
+    read_sector_system(section, settings);
   } else {
     read_rings(document, replacements, section, settings, problem);
   }
-  if (!use.balanced && (settings.harmonics.size() > 1 || settings.harmonics_tolerance))
-    section.fail("harmonics", "expected 1 for limit cycles and one-way responses");
   check_waves(section, settings);
   problem.harmonics_tolerance = settings.harmonics_tolerance;
   problem.system = std::move(settings);

@@ -19,8 +19,7 @@ struct SystemUse {
   std::shared_ptr<const SectorPair> sectors = {};  ///< null for other models
   double eta_low = 0;                              ///< the eta that matter to them; 0: not known
   double eta_high = 0;
-  bool balanced =
-      false;  ///< whether several contacts and the full path of a sector, and several harmonics, may be taken
+  bool is_free = false;  ///< whether eta is an unknown
 };
 
 /// [system] of a model with friction as it is read.

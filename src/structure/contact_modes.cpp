@@ -105,18 +105,17 @@ CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
   return sum;
 }
 
-DampedReceptance ContactModes::damped(double eta, double mass) const {
+DampedReceptance ContactModes::damped(double eta, const Loss& loss, const Loss& rate) const {
   DampedReceptance response;
-  for (ContactMatrix* matrix : {&response.compliance, &response.compliance_eta, &response.compliance_mass})
+  for (ContactMatrix* matrix : {&response.compliance, &response.compliance_eta, &response.compliance_loss})
     matrix->setZero(contacts_, contacts_);
-  const Loss loss = loss_ + Loss{.mass = mass};
   for (const ContactMode& mode : modes_) {
     const ModalDenominator d(eta, mode.frequency, loss);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const ContactMatrix shape = mode.shape * mode.shape.adjoint();
     response.compliance += inverse * shape;
     response.compliance_eta -= (inverse * inverse * d.by_eta) * shape;
-    response.compliance_mass -= (inverse * inverse * Complex(0, eta)) * shape;
+    response.compliance_loss -= (inverse * inverse * Complex(0, rate.part(eta, mode.frequency))) * shape;
   }
   return response;
 }

@@ -119,7 +119,6 @@ TEST_CASE("Harmonics that cannot be taken are refused in one line", "[harmonics]
       {"harmonics = 3", "harmonics = [3, 5]", ":11:13", "system.harmonics", "begins with 1", ""},
       {"harmonics = 3", "harmonics = [1, 5, 3]", ":11:13", "system.harmonics", "ascends", ""},
       {"harmonics = 3", "harmonics_tolerance = 1e-3", ":11:23", "harmonics_tolerance", "\"auto\"", ""},
-      {"from = 1.4", "from = 1.4\nresponse = \"one_way\"", ":11:13", "system.harmonics", "expected 1", ""},
   }));
   CHECK_NOTHROW(read_case(folder.write("case.toml", text)));
   const std::string path = folder.write("case.toml", replaced(text, mistake.from, mistake.to));

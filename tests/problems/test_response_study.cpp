@@ -194,10 +194,17 @@ TEST_CASE("The best preload of a base with cubic springs is below what responses
   }
 }
 
-TEST_CASE("An observable without a gradient cannot be an objective") {
-  const auto problem = std::make_shared<HarmonicResponse>(build_harmonic_system(beams(1)));
-  CHECK_THROWS_AS(ResponsePeaks({problem, "eta", "P", 0.5, 6, "beta", problem->guess(0.5, 100), {}}),
-                  std::invalid_argument);
+TEST_CASE("Any quantity of a response but its phases can be an objective, and no other name") {
+  const auto problem = std::make_shared<HarmonicResponse>(build_harmonic_system(beams(3)));
+  const continuation::Guess start = problem->guess(0.5, 100);
+  for (const continuation::Observable& one : problem->observables()) {
+    CAPTURE(one.name);
+    const bool is_phase = one.name == "beta" || one.name == "alpha" || one.name == "psi";
+    CHECK(one.has_gradient != is_phase);
+    if (!is_phase) CHECK_NOTHROW(ResponsePeaks({problem, "eta", "P", 0.5, 6, one.name, start, {}}));
+  }
+  for (const char* other : {"beta", "W"})
+    CHECK_THROWS_AS(ResponsePeaks({problem, "eta", "P", 0.5, 6, other, start, {}}), std::invalid_argument);
 }
 
 TEST_CASE("A response that is flat to rounding has its higher end as its peak") {

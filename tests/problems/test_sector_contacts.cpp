@@ -1,5 +1,6 @@
 #include "arcslip/cases/study_case.hpp"
 #include "catch.hpp"
+#include "mistakes.hpp"
 #include "paper_sectors.hpp"
 
 using namespace arcslip;
@@ -52,15 +53,24 @@ TEST_CASE("Ten elements a sector, each with its contact, vibrate as the paper's 
   }
 }
 
-TEST_CASE("Several contacts are taken by a study and refused where another response has one") {
+TEST_CASE("Several contacts are taken by a study and by every response") {
   const TemporaryFolder folder;
   std::string text = paper_system(folder, false, 3);
   for (std::size_t at = text.find("contact = [1]"); at != std::string::npos; at = text.find("contact = [1]"))
     text.replace(at, 13, "contact = [1, 2]");
   const std::string study = "[study]\nparameter = \"P\"\nfrom = 0.1\nto = 10.0\neta = [0.5, 6.0]\n";
   CHECK(read_study(folder.write("study.toml", text + study)).design(0).system.contacts.size() == 2);
-  CHECK_THROWS_WITH(read_case(folder.write("cycle.toml", text + over_all_eta + "response = \"one_way\"\n")),
-                    ContainsSubstring("system.base.contact: expected one dof"));
+  for (const char* response : {"forced", "one_way", "limit_cycle", "nonlinear_mode"}) {
+    const std::string asked = fmt::format("response = \"{}\"\n", response);
+    const bool is_free = response[0] == 'l' || response[0] == 'n';
+    const std::string branch = !is_free ? over_all_eta
+                               : response[0] == 'l'
+                                   ? "[branch]\nparameter = \"zeta_B\"\nfrom = -1e-3\nto = -1e-2\n"
+                                   : "[branch]\nparameter = \"R\"\nfrom = 1e-3\nto = 1\neta = 4\n";
+    const std::string window = is_free ? "[system]\nreduction_window = [0.1, 20.0]\n" : "[system]\n";
+    CHECK(read_case(folder.write("response.toml", replaced(text, "[system]\n", window) + branch + asked))
+              .branches.size() == 1);
+  }
   std::string listed = text;
   const std::size_t at = listed.find("contact_stiffness = ") + 20;
   listed.replace(at, listed.find('\n', at) - at, "[1.0, 2.0, 3.0]");

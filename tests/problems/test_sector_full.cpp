@@ -352,7 +352,6 @@ TEST_CASE("What the full path of a sector cannot serve is refused in one line") 
        "\"reduced\"", "\"full\""},
       {"from = 100", "from = 100\nstability = true", ":", "branch.stability",
        "modes, which this damping couples", ""},
-      {"from = 100", "from = 100\nresponse = \"one_way\"", ":3:8", "system.path", "\"reduced\"", "\"full\""},
       {"parameter = \"eta\"\nfrom = 100\nto = 260",
        "response = \"limit_cycle\"\nparameter = \"P\"\nfrom = 1\nto = 2", ":3:8", "system.path",
        "\"reduced\"", "\"full\""},

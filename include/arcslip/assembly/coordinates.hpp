@@ -4,7 +4,9 @@
 // or the motion y of the base's contact dof against ground. Each row of L has an entry for one dof of the
 // base, one of the damper, or both. With the forces f of the elements against x,
 //
-//   x_h + C_h f_h = x0 delta_h1,   C_h = L blockdiag(C_B, C_D) L^T,   x0 = L (y_0, 0).
+//   x_h + C_h f_h = x0 delta_h1,   C_h = L blockdiag(C_B, C_D) G^T,   x0 = L (y_0, 0),
+//
+// where G = L, but for contacts that act on the damper and not back on the base, which have no entry for it.
 
 #include <memory>
 #include <vector>
@@ -21,6 +23,11 @@ struct Coordinate {
   double damper = 0;  ///< and for the damper's
   Index dof = 0;      ///< which of their contact dofs
   std::shared_ptr<const Element> element;
+  bool spares_base = false;  ///< no force on the base
+
+  /// Entry of L for a structure, and of G.
+  double move(bool is_base) const { return is_base ? base : damper; }
+  double push(bool is_base) const { return is_base && spares_base ? 0 : move(is_base); }
 };
 
 class Coordinates {
@@ -40,16 +47,16 @@ class Coordinates {
   void receptance(const ContactModes& base, const ContactModes& damper, double frequency,
                   ContactReceptance& joint) const;
 
-  /// Adds the part that one structure, of which `entry` is &Coordinate::base or damper, has in L C L^T.
-  void add(const ContactMatrix& compliance, double Coordinate::*entry, ContactMatrix& sum) const;
+  /// Adds the part that one structure has in L C G^T.
+  void add(const ContactMatrix& compliance, bool is_base, ContactMatrix& sum) const;
 
-  /// Forces on the contact dofs of a structure in one order.
-  ContactVector forces_on(double Coordinate::*entry, const std::vector<ElementForce>& forces,
-                          Index order) const;
+  /// Forces on the contact dofs of a structure in one order, -G^T f.
+  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order) const;
 
  private:
   std::vector<Coordinate> all_;
   Index contacts_;
+  bool spares_base_;
 };
 
 }  // namespace arcslip

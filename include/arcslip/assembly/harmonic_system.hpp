@@ -23,6 +23,9 @@ struct HarmonicSystem {
   double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
   std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
   std::vector<Coordinate> others = {};      ///< in which elements act beside the contacts
+  bool one_way = false;                     ///< whether contacts do not act back on the base
+  Loss base_loss_per_zeta = {};             ///< the base's loss over zeta_B
+  Loss base_loss_fixed = {};                ///< the rest of it
 };
 
 /// Throws std::invalid_argument where base, damper, orders and contacts do not fit, or a stiffness or

@@ -42,6 +42,7 @@ struct SystemParameters {
   bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
+  bool one_way = false;        ///< friction acts on the damper and not back on the base
   std::vector<int> harmonics = {1};  ///< h in which friction is balanced, odd and ascending from 1
 
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
@@ -107,8 +108,10 @@ struct FrictionSystem {
 double base_damping_factor(const SystemParameters& parameters);
 double damper_damping_factor(const SystemParameters& parameters);
 
-/// Loss of the base over zeta_B: 2/gamma viscous or 2 structural.
+/// Loss of the base over zeta_B: 2/gamma viscous or 2 structural, of sectors as their damping_kind says; and
+/// the rest of it.
 Loss base_loss_per_zeta(const SystemParameters& parameters);
+Loss base_loss_fixed(const SystemParameters& parameters);
 
 /// k_3 of each spring between the base's nodes and ground.
 double cubic_coefficient(const SystemParameters& parameters);

@@ -31,7 +31,8 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter);
 /// The branch over a curve's first parameter on which its first points are looked for.
 CaseBranch seed_branch(const CaseBranch& request);
 
-/// Whether a system with friction takes more than one contact in one harmonic, solved by its modes.
+/// Whether a system with friction takes more than one contact in one harmonic on linear structures, solved by
+/// its modes.
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance);
 
 /// Builds the problem and leaves it, for what that may throw: no system fits what was asked for.

@@ -33,11 +33,11 @@ struct ContactReceptance {
   void set_zero(Index contacts);
 };
 
-/// Compliance of m contacts where there is more damping proportional to mass, with its derivatives.
+/// Compliance of m contacts under another damping, with its derivatives.
 struct DampedReceptance {
   ContactMatrix compliance;
   ContactMatrix compliance_eta;
-  ContactMatrix compliance_mass;  ///< dC/dmu
+  ContactMatrix compliance_loss;  ///< as the loss changes
 };
 
 /// Work of a cycle at eta: of the load, what the damping takes, and that of load and contact forces whatever
@@ -70,6 +70,9 @@ class ContactModes {
   /// Without `work` of its own, none may be asked for.
   ContactModes solved_by(Receptance receptance, ReceptanceWork work = {}) const;
 
+  /// The same modes with another loss.
+  ContactModes with(const Loss& loss) const { return {contacts_, modes_, loss}; }
+
   /// O(m^2) operations for each mode, or what `receptance` costs.
   ContactReceptance at(double eta) const;
 
@@ -80,8 +83,8 @@ class ContactModes {
   /// of all modes, or where it is solved otherwise of load and contacts, |F^H d| and |f_i y_i|.
   CycleWork work(double eta, const ContactVector& forces) const;
 
-  /// The compliance where mu of the loss is larger by `mass`.
-  DampedReceptance damped(double eta, double mass) const;
+  /// The compliance of the modes with this loss, and how it changes with the loss by `rate`.
+  DampedReceptance damped(double eta, const Loss& loss, const Loss& rate) const;
 
   Index contacts() const { return contacts_; }
   const std::vector<ContactMode>& modes() const { return modes_; }

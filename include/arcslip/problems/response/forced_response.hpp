@@ -27,10 +27,10 @@ class ForcedResponse : public ContactProblem {
   bool evaluate(const Vector& u, const Vector& p, int regime,
                 const continuation::Evaluation& out) const override;
 
-  /// Those of every contact problem, then the amplitudes of the system's outputs.
+  /// Those of every contact problem, then the amplitudes of the system's outputs. All but the phases have
+  /// gradients.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  /// Y alone has a gradient.
   double observe(const Vector& u, const Vector& p, int regime, Index which,
                  continuation::Gradient& gradient) const override;
 
@@ -44,6 +44,7 @@ class ForcedResponse : public ContactProblem {
   continuation::Guess guess(double eta_value, double preload_value) const;
 
  private:
+  double observe_base(const Vector& u, const Vector& p, int regime, continuation::Gradient& gradient) const;
   static Complex motion(const State& at);
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
-// What the problems of base, damper and contacts in several harmonics share: the coordinates in which
-// elements act, and the regimes, which contacts slip, bit i for contact i.
+// What the problems of base, damper and contacts in several harmonics share: the coordinates x in which
+// elements act, the regimes, which contacts slip, bit i for contact i, with the borders A_i = max |x_i(t)| =
+// S_i, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the first
+// coordinate is an unknown or a parameter is each problem's own matter, its layout.
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
@@ -16,26 +18,100 @@ class HarmonicProblem : public continuation::Problem {
 
   std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
   int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
+  double border(const Vector& u, const Vector& p, int regime, int border,
+                continuation::Gradient* gradient) const override;
   int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+
+  /// Amplitudes, ratios and energies have gradients, but for the outputs of sectors that are solved for.
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, int regime, Index which,
+                 continuation::Gradient& gradient) const override;
 
   Index contacts() const { return coordinates_.contacts(); }
   Index coordinates() const { return coordinates_.size(); }
   Index harmonics() const { return std::ssize(system_.orders); }
   const HarmonicSystem& system() const { return system_; }
 
+  /// x_h of a coordinate.
+  HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
+
+  /// S of a contact.
+  double slip_threshold(Index contact, const Vector& u, const Vector& p) const {
+    return coordinates_.element(contact).slip_threshold(load(u, p));
+  }
+
  protected:
+  /// Where one of the values that the motion depends on stands; one that stands nowhere does not vary.
+  struct Place {
+    enum Of { nowhere, unknowns, parameters } of = nowhere;
+    Index index = 0;
+  };
+
+  /// Re and Im of all harmonics of all coordinates are unknown, in the order of HarmonicResponse, but for
+  /// the first two of them, in whose stead others may be.
+  struct Layout {
+    Place eta;
+    Place preload;
+    Place real;            ///< Re x_1 of the first coordinate
+    Place imaginary = {};  ///< and Im x_1, 0 where it stands nowhere
+    Place damping = {};    ///< zeta of a damping -2 zeta w* M of both structures,
+    bool of_base = false;  ///< or else zeta_B
+  };
+
+  /// Of what a quantity tells.
+  enum class Measure { frequency, damping, threshold, ratio, amplitude, lag, dissipated, greatest, force };
+  enum class Body { contact, base, damper, output };
+  struct Quantity {
+    std::string name;
+    Measure measure;
+    Body of = Body::contact;
+    Index which = 0;  ///< contact or output
+    Index order = 0;
+  };
+
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit HarmonicProblem(HarmonicSystem system);
+  HarmonicProblem(HarmonicSystem system, Layout layout);
+
+  /// The quantities of the contacts but the first, and of the first in the harmonics above it.
+  void add_further_contacts();
+  void add_higher_harmonics();
+
+  double value(const Place& place, const Vector& u, const Vector& p) const {
+    return place.of == Place::unknowns ? u(place.index) : place.of == Place::parameters ? p(place.index) : 0;
+  }
+  double frequency(const Vector& u, const Vector& p) const { return value(layout_.eta, u, p); }
 
   /// P + P_2 eta^2.
-  double load(double eta, double preload) const { return preload + system_.preload_growth * eta * eta; }
+  double load(const Vector& u, const Vector& p) const {
+    const double eta = frequency(u, p);
+    return value(layout_.preload, u, p) + system_.preload_growth * eta * eta;
+  }
 
-  /// The names of a quantity of the contacts but the first, and of the first in the harmonics above it.
-  void add_further_contacts(std::vector<continuation::Observable>& all) const;
-  void add_higher_harmonics(std::vector<continuation::Observable>& all) const;
+  /// Of each coordinate; valid until the thread's next call, whose work space it is.
+  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
+                                          bool derivatives) const;
+
+  /// A structure in one harmonic, with derivatives by eta itself and by the damping of the layout.
+  struct Response : ContactReceptance {
+    ContactMatrix by_damping;
+  };
+  void respond(const ContactModes& structure, bool is_base, Index order, const Vector& u, const Vector& p,
+               Response& response) const;
+
+  /// The force whose response, synthesised from a mode, peaks here.
+  virtual double synthesised_force(const Vector& u, const Vector& p, int regime) const;
 
   HarmonicSystem system_;
   Coordinates coordinates_;
+  Layout layout_;
+  std::vector<Quantity> quantities_;
+
+ private:
+  struct Forces;
+  static Forces& last_forces();
+  OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
+  class Observation;
 };
 
 }  // namespace arcslip::problems

@@ -30,7 +30,7 @@ class HarmonicResponse : public HarmonicProblem {
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit HarmonicResponse(HarmonicSystem system) : HarmonicProblem(std::move(system)) {}
+  explicit HarmonicResponse(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
   bool evaluate(const Vector& u, const Vector& p, int regime,
@@ -40,15 +40,6 @@ class HarmonicResponse : public HarmonicProblem {
   bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
               const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
-
-  double border(const Vector& u, const Vector& p, int regime, int border,
-                continuation::Gradient* gradient) const override;
-
-  /// Of them Y has a gradient.
-  std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
-                 continuation::Gradient& gradient) const override;
 
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
@@ -63,7 +54,9 @@ class HarmonicResponse : public HarmonicProblem {
   HarmonicVector motion(const Vector& u, Index coordinate) const;
 
   /// S of a contact.
-  double slip_threshold(Index contact, const Vector& p) const;
+  double slip_threshold(Index contact, const Vector& p) const {
+    return HarmonicProblem::slip_threshold(contact, {}, p);
+  }
 
   /// What the elements do to base and damper.
   struct ElementForces {
@@ -74,19 +67,12 @@ class HarmonicResponse : public HarmonicProblem {
   ElementForces element_forces(const Vector& u, const Vector& p, int regime) const;
 
  private:
-  struct Forces;
-  static Forces& last_forces();
-
   class LoadPath;
   bool evaluate(const Vector& u, const Vector& p, int regime, double share,
                 const continuation::Evaluation& out) const;
   continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
                               Index parameter, double to, const continuation::TraceOptions& limits) const;
   double linear_share(const continuation::Guess& stuck, double share) const;
-
-  /// Of each coordinate; valid until the thread's next call, whose work space it is.
-  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
-                                          bool derivatives) const;
 
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
@@ -112,8 +98,7 @@ class HarmonicResponse : public HarmonicProblem {
   bool is_linear(int regime, Index coordinate) const {
     return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
   }
-  OddMotion::Maximum maximum(const Vector& u, Index contact) const;
-  double load(const Vector& p) const { return HarmonicProblem::load(p(eta), p(preload)); }
+  double load(const Vector& p) const { return HarmonicProblem::load({}, p); }
 };
 
 }  // namespace arcslip::problems

@@ -50,7 +50,7 @@ class LimitCycle : public continuation::Problem {
                 continuation::Gradient* gradient) const override;
   int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
 
-  /// "eta" and the others; eta, R and Y have gradients.
+  /// "eta" and the others.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
   double observe(const Vector& u, const Vector& p, int regime, Index which,

@@ -4,16 +4,13 @@
 // M. Krack, Nonlinear modal analysis of nonconservative systems, Comput. Struct. 154 (2015) 59]. Damping
 // proportional to mass, -2 zeta w* M on both structures, replaces what is lost and keeps the motion periodic:
 //
-//   x_h + C_h(eta, zeta) f_h(x) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h,
+//   x_h + C_h(eta, zeta) f_h(x) = 0,   d_k(h eta) = ... - 2 j zeta h eta^2 in each mode of C_h.
 //
-// in the coordinates x of coordinates.hpp, of which those of the contacts come first,
-//
-// solved relative to |x| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. eta is then
-// the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first harmonic,
-// whose phase is 0. Where zeta = 0 the motion needs no help: a limit cycle.
+// eta is then the mode's frequency and zeta its damping ratio at the amplitude R of the first contact's first
+// harmonic. Where zeta = 0 the motion needs no help: a limit cycle.
 //
 // Unknowns: eta, zeta, then Re and Im of all harmonics of all coordinates but that one, in the order of
-// HarmonicResponse. Parameters: R, P. Regimes and borders are those of HarmonicResponse.
+// HarmonicResponse. Parameters: R, P.
 //
 // Where other modes are far, the forced response near the mode follows from it: with the mode's motion in
 // the structures' modal coordinates, q = a psi, |psi| = 1, and the load l,
@@ -24,11 +21,11 @@
 #include <optional>
 
 #include "arcslip/continuation/path/trace.hpp"
-#include "arcslip/problems/response/harmonic_problem.hpp"
+#include "arcslip/problems/response/free_vibration.hpp"
 
 namespace arcslip::problems {
 
-class NonlinearMode : public HarmonicProblem {
+class NonlinearMode : public FreeVibration {
  public:
   enum Parameter : Index { amplitude, preload };
   enum Unknown : Index { frequency, damping };
@@ -37,21 +34,10 @@ class NonlinearMode : public HarmonicProblem {
   enum Quantity : Index { eta, zeta, S, R_over_S, Y, U, dissipated, force };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit NonlinearMode(HarmonicSystem system) : HarmonicProblem(std::move(system)) {}
+  explicit NonlinearMode(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"R", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
-                const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
-
-  double border(const Vector& u, const Vector& p, int regime, int border,
-                continuation::Gradient* gradient) const override;
-
-  /// Of them eta and zeta have gradients.
-  std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
-                 continuation::Gradient& gradient) const override;
 
   /// A guess of the mode whose frequency in stick is nearest to `eta_value`, at this R and P; R must be so
   /// small that all contacts stick. Throws std::invalid_argument where it is not.
@@ -62,23 +48,15 @@ class NonlinearMode : public HarmonicProblem {
   std::optional<std::array<double, 2>> flanks(const Vector& u, const Vector& p, int regime,
                                               double force) const;
 
+ protected:
+  double synthesised_force(const Vector& u, const Vector& p, int regime) const override;
+
  private:
-  struct Order;
   struct Modal {
     double amplitude;  // a
     double load;       // |psi^H l|
   };
-  Order order(Index which, const Vector& u, int regime) const;
-  HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
-  double load(const Vector& u, const Vector& p) const {
-    return HarmonicProblem::load(u(frequency), p(preload));
-  }
-  double threshold(Index contact, const Vector& u, const Vector& p) const;
-  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
-                                          bool derivatives) const;
   Modal modal(const Vector& u, const Vector& p, int regime) const;
-  void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& friction,
-                const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
 };
 
 }  // namespace arcslip::problems

@@ -16,11 +16,6 @@ namespace arcslip::problems {
 class OneWayResponse : public ForcedResponse {
  public:
   explicit OneWayResponse(FrictionSystem system);
-
-  /// Y alone has a gradient, which is that of |y_0|: what the contact does has no part in it.
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
-                 continuation::Gradient& gradient) const override;
-  using ForcedResponse::observe;
 };
 
 }  // namespace arcslip::problems

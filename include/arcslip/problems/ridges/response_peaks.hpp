@@ -53,11 +53,11 @@ std::size_t highest_of(const std::vector<ResponsePeak>& peaks);
 /// To be used from one thread.
 class ResponsePeaks {
  public:
-  /// Throws std::invalid_argument where the objective has no gradient, std::out_of_range without such names.
+  /// Throws std::invalid_argument where the objective has no gradient, or where there are no such names.
   explicit ResponsePeaks(PeakedResponse response);
 
-  /// All peaks at a value of `across`, one at least, in the order of the response. Throws std::runtime_error, or Unfinished
-  /// for want of time, where it cannot be traced from end to end.
+  /// All peaks at a value of `across`, one at least, in the order of the response. Throws std::runtime_error,
+  /// or Unfinished for want of time, where it cannot be traced from end to end.
   std::vector<ResponsePeak> at(double across);
 
   /// The whole response there; what `at` throws.

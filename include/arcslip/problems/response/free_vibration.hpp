@@ -1,0 +1,36 @@
+#pragma once
+
+// Periodic motion of base, damper and their elements without excitation, in the coordinates x of
+// coordinates.hpp:
+//
+//   x_h + C_h(eta, zeta) f_h(x) = 0,
+//
+// solved relative to |x| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. Its phase is
+// free: Im x_1 = 0 in the first coordinate, the first contact. Regimes and borders are those of
+// HarmonicResponse.
+
+#include "arcslip/problems/response/harmonic_problem.hpp"
+
+namespace arcslip::problems {
+
+class FreeVibration : public HarmonicProblem {
+ public:
+  bool evaluate(const Vector& u, const Vector& p, int regime,
+                const continuation::Evaluation& out) const override;
+
+ protected:
+  using HarmonicProblem::HarmonicProblem;
+
+  double amplitude(const Vector& u, const Vector& p) const { return value(layout_.real, u, p); }
+
+  /// |x|.
+  double length(const Vector& u, const Vector& p) const;
+
+ private:
+  struct Order;
+  Order order(Index which, const Vector& u, const Vector& p, int regime) const;
+  void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
+                const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
+};
+
+}  // namespace arcslip::problems

@@ -1,0 +1,125 @@
+#include "arcslip/problems/response/free_vibration.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace arcslip::problems {
+
+/// One harmonic of the linear part, with derivatives in eta and in the damping.
+struct FreeVibration::Order {
+  Index which;
+  ContactMatrix compliance;  // C_h
+  ContactMatrix compliance_eta;
+  ContactMatrix compliance_damping;
+  double norm = 1;  // 1 + |C_B K|^2 + |C_D K|^2, of the terms that may cancel in C_h K
+  double norm_eta = 0;
+  double norm_damping = 0;
+};
+
+/// The unknowns that are no motion stand in front.
+double FreeVibration::length(const Vector& u, const Vector& p) const {
+  return std::hypot(amplitude(u, p), u.tail(u.size() - 2).norm());
+}
+
+FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Vector& p, int regime) const {
+  const Index m = coordinates_.size();
+  Order order{which, ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m)};
+  if (regime == 0 && which > 0 && !coordinates_.has_others())
+    return order;  // x_h = 0, also at a resonance of C_h
+  const auto add = [&](const ContactModes& structure, bool is_base) {
+    Response found;
+    respond(structure, is_base, which, u, p, found);
+    const auto in_coordinates = [&](const ContactMatrix& matrix) {
+      ContactMatrix sum = ContactMatrix::Zero(m, m);
+      coordinates_.add(matrix, is_base, sum);
+      return sum;
+    };
+    const ContactMatrix compliance = in_coordinates(found.compliance);
+    const ContactMatrix by_eta = in_coordinates(found.compliance_eta);
+    const ContactMatrix by_damping = in_coordinates(found.by_damping);
+    order.compliance += compliance;
+    order.compliance_eta += by_eta;
+    order.compliance_damping += by_damping;
+    for (Index j = 0; j < m; ++j) {
+      const double square = std::pow(coordinates_.element(j).reference_stiffness(), 2);
+      order.norm += square * compliance.col(j).squaredNorm();
+      order.norm_eta += 2 * square * std::real(compliance.col(j).dot(by_eta.col(j)));
+      order.norm_damping += 2 * square * std::real(compliance.col(j).dot(by_damping.col(j)));
+    }
+  };
+  add(system_.base[at(which)], true);
+  add(system_.damper[at(which)], false);
+  return order;
+}
+
+bool FreeVibration::evaluate(const Vector& u, const Vector& p, int regime,
+                             const continuation::Evaluation& out) const {
+  if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 && load(u, p) > 0))
+    return false;
+  for (Index i = 1; i < contacts(); ++i) {
+    if (slips(regime, i) && motion(u, p, i).isZero(0)) return false;
+  }
+  const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
+  const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
+  for (Index a = 0; a < harmonics(); ++a) {
+    const Order at_order = order(a, u, p, regime);
+    for (Index i = 0; i < coordinates_.size(); ++i) fill_row(at_order, i, elements, u, p, out);
+  }
+  return true;
+}
+
+void FreeVibration::fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
+                             const Vector& u, const Vector& p, const continuation::Evaluation& out) const {
+  const Index n = harmonics();
+  const Index row = 2 * (coordinate * n + order.which);
+  const auto store = [row](Complex value, auto&& column) {
+    column(row) = value.real();
+    column(row + 1) = value.imag();
+  };
+  const double size = length(u, p);
+  const double weight = 1 / (std::sqrt(order.norm) * size);
+  Complex residual = motion(u, p, coordinate)(order.which);
+  for (Index j = 0; j < coordinates_.size(); ++j)
+    residual += order.compliance(coordinate, j) * elements[at(j)].harmonics(order.which);
+  if (out.residual != nullptr) store(weight * residual, *out.residual);
+  if (out.jacobian == nullptr && out.parameter_jacobian == nullptr) return;
+
+  const auto store_at = [&](const Place& place, Complex value) {
+    Matrix* into = place.of == Place::unknowns     ? out.jacobian
+                   : place.of == Place::parameters ? out.parameter_jacobian
+                                                   : nullptr;
+    if (into != nullptr) store(weight * value, into->col(place.index));
+  };
+  Complex by_log_load = 0;
+  Complex by_eta = -residual * (0.5 * order.norm_eta / order.norm);
+  Complex by_damping = -residual * (0.5 * order.norm_damping / order.norm);
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    const Complex force = elements[at(j)].harmonics(order.which);
+    by_log_load += order.compliance(coordinate, j) * elements[at(j)].by_log_load(order.which);
+    by_eta += order.compliance_eta(coordinate, j) * force;
+    by_damping += order.compliance_damping(coordinate, j) * force;
+  }
+  const Complex by_load = by_log_load / load(u, p);
+  store_at(layout_.preload, by_load);
+  store_at(layout_.eta, by_eta + by_load * (2 * system_.preload_growth * frequency(u, p)));
+  store_at(layout_.damping, by_damping);
+
+  const Complex shrink = residual / (size * size);
+  // Derivatives by Re and Im of the harmonic that the unknowns from `column` on hold.
+  const auto by_motion = [&](Index column) {
+    const Index j = column / (2 * n);
+    const Index b = column / 2 % n;
+    const Complex c = order.compliance(coordinate, j);
+    const Complex linear = c * elements[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
+    const Complex conjugate = c * elements[at(j)].conjugate(order.which, b);
+    return std::array{linear + conjugate, Complex(0, 1) * (linear - conjugate)};
+  };
+  store_at(layout_.real, by_motion(0)[0] - shrink * amplitude(u, p));
+  for (Index column = 2; column < u.size() && out.jacobian != nullptr; column += 2) {
+    const auto [real, imaginary] = by_motion(column);
+    store(weight * (real - shrink * u(column)), out.jacobian->col(column));
+    store(weight * (imaginary - shrink * u(column + 1)), out.jacobian->col(column + 1));
+  }
+}
+
+}  // namespace arcslip::problems
