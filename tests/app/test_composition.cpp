@@ -1,0 +1,481 @@
+// Whether kinds of systems and tasks compose as the README's table says: each cell that says yes is run to
+// its end, and its numbers are held against another cell's or against what they must be; every other is
+// refused by the sentence that its letter stands for.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "program.hpp"
+
+namespace arcslip::testing::composition {
+namespace {
+
+/// The table of a run, by the names of its columns.
+struct Table {
+  explicit Table(const std::string& path) : rows(testing::read_csv(path)) {
+    REQUIRE(rows.size() > 1);
+    names = rows.front();
+    rows.erase(rows.begin());
+  }
+
+  std::string text(std::size_t row, const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    INFO(name);
+    REQUIRE(found != names.end());
+    return rows[row][static_cast<std::size_t>(found - names.begin())];
+  }
+  double operator()(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
+
+  std::vector<std::size_t> of_type(const std::string& type) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (text(i, "type") == type) found.push_back(i);
+    }
+    return found;
+  }
+
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> names;
+};
+
+/// A kind of system, and the eta in which it is looked at.
+struct Kind {
+  std::string name;
+  std::string text;
+  double low;
+  double high;
+  double eta;
+  double zeta;  // of limit cycles
+};
+
+std::string rods(const std::string& more, const std::string& damping = "{ base = 1e-2, damper = 2e-2 }") {
+  return fmt::format(
+      "[system]\nmodel = \"rods\"\nwave_number = 1\nelements = 12\nmass_ratio = 3.0\nfrequency_ratio = 1.5\n"
+      "interface_stiffness = 40.0\ndamping = {}\nforce = 1.0\npreload = 0.3\n{}\n",
+      damping, more);
+}
+
+std::string sector(const std::string& contacts, const std::string& more) {
+  const auto part = [&](const std::string& name) {
+    return fmt::format(
+        "[system.{0}]\nmass = \"{0}_m.mtx\"\nstiffness = \"{0}_k.mtx\"\nleft = [1]\nright = [4]\n"
+        "contact = {1}\ndamping_kind = \"viscous\"\nreference_frequency = 0.3\n",
+        name, contacts);
+  };
+  return fmt::format(
+             "[system]\nmodel = \"sector\"\nsectors = 12\nwave_number = 1\ncontact_stiffness = 2.0\npreload "
+             "= 0.3\n"
+             "force = 1.0\ndamping = {{ base = 1e-2, damper = 2e-2 }}\nreduction_window = [0.05, 3.0]\n{}\n",
+             more) +
+         part("base") + "load = { dof = [2], value = [1.0] }\n" + part("damper");
+}
+
+std::vector<Kind> kinds() {
+  return {{"plain", rods(""), 0.5, 5, 1.6, -5e-2},
+          {"five harmonics", rods("harmonics = 9"), 0.5, 5, 1.6, -5e-2},
+          {"cubic springs", rods("cubic_stiffness = 0.5"), 0.5, 5, 1.6, -5e-2},
+          {"contact to ground", rods("fixed_damper = true"), 0.5, 5, 1.6, -5e-2},
+          {"negative damping", rods("", "{ base = -2e-3, damper = 0.1 }"), 0.5, 5, 1.6, -5e-2},
+          {"structural damping", rods("", "{ base = 1e-2, damper = 2e-2, kind = \"structural\" }"), 0.5, 5,
+           1.6, -5e-2},
+          {"growing preload", rods("preload_growth = 0.05"), 0.5, 5, 1.6, -5e-2},
+          {"cubic, five harmonics", rods("cubic_stiffness = 0.5\nharmonics = 9"), 0.5, 5, 1.6, -5e-2},
+          {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
+          {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
+          {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
+          {"`path = \"full\"`", sector("[1, 2, 3]", "path = \"full\""), 0.1, 0.6, 0.25, -5e-2}};
+}
+
+/// The matrices of a row of three masses and springs between neighbours and to ground.
+void write_row(const TemporaryFolder& folder, const std::string& name, const std::vector<double>& mass,
+               const std::vector<double>& springs, const std::vector<double>& ground) {
+  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n4 4 ";
+  std::string m = head + "3\n";
+  std::string k = head + "7\n";
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (i < 3) m += fmt::format("{0} {0} {1}\n", i + 1, mass[i]);
+    const double own = (i < 3 ? ground[i] + springs[i] : 0) + (i > 0 ? springs[i - 1] : 0);
+    k += fmt::format("{0} {0} {1}\n", i + 1, own);
+    if (i < 3) k += fmt::format("{} {} {}\n", i + 2, i + 1, -springs[i]);
+  }
+  folder.write(name + "_m.mtx", m);
+  folder.write(name + "_k.mtx", k);
+}
+
+/// One kind of system with all that is asked of it.
+class Cells {
+ public:
+  explicit Cells(const Kind& kind) : kind_(kind) {
+    write_row(folder_, "base", {3, 2.5, 2}, {4, 3, 5}, {5, 4, 6});
+    write_row(folder_, "damper", {1, 0.8, 0.9}, {2, 1.5, 2.5}, {0.1, 0.2, 0.1});
+  }
+
+  /// What becomes of a case; its results in `out`.
+  Outcome run(const std::string& command, const std::string& text, const std::string& options = "") {
+    const std::string path = folder_.write("case.toml", text);
+    return arcslip_program(
+        fmt::format("{} '{}' -o '{}' --quiet {}", command, path, folder_.path("out"), options));
+  }
+  Table results(const std::string& name = "branches.csv") const { return Table(folder_.path("out/" + name)); }
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(testing::read(folder_.path("out/summary.json")));
+  }
+
+  const Kind& kind() const { return kind_; }
+  std::string over_eta() const {
+    return fmt::format("[branch]\nparameter = \"eta\"\nfrom = {}\nto = {}\n", kind_.low, kind_.high);
+  }
+  std::string response(const std::string& more = "", const std::string& system = "") const {
+    return (system.empty() ? kind_.text : system) + over_eta() + more;
+  }
+  /// The system with another value of a key.
+  std::string with(const std::string& from, const std::string& to) const {
+    std::string text = kind_.text;
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+  }
+
+ private:
+  Kind kind_;
+  TemporaryFolder folder_;
+};
+
+void require_done(const Outcome& outcome) {
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+}
+
+std::string stop_at(double value) { return fmt::format("[continuation]\nstop_at = [{}]\n", value); }
+
+struct Task {
+  std::string name;
+  std::function<Outcome(Cells&)> run;
+  std::function<void(Cells&)> check;  // after a run that ended well
+};
+
+Outcome run_over_eta(Cells& cells) { return cells.run("run", cells.response(stop_at(cells.kind().eta))); }
+
+Outcome run_over_preload(Cells& cells) {
+  return cells.run("run", cells.kind().text +
+                              fmt::format("[branch]\nparameter = \"P\"\nfrom = 0.01\nto = 30.0\neta = {}\n",
+                                          cells.kind().eta) +
+                              stop_at(0.3));
+}
+
+/// Y of the first `user` point, and the peaks and switches over eta at P = 0.3.
+double at_stop(const Table& table) {
+  const auto found = table.of_type("user");
+  REQUIRE_FALSE(found.empty());
+  return table(found.front(), "Y");
+}
+
+void check_response(Cells& cells) {
+  const nlohmann::json branch = cells.summary()["branches"][0];
+  CHECK(branch["stop"] == "reached_end");
+  CHECK(branch["power_error"] < 1e-7);
+  CHECK(branch["motion_error"] < 1e-7);
+}
+
+void check_preload_response(Cells& cells) {
+  check_response(cells);
+  const double Y = at_stop(cells.results());
+  require_done(run_over_eta(cells));
+  const Table over_eta = cells.results();
+  bool met = false;  // several responses there may be at one eta
+  for (const std::size_t row : over_eta.of_type("user"))
+    met = met || std::abs(over_eta(row, "Y") / Y - 1) < 1e-8;
+  CHECK(met);
+}
+
+Outcome run_curve(Cells& cells, const std::string& type) {
+  return cells.run(
+      "run", cells.kind().text +
+                 fmt::format("[branch]\ncurve = \"{}\"\nparameters = [\"eta\", \"P\"]\nwindow = [{}, {}]\n"
+                             "from = 0.2\nto = 3.0\n",
+                             type, cells.kind().low, cells.kind().high));
+}
+
+/// Each curve passes the special points that the response at the preload of the system has.
+void check_curve(Cells& cells, const std::string& type) {
+  const Table curve = cells.results();
+  require_done(run_over_eta(cells));
+  const Table response = cells.results();
+  for (const std::size_t at : response.of_type(type)) {
+    bool is_passed = false;
+    for (std::size_t i = 0; i < curve.rows.size(); ++i) {
+      is_passed = is_passed || (std::abs(curve(i, "P") / 0.3 - 1) < 1e-12 &&
+                                std::abs(curve(i, "eta") / response(at, "eta") - 1) < 1e-8 &&
+                                std::abs(curve(i, "Y") / response(at, "Y") - 1) < 1e-8);
+    }
+    CAPTURE(at, response(at, "eta"));
+    CHECK(is_passed);
+  }
+}
+
+std::string study_text(const Cells& cells) {
+  return cells.kind().text +
+         fmt::format("[study]\nparameter = \"P\"\nfrom = 0.1\nto = 5.0\neta = [{}, {}]\n", cells.kind().low,
+                     cells.kind().high);
+}
+
+/// The response at the best preload has Y_opt for its highest point, and those beside it are higher.
+void check_study(Cells& cells) {
+  const Table optimum = cells.results("optimum.csv");
+  const double best = optimum(0, "P_opt");
+  for (const double factor : {1.0, 0.9, 1.1}) {
+    const std::string text =
+        cells.response("", cells.with("preload = 0.3", fmt::format("preload = {:.17g}", factor * best)));
+    require_done(cells.run("run", text));
+    const Table response = cells.results();
+    double highest = 0;
+    for (std::size_t i = 0; i < response.rows.size(); ++i) highest = std::max(highest, response(i, "Y"));
+    CAPTURE(factor, best);
+    if (factor == 1) CHECK_THAT(highest, Catch::Matchers::WithinRel(optimum(0, "Y_opt"), 1e-6));
+    CHECK(highest >= optimum(0, "Y_opt") * (1 - 1e-6));
+  }
+}
+
+void check_scatter(Cells& cells) {
+  const Table quantiles = cells.results("quantiles.csv");
+  for (std::size_t row = 0; row < quantiles.rows.size(); ++row) {
+    CHECK(quantiles(row, "Y_q5") <= quantiles(row, "Y_q50"));
+    CHECK(quantiles(row, "Y_q50") <= quantiles(row, "Y_q95"));
+  }
+}
+
+Outcome run_cycle(Cells& cells) {
+  return cells.run(
+      "run", cells.kind().text + fmt::format("[branch]\nresponse = \"limit_cycle\"\nparameter = \"zeta_B\"\n"
+                                             "start = -1e-2\nfrom = -5e-3\nto = {}\n",
+                                             cells.kind().zeta));
+}
+
+/// The nonlinear mode of the same zeta_B has no damping at the cycle's amplitude and frequency.
+void check_cycle(Cells& cells) {
+  const Table cycle = cells.results();
+  const std::size_t last = cycle.rows.size() - 1;
+  const std::string& text = cells.kind().text;
+  const std::size_t at = text.find("base = ") + 7;
+  const std::string damped =
+      cells.with(text.substr(at - 7, text.find(',', at) - at + 7), "base = " + cycle.text(last, "zeta_B"));
+  require_done(cells.run(
+      "run", damped + fmt::format("[branch]\nresponse = \"nonlinear_mode\"\nparameter = \"R\"\neta = {}\n"
+                                  "from = {}\nto = {:.17g}\n",
+                                  cycle(last, "eta"), 1e-3 * cycle(last, "S"), cycle(last, "R"))));
+  const Table mode = cells.results();
+  const std::size_t end = mode.rows.size() - 1;
+  CHECK_THAT(mode(end, "zeta"), Catch::Matchers::WithinAbs(0, 1e-8));
+  CHECK_THAT(mode(end, "eta"), Catch::Matchers::WithinRel(cycle(last, "eta"), 1e-8));
+}
+
+/// The base moves as it does where the contacts are all but open.
+void check_one_way(Cells& cells) {
+  const double driven = at_stop(cells.results());
+  std::string open = cells.with("preload = 0.3", "preload = 1e-6");
+  if (const std::size_t at = open.find("preload_growth"); at != std::string::npos)
+    open.erase(at, open.find('\n', at) - at);
+  require_done(cells.run("run", cells.response(stop_at(cells.kind().eta), open)));
+  CHECK_THAT(at_stop(cells.results()), Catch::Matchers::WithinRel(driven, 1e-4));
+}
+
+Outcome run_mode(Cells& cells) {
+  return cells.run(
+      "run", cells.kind().text + fmt::format("[branch]\nresponse = \"nonlinear_mode\"\nparameter = \"R\"\n"
+                                             "from = 1e-4\nto = 10.0\neta = {}\n",
+                                             cells.kind().eta));
+}
+
+/// In stick nothing depends on the amplitude, but for cubic springs that at first do nothing.
+void check_mode(Cells& cells) {
+  const Table mode = cells.results();
+  REQUIRE(mode.rows.size() > 10);
+  CHECK(mode.text(0, "regime") == "stick");
+  CHECK_THAT(mode(1, "eta"), Catch::Matchers::WithinRel(mode(0, "eta"), 1e-6));
+  CHECK_THAT(mode(1, "zeta"), Catch::Matchers::WithinRel(mode(0, "zeta"), 1e-6));
+  CHECK(mode.text(mode.rows.size() - 1, "regime") != "stick");
+}
+
+/// Near the eta of the kind, for spectra are dear.
+Outcome run_stability(Cells& cells) {
+  return cells.run(
+      "run",
+      cells.kind().text + fmt::format("[branch]\nparameter = \"eta\"\nfrom = {}\nto = {}\nstability = true\n",
+                                      0.97 * cells.kind().eta, 1.03 * cells.kind().eta));
+}
+
+/// Nothing grows where friction and damping take energy from linear structures.
+void check_stability(Cells& cells) {
+  const Table response = cells.results();
+  const bool may_grow =
+      cells.kind().name == "negative damping" || cells.kind().name.find("cubic") != std::string::npos;
+  bool grows = false;
+  for (std::size_t i = 0; i < response.rows.size(); ++i) {
+    CHECK(response(i, "growth") > 0);
+    grows = grows || response(i, "growth") > 1 + 1e-9;
+  }
+  CHECK((may_grow || !grows));
+}
+
+void check_certificate(Cells& cells) {
+  const nlohmann::json certificate = cells.summary()["branches"][0]["certificate"];
+  INFO(certificate.dump());
+  CHECK(certificate["proven"] == true);
+}
+
+void check_verified(Cells& cells) {
+  const Table verified = cells.results("verify.csv");
+  for (std::size_t i = 0; i < verified.rows.size(); ++i) {
+    CHECK(verified(i, "power_error") < 1e-7);
+    const double timed = verified(i, "Y_time");
+    if (!std::isnan(timed)) CHECK_THAT(timed, Catch::Matchers::WithinRel(verified(i, "Y_harmonics"), 1e-3));
+  }
+}
+
+/// Beside a peak of R all is lower.
+void check_peaks(Cells& cells) {
+  const Table response = cells.results();
+  const auto peaks = response.of_type("peak");
+  REQUIRE_FALSE(peaks.empty());
+  for (const std::size_t at : peaks) {
+    CAPTURE(at);
+    for (const std::size_t beside : {at - 1, at + 1})
+      CHECK(response(beside, "R") <= response(at, "R") * (1 + 1e-12));
+  }
+}
+
+std::vector<Task> tasks() {
+  const auto study = [](Cells& cells) { return cells.run("study", study_text(cells)); };
+  const auto scatter = [](Cells& cells) {
+    return cells.run("study", study_text(cells) +
+                                  "sweep = true\n[study.uncertain]\nmu = { lognormal = 0.2 }\n"
+                                  "preload = { uniform = [0.8, 1.25] }\nsamples = 100\n");
+  };
+  const auto asked = [](const std::string& more, const std::string& options = "") {
+    return [=](Cells& cells) { return cells.run("run", cells.response(more), options); };
+  };
+  const auto verified = [](Cells& cells) {
+    return cells.run("run", cells.response(stop_at(cells.kind().eta)), "--verify");
+  };
+  const auto curve = [](const std::string& type) {
+    return [=](Cells& cells) { return run_curve(cells, type); };
+  };
+  const auto passes = [](const std::string& type) { return [=](Cells& cells) { check_curve(cells, type); }; };
+  const auto one_way = [](Cells& cells) {
+    return cells.run("run", cells.response("response = \"one_way\"\n" + stop_at(cells.kind().eta)));
+  };
+  return {{"over eta", run_over_eta, check_response},
+          {"over P", run_over_preload, check_preload_response},
+          {"`peak` curve", curve("peak"), passes("peak")},
+          {"`switch` curve", curve("switch"), passes("switch")},
+          {"study", study, check_study},
+          {"scatter", scatter, check_scatter},
+          {"limit cycle", run_cycle, check_cycle},
+          {"one-way", one_way, check_one_way},
+          {"mode", run_mode, check_mode},
+          {"stability", run_stability, check_stability},
+          {"`--certify`", asked("", "--certify"), check_certificate},
+          {"`--verify`", verified, check_verified},
+          {"peaks of R", asked("extrema_of = [\"R\"]\n"), check_peaks}};
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> found;
+  for (std::size_t at = line.find('|'); at != std::string::npos; at = line.find('|', at + 1)) {
+    const std::size_t end = line.find('|', at + 1);
+    if (end == std::string::npos) break;
+    const std::string cell = line.substr(at + 1, end - at - 1);
+    const std::size_t first = cell.find_first_not_of(' ');
+    found.push_back(first == std::string::npos ? ""
+                                               : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+  }
+  return found;
+}
+
+/// Lines of the README's table, by the kind of system; under "" its head.
+std::map<std::string, std::vector<std::string>> promised() {
+  const std::string readme = testing::read(testing::source_folder() + "/README.md");
+  const std::size_t start = readme.find("| works with |");
+  REQUIRE(start != std::string::npos);
+  std::istringstream in(readme.substr(start));
+  std::map<std::string, std::vector<std::string>> lines;
+  for (std::string line; std::getline(in, line) && line.front() == '|';) {
+    std::vector<std::string> cells = cells_of(line);
+    const std::string name = lines.empty() ? "" : cells.front();
+    cells.erase(cells.begin());
+    lines[name] = std::move(cells);
+  }
+  return lines;
+}
+
+/// What a letter of the table stands for, in the words of the program.
+const std::map<std::string, std::string> reasons = {
+    {"a", "certify"}, {"b", "grows without bound"}, {"c", "structural"}, {"d", "\"reduced\""}};
+
+void check_kind(const std::string& name) {
+  const auto lines = promised();
+  const std::vector<Kind> all = kinds();
+  const auto kind = std::find_if(all.begin(), all.end(), [&](const Kind& one) { return one.name == name; });
+  REQUIRE(kind != all.end());
+  REQUIRE(lines.count(name) == 1);
+  const std::vector<std::string>& line = lines.at(name);
+  const std::vector<Task> list = tasks();
+  REQUIRE(line.size() == list.size());
+  Cells cells(*kind);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    CHECK(lines.at("")[i] == list[i].name);
+    const Outcome outcome = list[i].run(cells);
+    INFO(name << ", " << list[i].name << ": " << outcome.err);
+    if (line[i] == "yes") {
+      CHECK(outcome.status == 0);
+      if (outcome.status == 0) list[i].check(cells);
+    } else {
+      CHECK(outcome.status == 1);
+      CHECK(testing::is_one_line(outcome.err));
+      CHECK_THAT(outcome.err, Catch::Matchers::Contains(reasons.at(line[i])));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The table of what works with what has a hundred and forty that do", "[composition]") {
+  std::size_t working = 0;
+  const auto lines = promised();
+  CHECK(lines.size() == 1 + kinds().size() + 1);  // with the rule below the head
+  for (const auto& [name, cells] : lines) {
+    if (!name.empty()) working += static_cast<std::size_t>(std::count(cells.begin(), cells.end(), "yes"));
+  }
+  CHECK(working >= 140);
+}
+
+TEST_CASE("All tasks compose with one contact in one harmonic", "[composition]") { check_kind("plain"); }
+TEST_CASE("All tasks compose with five harmonics", "[composition]") { check_kind("five harmonics"); }
+TEST_CASE("All tasks compose with cubic springs", "[composition]") { check_kind("cubic springs"); }
+TEST_CASE("All tasks compose with a contact to ground", "[composition]") { check_kind("contact to ground"); }
+TEST_CASE("All tasks compose with negative damping", "[composition]") { check_kind("negative damping"); }
+TEST_CASE("All tasks compose with structural damping", "[composition]") { check_kind("structural damping"); }
+TEST_CASE("All tasks compose with a growing preload", "[composition]") { check_kind("growing preload"); }
+TEST_CASE("All tasks compose with cubic springs in five harmonics", "[composition]") {
+  check_kind("cubic, five harmonics");
+}
+TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
+TEST_CASE("All tasks compose with a sector of three contacts", "[composition]") {
+  check_kind("three contacts");
+}
+TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition]") {
+  check_kind("three contacts, five harmonics");
+}
+TEST_CASE("All tasks compose with the full path of a sector", "[composition]") {
+  check_kind("`path = \"full\"`");
+}
+
+}  // namespace arcslip::testing::composition
