@@ -64,11 +64,27 @@ double CornerSlopes::border_rate(const BasePoint& point, const Branch& side) {
   return rate(gradient_, side.tangent);
 }
 
+/// The border of the regime beyond one that leads back across it; where several meet, the nearest need not.
+std::optional<int> CornerSlopes::way_back(const BasePoint& point, int beyond) const {
+  std::optional<int> back;
+  double nearest = 0;
+  for (int b = 0; b < base_.border_count(beyond); ++b) {
+    if (base_.regime_beyond(beyond, b) != point.regime) continue;
+    const double value = std::abs(base_.border(point.unknowns, point.parameters, beyond, b, nullptr));
+    if (back && value >= nearest) continue;
+    back = b;
+    nearest = value;
+  }
+  if (back) return back;
+  const auto any = nearest_border(base_, active_, point, beyond);
+  return any ? std::optional(any->border) : std::nullopt;
+}
+
 bool CornerSlopes::begin(const BasePoint& point, int border) {
   const int beyond = base_.regime_beyond(point.regime, border);
-  const auto back = beyond < 0 ? std::nullopt : nearest_border(base_, active_, point, beyond);
+  const auto back = beyond < 0 ? std::nullopt : way_back(point, beyond);
   if (!back) return false;
-  sides_ = {Branch{point.regime, border, {}}, Branch{beyond, back->border, {}}};
+  sides_ = {Branch{point.regime, border, {}}, Branch{beyond, *back, {}}};
   for (const Side side : {arriving, leaving}) {
     Branch& branch = sides_[side];
     if (!set_tangent(point, branch)) return false;

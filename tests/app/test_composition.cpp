@@ -222,9 +222,8 @@ void check_curve(Cells& cells, const std::string& type) {
 }
 
 std::string study_text(const Cells& cells) {
-  return cells.kind().text +
-         fmt::format("[study]\nparameter = \"P\"\nfrom = 0.1\nto = 5.0\neta = [{}, {}]\n", cells.kind().low,
-                     cells.kind().high);
+  return cells.kind().text + fmt::format("[study]\nparameter = \"P\"\nfrom = 0.1\nto = 5.0\neta = [{}, {}]\n",
+                                         cells.kind().low, cells.kind().high);
 }
 
 /// The response at the best preload has Y_opt for its highest point, and those beside it are higher.

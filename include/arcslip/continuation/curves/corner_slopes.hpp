@@ -61,6 +61,7 @@ class CornerSlopes {
   std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign, double farthest);
 
  private:
+  std::optional<int> way_back(const BasePoint& point, int beyond) const;
   struct Branch {
     int regime = 0;
     int border = 0;
