@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "arcslip/cases/case_file.hpp"
+#include "arcslip/cases/certification.hpp"
 #include "arcslip/results/results.hpp"
 #include "keys/printable.hpp"
 #include "results/certificate_results.hpp"

@@ -372,38 +372,4 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
                                              : trace_given(kept, time, observer);
 }
 
-std::string why_not_certifiable(const CaseBranch& request) {
-  const ProblemRequest& problem = request.problem;
-  if (problem.model != nullptr)
-    return fmt::format("the model {}, whose equations have no closed enclosure", problem.model->name);
-  if (request.curve)
-    return fmt::format("a curve of {} points, which has a second equation for what its points are",
-                       to_string(request.curve->type));
-  if (problem.is_limit_cycle()) return "limit cycles, whose frequency is a second unknown";
-  if (problem.response == Response::one_way)
-    return "a one-way response, from which the base's compliance, part of what it encloses, is left out";
-  if (problem.is_mode()) return "nonlinear modes, whose frequency and damping are unknowns beside R";
-  if (problem.stability)
-    return "branches with stability: exponents are eigenvalues, which it would leave unproven beside them";
-  if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance)
-    return "several harmonics, each of which is a further complex unknown, and whose friction depends on "
-           "turning points of r(t) that have no closed form";
-  if (needs_contact_system(problem.system))
-    return problem.system.contacts.size() > 1
-               ? "several contacts, whose phases against each other are unknowns beside their amplitudes"
-               : "the full path of a sector, whose compliance comes from sparse solves without an enclosure";
-  if (problem.system.cubic_stiffness != 0)
-    return "cubic springs, which make the amplitude of the base a second unknown";
-  return "";
-}
-
-void certify(TracedBranch& traced) {
-  const continuation::TraceOptions& options = traced.request->options;
-  const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
-  const auto parameter =
-      options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
-  traced.certificate = problems::certify(problem, traced.branch, parameter,
-                                         {options.tolerance, options.max_step, options.go_on});
-}
-
 }  // namespace arcslip

@@ -13,141 +13,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "program.hpp"
+#include "composition.hpp"
 
 namespace arcslip::testing::composition {
 namespace {
-
-/// The table of a run, by the names of its columns.
-struct Table {
-  explicit Table(const std::string& path) : rows(testing::read_csv(path)) {
-    REQUIRE(rows.size() > 1);
-    names = rows.front();
-    rows.erase(rows.begin());
-  }
-
-  std::string text(std::size_t row, const std::string& name) const {
-    const auto found = std::find(names.begin(), names.end(), name);
-    INFO(name);
-    REQUIRE(found != names.end());
-    return rows[row][static_cast<std::size_t>(found - names.begin())];
-  }
-  double operator()(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
-
-  std::vector<std::size_t> of_type(const std::string& type) const {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (text(i, "type") == type) found.push_back(i);
-    }
-    return found;
-  }
-
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> names;
-};
-
-/// A kind of system, and the eta in which it is looked at.
-struct Kind {
-  std::string name;
-  std::string text;
-  double low;
-  double high;
-  double eta;
-  double zeta;  // of limit cycles
-};
-
-std::string rods(const std::string& more, const std::string& damping = "{ base = 1e-2, damper = 2e-2 }") {
-  return fmt::format(
-      "[system]\nmodel = \"rods\"\nwave_number = 1\nelements = 12\nmass_ratio = 3.0\nfrequency_ratio = 1.5\n"
-      "interface_stiffness = 40.0\ndamping = {}\nforce = 1.0\npreload = 0.3\n{}\n",
-      damping, more);
-}
-
-std::string sector(const std::string& contacts, const std::string& more) {
-  const auto part = [&](const std::string& name) {
-    return fmt::format(
-        "[system.{0}]\nmass = \"{0}_m.mtx\"\nstiffness = \"{0}_k.mtx\"\nleft = [1]\nright = [4]\n"
-        "contact = {1}\ndamping_kind = \"viscous\"\nreference_frequency = 0.3\n",
-        name, contacts);
-  };
-  return fmt::format(
-             "[system]\nmodel = \"sector\"\nsectors = 12\nwave_number = 1\ncontact_stiffness = 2.0\npreload "
-             "= 0.3\n"
-             "force = 1.0\ndamping = {{ base = 1e-2, damper = 2e-2 }}\nreduction_window = [0.05, 3.0]\n{}\n",
-             more) +
-         part("base") + "load = { dof = [2], value = [1.0] }\n" + part("damper");
-}
-
-std::vector<Kind> kinds() {
-  return {{"plain", rods(""), 0.5, 5, 1.6, -5e-2},
-          {"five harmonics", rods("harmonics = 9"), 0.5, 5, 1.6, -5e-2},
-          {"cubic springs", rods("cubic_stiffness = 0.5"), 0.5, 5, 1.6, -5e-2},
-          {"contact to ground", rods("fixed_damper = true"), 0.5, 5, 1.6, -5e-2},
-          {"negative damping", rods("", "{ base = -2e-3, damper = 0.1 }"), 0.5, 5, 1.6, -5e-2},
-          {"structural damping", rods("", "{ base = 1e-2, damper = 2e-2, kind = \"structural\" }"), 0.5, 5,
-           1.6, -5e-2},
-          {"growing preload", rods("preload_growth = 0.05"), 0.5, 5, 1.6, -5e-2},
-          {"cubic, five harmonics", rods("cubic_stiffness = 0.5\nharmonics = 9"), 0.5, 5, 1.6, -5e-2},
-          {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
-          {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
-          {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
-          {"`path = \"full\"`", sector("[1, 2, 3]", "path = \"full\""), 0.1, 0.6, 0.25, -5e-2}};
-}
-
-/// The matrices of a row of three masses and springs between neighbours and to ground.
-void write_row(const TemporaryFolder& folder, const std::string& name, const std::vector<double>& mass,
-               const std::vector<double>& springs, const std::vector<double>& ground) {
-  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n4 4 ";
-  std::string m = head + "3\n";
-  std::string k = head + "7\n";
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (i < 3) m += fmt::format("{0} {0} {1}\n", i + 1, mass[i]);
-    const double own = (i < 3 ? ground[i] + springs[i] : 0) + (i > 0 ? springs[i - 1] : 0);
-    k += fmt::format("{0} {0} {1}\n", i + 1, own);
-    if (i < 3) k += fmt::format("{} {} {}\n", i + 2, i + 1, -springs[i]);
-  }
-  folder.write(name + "_m.mtx", m);
-  folder.write(name + "_k.mtx", k);
-}
-
-/// One kind of system with all that is asked of it.
-class Cells {
- public:
-  explicit Cells(const Kind& kind) : kind_(kind) {
-    write_row(folder_, "base", {3, 2.5, 2}, {4, 3, 5}, {5, 4, 6});
-    write_row(folder_, "damper", {1, 0.8, 0.9}, {2, 1.5, 2.5}, {0.1, 0.2, 0.1});
-  }
-
-  /// What becomes of a case; its results in `out`.
-  Outcome run(const std::string& command, const std::string& text, const std::string& options = "") {
-    const std::string path = folder_.write("case.toml", text);
-    return arcslip_program(
-        fmt::format("{} '{}' -o '{}' --quiet {}", command, path, folder_.path("out"), options));
-  }
-  Table results(const std::string& name = "branches.csv") const { return Table(folder_.path("out/" + name)); }
-  nlohmann::json summary() const {
-    return nlohmann::json::parse(testing::read(folder_.path("out/summary.json")));
-  }
-
-  const Kind& kind() const { return kind_; }
-  std::string over_eta() const {
-    return fmt::format("[branch]\nparameter = \"eta\"\nfrom = {}\nto = {}\n", kind_.low, kind_.high);
-  }
-  std::string response(const std::string& more = "", const std::string& system = "") const {
-    return (system.empty() ? kind_.text : system) + over_eta() + more;
-  }
-  /// The system with another value of a key.
-  std::string with(const std::string& from, const std::string& to) const {
-    std::string text = kind_.text;
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-  }
-
- private:
-  Kind kind_;
-  TemporaryFolder folder_;
-};
 
 void require_done(const Outcome& outcome) {
   INFO(outcome.err);
@@ -221,9 +90,9 @@ void check_curve(Cells& cells, const std::string& type) {
   }
 }
 
-std::string study_text(const Cells& cells) {
-  return cells.kind().text + fmt::format("[study]\nparameter = \"P\"\nfrom = 0.1\nto = 5.0\neta = [{}, {}]\n",
-                                         cells.kind().low, cells.kind().high);
+std::string study_text(const Cells& cells, double from, double to) {
+  return cells.kind().text + fmt::format("[study]\nparameter = \"P\"\nfrom = {}\nto = {}\neta = [{}, {}]\n",
+                                         from, to, cells.kind().low, cells.kind().high);
 }
 
 /// The response at the best preload has Y_opt for its highest point, and those beside it are higher.
@@ -352,9 +221,9 @@ void check_peaks(Cells& cells) {
 }
 
 std::vector<Task> tasks() {
-  const auto study = [](Cells& cells) { return cells.run("study", study_text(cells)); };
+  const auto study = [](Cells& cells) { return cells.run("study", study_text(cells, 0.1, 5)); };
   const auto scatter = [](Cells& cells) {
-    return cells.run("study", study_text(cells) +
+    return cells.run("study", study_text(cells, 0.5, 1) +
                                   "sweep = true\n[study.uncertain]\nmu = { lognormal = 0.2 }\n"
                                   "preload = { uniform = [0.8, 1.25] }\nsamples = 100\n");
   };

@@ -70,10 +70,4 @@ std::vector<int> missing_orders(const SystemParameters& system, const continuati
 /// Adds orders to ascending ones, each once.
 void add_orders(std::vector<int>& orders, const std::vector<int>& more);
 
-/// What of this request cannot be certified and why, or empty.
-std::string why_not_certifiable(const CaseBranch& request);
-
-/// Proves a traced branch that can be certified, and stores the certificate in it.
-void certify(TracedBranch& traced);
-
 }  // namespace arcslip
