@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "arcslip/cases/certification.hpp"
 #include "case_runs.hpp"
 #include "catch.hpp"
 #include "paper_cases.hpp"
