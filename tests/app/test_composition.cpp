@@ -275,7 +275,7 @@ std::map<std::string, std::vector<std::string>> promised() {
   REQUIRE(start != std::string::npos);
   std::istringstream in(readme.substr(start));
   std::map<std::string, std::vector<std::string>> lines;
-  for (std::string line; std::getline(in, line) && line.front() == '|';) {
+  for (std::string line; std::getline(in, line) && line.starts_with('|');) {
     std::vector<std::string> cells = cells_of(line);
     const std::string name = lines.empty() ? "" : cells.front();
     cells.erase(cells.begin());
