@@ -35,12 +35,6 @@ CornerSlopes::CornerSlopes(const Problem& base, Index active, Index observable)
   gradient_ = {Vector::Zero(base.size()), Vector::Zero(at_.parameters.size())};
 }
 
-double CornerSlopes::rate(const Gradient& gradient, const Vector& tangent) const {
-  const Index n = base_.size();
-  return gradient.unknowns.dot(at_.scale.head(n).cwiseProduct(tangent.head(n))) +
-         gradient.parameters(active_) * at_.scale(n) * tangent(n);
-}
-
 bool CornerSlopes::set_tangent(const BasePoint& point, Branch& side) {
   at_.unknowns = point.unknowns;
   at_.parameters = point.parameters;
@@ -61,7 +55,7 @@ bool CornerSlopes::set_tangent(const BasePoint& point, Branch& side) {
 
 double CornerSlopes::border_rate(const BasePoint& point, const Branch& side) {
   base_.border(point.unknowns, point.parameters, side.regime, side.border, &gradient_);
-  return rate(gradient_, side.tangent);
+  return rate(gradient_, active_, at_.scale, side.tangent);
 }
 
 /// The border of the regime beyond one that leads back across it; where several meet, the nearest need not.
@@ -113,7 +107,7 @@ double CornerSlopes::slope(const BasePoint& point, Side side) {
   const BasePoint at = just_beyond(point, there);
   if (!set_tangent(at, there)) return std::nan("");
   const double value = base_.observe(at.unknowns, at.parameters, there.regime, observable_, gradient_);
-  return rate(gradient_, there.tangent) / std::abs(value);
+  return rate(gradient_, active_, at_.scale, there.tangent) / std::abs(value);
 }
 
 void CornerSlopes::follow(const BasePoint& point) {

@@ -30,15 +30,11 @@ bool ExtremumTracer::fill(int border, const BasePoint& corner, double from, doub
     const auto found = at ? slopes_.extremum_inside(at->point, side) : std::nullopt;
     if (!found) continue;
     BranchPoint point = row(*found, PointType::user);
-    point.tangent = way(curve_.points.back(), point);
-    point.tangent /= steps(point.tangent, point).norm();
+    point.tangent = direction_to(point);
     const bool ends = target == options_.from || target == options_.to;
     if (ends) point.type = PointType::end;
     add(std::move(point));
-    if (!ends) continue;
-    if (target == options_.to) stop(Stop::reached_end, "the last value was reached");
-    if (target == options_.from) stop(Stop::left_range, "the branch leaves the range at " + place());
-    return false;
+    if (ends) return finish(target);
   }
   return !told_to_end_;
 }
@@ -114,8 +110,7 @@ std::optional<BasePoint> ExtremumTracer::first_inside(const BasePoint& corner, S
         return distance(to.point) - least < std::max(most, shortest_way);
       };
       if (last && (!next || !leads(*last, *next))) break;
-      if (next && distance(next->point) < narrow) last = next;
-      if (next && last) last = next;
+      if (next && (last || distance(next->point) < narrow)) last = next;
     }
     if (last) return last->point;
   }
@@ -146,8 +141,7 @@ BasePoint ExtremumTracer::at_value(const BasePoint& next, int border, double val
 BasePoint ExtremumTracer::refined(const BasePoint& point, int border, Side side) {
   constexpr double farthest = 1e-5;
   const double place = value(point);
-  const double scale =
-      1 / steps(Vector::Ones(problem_.size() + 1), row(point, PointType::regular))(problem_.size());
+  const double scale = parameter_scale(row(point, PointType::regular));
   const auto slope_at = [&](double at) { return slopes_.slope(at_value(point, border, at), side); };
   for (double reach = shortest_way; reach <= farthest; reach *= 10) {
     const double low = place - reach * scale;
@@ -172,8 +166,7 @@ double ExtremumTracer::distance(const BasePoint& point) const {
 std::optional<BasePoint> ExtremumTracer::fold_beside(const BasePoint& corner, int border, Side side) {
   const double inside = next_inside(corner, side).slope;
   std::optional<BasePoint> top;
-  const double scale =
-      1 / steps(Vector::Ones(problem_.size() + 1), row(corner, PointType::regular))(problem_.size());
+  const double scale = parameter_scale(row(corner, PointType::regular));
   const auto height = [&](double along, bool up) {
     const BasePoint from = at_value(corner, border, value(corner) + (up ? along : -along) * scale);
     if (!(slopes_.slope(from, side) * inside < 0)) return std::nan("");
@@ -204,8 +197,7 @@ bool ExtremumTracer::add_fold(const BasePoint& corner, int border, Side side) {
   if (!found) return false;
   if (found->parameters == corner.parameters) return true;
   BranchPoint fold = row(*found, PointType::fold);
-  fold.tangent = way(curve_.points.back(), fold);
-  fold.tangent /= steps(fold.tangent, fold).norm();
+  fold.tangent = direction_to(fold);
   fold.tangent(fold.tangent.size() - 1) = 0;
   const double rises = observable_rate(fold, way(curve_.points.back(), fold));
   add(fold);
@@ -251,12 +243,10 @@ std::optional<ExtremumPlace> ExtremumTracer::meeting_beside(const BranchPoint& l
   Gradient gradient{Vector::Zero(problem_.size()), Vector::Zero(last.parameters.size())};
   const double border =
       problem_.border(last.unknowns, last.parameters, last.regime, nearest.border, &gradient);
-  const Index n = problem_.size();
-  const double rate =
-      gradient.unknowns.dot(last.tangent.head(n)) + gradient.parameters(parameter_) * last.tangent(n);
   // A curve that touches the border comes to it twice as far on as one that crosses it.
   constexpr double sure = 10;
-  const double most = std::clamp(sure * std::abs(border / rate), shortest_way, std::sqrt(within_reach));
+  const double most = std::clamp(sure * std::abs(border / rate(gradient, parameter_, last.tangent)),
+                                 shortest_way, std::sqrt(within_reach));
   if (!std::isfinite(most)) return std::nullopt;
   BorderProblem edge(base_, active, nearest.border);
   const auto beside = locate(edge, from, options_.tolerance);
@@ -282,8 +272,7 @@ std::optional<ExtremumPlace> ExtremumTracer::meeting_beside(const BranchPoint& l
   if (!turns && !fill(nearest.border, at, value(from), value(at), CornerSlopes::arriving))
     return std::nullopt;
   BranchPoint corner = row(at, PointType::regime_switch);
-  const Vector chord = way(curve_.points.back(), corner);
-  corner.arrival = chord / steps(chord, corner).norm();
+  corner.arrival = direction_to(corner);
   // A parabola in between.
   if (!turns) corner.arrival = 2 * corner.arrival - curve_.points.back().tangent;
   corner.arrival /= steps(corner.arrival, corner).norm();

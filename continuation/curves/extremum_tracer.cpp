@@ -44,6 +44,17 @@ Vector ExtremumTracer::way(const BranchPoint& from, const BranchPoint& to) const
   return difference;
 }
 
+/// The unit direction from the last row to a point.
+Vector ExtremumTracer::direction_to(const BranchPoint& point) const {
+  const Vector chord = way(curve_.points.back(), point);
+  return chord / steps(chord, point).norm();
+}
+
+/// A unit of the parameter at a point, in the units of arclengths.
+double ExtremumTracer::parameter_scale(const BranchPoint& at) const {
+  return 1 / steps(Vector::Ones(problem_.size() + 1), at)(problem_.size());
+}
+
 std::string ExtremumTracer::place() const {
   return fmt::format("{} = {:.10g}", options_.parameter, curve_.points.back().parameters(parameter_));
 }
@@ -224,11 +235,9 @@ void ExtremumTracer::turn(Vector tangent, int regime) {
 double ExtremumTracer::observable_rate(const BranchPoint& at, const Vector& direction) const {
   if (options_.extrema_of.empty()) return 0;
   const Index which = index_of(observable_names(problem_), options_.extrema_of.front());
-  const Index last = problem_.size();
-  Gradient gradient{Vector::Zero(last), Vector::Zero(at.parameters.size())};
+  Gradient gradient{Vector::Zero(problem_.size()), Vector::Zero(at.parameters.size())};
   const double size = std::abs(problem_.observe(at.unknowns, at.parameters, at.regime, which, gradient));
-  return (gradient.unknowns.dot(direction.head(last)) + gradient.parameters(parameter_) * direction(last)) /
-         size;
+  return rate(gradient, parameter_, direction) / size;
 }
 
 /// Whether it has come back to its start, behind which it is cut.

@@ -27,7 +27,7 @@ bool ExtremumTracer::is_asked_for(double value) const {
 }
 
 /// Ends on an end of the range.
-bool ExtremumTracer::finish_walk(double value) {
+bool ExtremumTracer::finish(double value) {
   curve_.points.back().type = PointType::end;
   if (value == options_.to) {
     stop(Stop::reached_end, "the last value was reached");
@@ -108,91 +108,96 @@ std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, b
     curve_.points.pop_back();
   }
   BranchPoint corrected = row(found->at, PointType::regular);
-  corrected.tangent = way(curve_.points.back(), corrected);
-  corrected.tangent /= steps(corrected.tangent, corrected).norm();
+  corrected.tangent = direction_to(corrected);
   add(std::move(corrected));
   return found->at;
 }
 
+namespace {
+constexpr double first_step = 1e-9;  // of the parameter, in its scale
+}
+
+/// The row of a response's extremum at a value of the parameter, and what the next one is predicted by.
+void ExtremumTracer::stride(Walk& walk, const ResponseExtremum::Found& next, double to) {
+  walk.rate = (guess_at(next.at).unknowns - guess_at(walk.here).unknowns) / (to - value(walk.here));
+  BranchPoint point = row(next.at, is_asked_for(to) ? PointType::user : PointType::regular);
+  const double length = steps(way(curve_.points.back(), point), point).norm();
+  point.tangent = direction_to(point);
+  add(std::move(point));
+  walk.here = next.at;
+  if (walk.predicts && std::abs(next.way) < 0.05 * length)
+    walk.step = std::min(2 * walk.step, options_.max_step);
+  walk.predicts = true;
+  ++walk.walked;
+  walk.flips = 0;
+}
+
+/// Where the extremum vanishes together with one of the other kind: on that the curve goes back. False where
+/// it does not.
+bool ExtremumTracer::fold_back(Walk& walk, ResponseExtremum& extrema) {
+  constexpr double far = 1e-5;  // on the response, in the scale: to the other one of a pair that vanishes
+  const auto other = extrema.next_to(walk.here, !walk.peak, far);
+  if (!other || ++walk.flips > 1) return false;
+  walk.peak = !walk.peak;
+  walk.sense = -walk.sense;
+  walk.here = other->at;
+  walk.step = first_step;
+  walk.predicts = false;
+  walk.rate.setZero();
+  BranchPoint fold = row(walk.here, PointType::corner_fold);
+  fold.tangent = -curve_.points.back().tangent;
+  add(std::move(fold));
+  if (told_to_end_ || is_satisfied()) return false;
+  if (!has_turned_here()) return true;
+  stop(Stop::min_step, "the curve goes back on itself, at " + place());
+  return false;
+}
+
 bool ExtremumTracer::walk() {
-  constexpr double least_step = 1e-12;  // of the parameter, in its scale
-  constexpr double first_step = 1e-9;
-  constexpr double far =
-      1e-5;  // on the response, in the scale: to the other extremum of a pair that vanishes
+  constexpr double least_step = 1e-12;
   ResponseExtremum extrema(base_, problem_.active(), *problem_.extremum_of());
-  bool peak = false;
-  const auto begin = begin_walk(extrema, peak);
+  Walk walk;
+  const auto begin = begin_walk(extrema, walk.peak);
   if (!begin) return false;
-  BasePoint here = *begin;
-  const BranchPoint last = curve_.points.back();
-  const Index n = problem_.size();
-  const double scale = 1 / steps(Vector::Ones(n + 1), last)(n);
-  double sense = way_so_far(scale);
-  Vector rate = Vector::Zero(n);  // of the unknowns over the parameter
-  bool predicts = false;
-  double step = first_step;
-  int flips = 0;
-  for (int walked = 0; std::ssize(curve_.points) < options_.max_points;) {
-    const double from = value(here);
-    const double to = next_value(from, from + sense * step * scale);
-    if (to == from) return finish_walk(from);
-    Guess guess = guess_at(here);
-    guess.unknowns += rate * (to - from);
+  const double scale = parameter_scale(curve_.points.back());
+  walk.here = *begin;
+  walk.sense = way_so_far(scale);
+  walk.step = first_step;
+  walk.rate = Vector::Zero(problem_.size());
+  while (std::ssize(curve_.points) < options_.max_points) {
+    const double from = value(walk.here);
+    const double to = next_value(from, from + walk.sense * walk.step * scale);
+    if (to == from) return finish(from);
+    Guess guess = guess_at(walk.here);
+    guess.unknowns += walk.rate * (to - from);
     guess.parameters(parameter_) = to;
     const double reach = 100 * std::abs(to - from) / scale;
-    auto next = extrema.next_to(problem_.split(guess.unknowns, guess.parameters, here.regime), peak, reach);
+    const auto next =
+        extrema.next_to(problem_.split(guess.unknowns, guess.parameters, walk.here.regime), walk.peak, reach);
     const bool inside = next && distance(next->at) >= 0;
     const bool in_window = next && next->at.parameters(problem_.active()) >= window_.low &&
                            next->at.parameters(problem_.active()) <= window_.high;
-    if (next && inside && in_window) {
-      const Guess there = guess_at(next->at);
-      rate = (there.unknowns - guess_at(here).unknowns) / (to - from);
-      BranchPoint point = row(next->at, is_asked_for(to) ? PointType::user : PointType::regular);
-      point.tangent = way(curve_.points.back(), point);
-      point.tangent /= steps(point.tangent, point).norm();
-      const bool good =
-          predicts && std::abs(next->way) < 0.05 * steps(way(curve_.points.back(), point), point).norm();
-      add(point);
+    if (inside && in_window) {
+      stride(walk, *next, to);
       if (told_to_end_) return false;
-      here = next->at;
-      if (good) step = std::min(2 * step, options_.max_step);
-      if (!predicts) predicts = true;
-      ++walked;
-      flips = 0;
-      if (next->corner || walked < patience_) continue;
+      if (next->corner || walk.walked < patience_) continue;
       patience_ *= 2;
-      if (smoothly_on(here, sense)) return true;
+      if (smoothly_on(walk.here, walk.sense)) return true;
       continue;
     }
-    step *= 0.25;
-    if (step > least_step) continue;
+    walk.step *= 0.25;
+    if (walk.step > least_step) continue;
     if (next && !in_window) {
       curve_.points.back().type = PointType::end;
       stop(Stop::reached_end,
            fmt::format("{} reached an end of its range", problem_.observables().front().name));
       return false;
     }
-    if (next && !inside) {
+    if (next) {
       const auto place = meeting();
       return place && leave(*place);
     }
-    // It vanishes together with one of the other kind, on which the curve goes back.
-    const auto other = extrema.next_to(here, !peak, far);
-    if (!other || ++flips > 1) return false;
-    peak = !peak;
-    sense = -sense;
-    here = other->at;
-    step = first_step;
-    predicts = false;
-    rate.setZero();
-    BranchPoint fold = row(here, PointType::corner_fold);
-    fold.tangent = -curve_.points.back().tangent;
-    add(std::move(fold));
-    if (told_to_end_ || is_satisfied()) return false;
-    if (has_turned_here()) {
-      stop(Stop::min_step, "the curve goes back on itself, at " + this->place());
-      return false;
-    }
+    if (!fold_back(walk, extrema)) return false;
   }
   return false;
 }

@@ -39,10 +39,7 @@ double ResponseExtremum::slope(double way) {
   if (!go(way)) return std::numeric_limits<double>::quiet_NaN();
   const Vector tangent = corrector_.direction();  // forward . tangent = 1
   const double value = base_.observe(at_.unknowns, at_.parameters, at_.regime, observable_, gradient_);
-  const Index n = base_.size();
-  return (gradient_.unknowns.dot(origin_.scale.head(n).cwiseProduct(tangent.head(n))) +
-          gradient_.parameters(active_) * origin_.scale(n) * tangent(n)) /
-         std::abs(value);
+  return rate(gradient_, active_, origin_.scale, tangent) / std::abs(value);
 }
 
 std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint& guess, bool peak,

@@ -10,15 +10,13 @@ namespace {
 std::optional<std::vector<double>> border_rates(const Problem& problem, Index parameter, const Guess& at,
                                                 const Vector& scale, const Vector& direction,
                                                 double tolerance) {
-  const Index n = problem.size();
-  Gradient gradient{Vector::Zero(n), Vector::Zero(at.parameters.size())};
+  Gradient gradient{Vector::Zero(problem.size()), Vector::Zero(at.parameters.size())};
   std::vector<double> rates;
   for (int b = 0; b < problem.border_count(at.regime); ++b) {
     const double value = problem.border(at.unknowns, at.parameters, at.regime, b, &gradient);
     if (value > tolerance) return std::nullopt;
     if (value < -tolerance) continue;
-    rates.push_back(gradient.unknowns.dot(scale.head(n).cwiseProduct(direction.head(n))) +
-                    gradient.parameters(parameter) * scale(n) * direction(n));
+    rates.push_back(rate(gradient, parameter, scale, direction));
   }
   return rates;
 }

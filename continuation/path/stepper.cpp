@@ -266,12 +266,9 @@ bool Stepper::finish(bool lands, double value) {
 
 void Stepper::monitor(const CurvePoint& point, const Vector& scale, const Vector& slope,
                       std::vector<Monitor>& out) {
-  const Index n = corrector_.size();
-  const Index a = corrector_.parameter();
   out.clear();
   const auto add = [&](double value) {
-    out.push_back({value, gradient_.unknowns.dot(scale.head(n).cwiseProduct(slope.head(n))) +
-                              gradient_.parameters(a) * scale(n) * slope(n)});
+    out.push_back({value, rate(gradient_, corrector_.parameter(), scale, slope)});
   };
   for (const Index which : tracked_) {
     add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));

@@ -79,49 +79,43 @@ struct Change {
 double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index which,
                                continuation::Gradient& gradient) const {
   if (which == Y) return observe_base(u, p, regime, gradient);
+  Vector values;
+  observe(u, p, regime, values);
   const State at = state(u(0), p, regime);
-  const ContactResponse& damper = at.damper;
-  const Complex c = at.base.compliance + damper.compliance;
-  const Complex r = motion(at);
   const Change log_ratio{1, -at.threshold.by_eta, -at.threshold.by_preload};
   const Change force = system_.contact_stiffness * at.law.phi_log * log_ratio;
-  const Change by_free{0, at.base.free_eta / at.base.free, 0};
-  const Change log_closed =
-      1.0 / (1.0 + at.force * c) *
-      (c * force + Change{0, at.force * (at.base.compliance_eta + damper.compliance_eta), 0});
-  Change log_r = by_free + -1.0 * log_closed;  // of which the unknown gives the real part
-  log_r = {Complex(1, log_r.by_log_R.imag()), Complex(0, log_r.by_eta.imag()),
-           Complex(0, log_r.by_preload.imag())};
-  const Change by_damper = damper.compliance * force + Change{0, at.force * damper.compliance_eta, 0};
-  const auto of = [&](Complex factor, const Change& change) { (factor * change).put(gradient); };
-  const auto relative = [](Complex value, const Change& change) {
-    return value == 0.0 ? Change{} : 1.0 / value * change;
-  };
-  const Complex over_r = at.force * damper.compliance;  // -u/r, and q - 1
-  const double amplitude = std::exp(u(0));
+  const auto of = [&](double factor, const Change& change) { (factor * change).put(gradient); };
   switch (which) {
-    case R: of(amplitude, {1, 0, 0}); return amplitude;
-    case S:
-      of(system_.slip_threshold(p(eta), p(preload)), {0, at.threshold.by_eta, at.threshold.by_preload});
-      return system_.slip_threshold(p(eta), p(preload));
-    case R_over_S: of(std::exp(at.log_ratio), log_ratio); return std::exp(at.log_ratio);
-    case U:
-      of(amplitude * std::abs(over_r), log_r + relative(over_r, by_damper));
-      return amplitude * std::abs(over_r);
-    case dissipated:
-      of(regime == slip ? 4 * std::exp(at.log_ratio) : 0, log_ratio);
-      return regime == slip ? dissipated_energy(at.log_ratio) : 0;
-    default: break;
+    case R: of(values(R), {1, 0, 0}); break;
+    case S: of(values(S), {0, at.threshold.by_eta, at.threshold.by_preload}); break;
+    case R_over_S: of(values(R_over_S), log_ratio); break;
+    case U: {
+      const Complex over_r = at.force * at.damper.compliance;  // -u/r
+      const Change change = at.damper.compliance * force + Change{0, at.force * at.damper.compliance_eta, 0};
+      of(values(U), over_r == 0.0 ? Change{} : Change{1, 0, 0} + 1.0 / over_r * change);
+      break;
+    }
+    case dissipated: of(regime == slip ? 4 * values(R_over_S) : 0, log_ratio); break;
+    default: {
+      const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
+      const ContactReceptance receptance = output.modes.at(p(eta));
+      const double side = output.on_base ? 1 : -1;
+      const Complex r = motion(at);
+      const Complex pull = side * receptance.compliance(1, 0) * r;
+      const Complex by_eta = receptance.free_eta(1) + side * receptance.compliance_eta(1, 0) * at.force * r;
+      const Complex z = receptance.free(1) + pull * at.force;
+      const Complex c = at.base.compliance + at.damper.compliance;
+      const Complex c_eta = at.base.compliance_eta + at.damper.compliance_eta;
+      const Change log_closed = 1.0 / (1.0 + at.force * c) * (c * force + Change{0, at.force * c_eta, 0});
+      const Change log_r = Change{0, at.base.free_eta / at.base.free, 0} + -1.0 * log_closed;
+      // Of ln r the unknown gives the real part.
+      const Change turned{Complex(1, log_r.by_log_R.imag()), Complex(0, log_r.by_eta.imag()),
+                          Complex(0, log_r.by_preload.imag())};
+      (std::conj(z) / std::abs(z) * (Change{0, by_eta, 0} + pull * (force + at.force * turned)))
+          .put(gradient);
+    }
   }
-  const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
-  const ContactReceptance receptance = output.modes.at(p(eta));
-  const double side = output.on_base ? 1 : -1;
-  const Complex z = receptance.free(1) + side * receptance.compliance(1, 0) * at.force * r;
-  const Change dz =
-      Change{0, receptance.free_eta(1) + side * receptance.compliance_eta(1, 0) * at.force * r, 0} +
-      side * receptance.compliance(1, 0) * r * (force + at.force * log_r);
-  of(std::conj(z) / std::abs(z), dz);
-  return std::abs(z);
+  return values(which);
 }
 
 /// Y.

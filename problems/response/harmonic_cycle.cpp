@@ -69,7 +69,6 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
                                std::vector<Found>& found) const {
   constexpr double stuck = 0.5;    // of the amplitude at which the first contact slips
   constexpr double longest = 1e7;  // beyond it friction is nothing even to a damping ratio of 1e-6
-  constexpr double rounding = 1e-12;
   const NonlinearMode problem(damped);
   double first = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < contacts(); ++i) {
@@ -102,11 +101,7 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
     const continuation::Solution solution = continuation::solve(*this, guess);
     if (solution.outcome != continuation::Correction::converged) continue;
     guess.unknowns = solution.unknowns;
-    bool is_inside = true;
-    for (int i = 0; i < border_count(guess.regime); ++i) {
-      if (border(guess.unknowns, guess.parameters, guess.regime, i, nullptr) > rounding) is_inside = false;
-    }
-    if (is_inside) found.push_back({std::move(guess), at_a > 0});
+    if (crossed_border(guess) < 0) found.push_back({std::move(guess), at_a > 0});
   }
 }
 
@@ -115,8 +110,7 @@ Guess HarmonicCycle::guess(double zeta_value, double preload_value,
   HarmonicSystem damped = system_;
   for (ContactModes& base : damped.base)
     base = base.with(system_.base_loss_fixed + zeta_value * system_.base_loss_per_zeta);
-  Vector springs(contacts());
-  for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[at(i)].stiffness;
+  const Vector springs = contact_springs(system_);
   std::vector<Found> found;
   for (const JoinedMode& mode : joined_modes({&damped.base[0], &damped.damper[0]}, springs)) {
     add_cycles(damped, mode, zeta_value, preload_value, limits, found);

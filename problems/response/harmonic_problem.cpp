@@ -91,6 +91,31 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
   response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_loss;
 }
 
+HarmonicProblem::Place HarmonicProblem::place_of(Index unknown) const {
+  if (unknown > 1) return {Place::unknowns, unknown};
+  return unknown == 0 ? layout_.real : layout_.imaginary;
+}
+
+void HarmonicProblem::add(const Place& place, double value, continuation::Gradient& gradient) {
+  if (place.of == Place::nowhere) return;
+  (place.of == Place::unknowns ? gradient.unknowns : gradient.parameters)(place.index) += value;
+}
+
+void HarmonicProblem::add_log_load(double value, const Vector& u, const Vector& p,
+                                   continuation::Gradient& gradient) const {
+  const double by_load = value / load(u, p);
+  add(layout_.preload, by_load, gradient);
+  add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load, gradient);
+}
+
+int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
+  constexpr double rounding = 1e-12;
+  for (int b = 0; b < border_count(at.regime); ++b) {
+    if (border(at.unknowns, at.parameters, at.regime, b, nullptr) > rounding) return b;
+  }
+  return -1;
+}
+
 /// What is known of one point, with the gradient of what is asked of it.
 class HarmonicProblem::Observation {
  public:
@@ -180,12 +205,9 @@ class HarmonicProblem::Observation {
   /// One harmonic of a motion: of the base y = u - x.
   Complex phasor(Body of, Index which, Index order) {
     if (of == Body::contact) return problem_.motion(u_, p_, which)(order);
-    const Row row = row_of(of, which);
-    const Response& response = respond(row.structure, row.is_base, order);
-    const ContactVector on = problem_.coordinates_.forces_on(row.is_base, elements_, order);
-    const Index m = on.size();
-    Complex z = (response.compliance.row(row.index).head(m) * on).value();
-    if (of == Body::output) z += response.free(row.index);
+    const Row row = row_of(of, which, order);
+    Complex z = row.times(row.response.compliance);
+    if (of == Body::output) z += row.response.free(row.index);
     if (of == Body::base) z -= problem_.motion(u_, p_, which)(order);
     return z;
   }
@@ -195,29 +217,24 @@ class HarmonicProblem::Observation {
     if (gradient_ == nullptr) return;
     if (of == Body::contact) return add_motion(which, order, weight);
     if (of == Body::base) add_motion(which, order, -weight);
-    const Row row = row_of(of, which);
-    const Response& response = respond(row.structure, row.is_base, order);
-    const ContactVector on = problem_.coordinates_.forces_on(row.is_base, elements_, order);
-    const Index m = on.size();
-    Complex by_eta = (response.compliance_eta.row(row.index).head(m) * on).value();
-    if (of == Body::output) by_eta += response.free_eta(row.index);
+    const Row row = row_of(of, which, order);
+    Complex by_eta = row.times(row.response.compliance_eta);
+    if (of == Body::output) by_eta += row.response.free_eta(row.index);
     add(problem_.layout_.eta, std::real(std::conj(weight) * by_eta));
-    if (problem_.layout_.damping.of != Place::nowhere) {
-      const Complex by_damping = (response.by_damping.row(row.index).head(m) * on).value();
-      add(problem_.layout_.damping, std::real(std::conj(weight) * by_damping));
-    }
+    if (problem_.layout_.damping.of != Place::nowhere)
+      add(problem_.layout_.damping, std::real(std::conj(weight) * row.times(row.response.by_damping)));
     for (Index j = 0; j < problem_.coordinates(); ++j) {
       const double share = problem_.coordinates_[j].push(row.is_base);
       if (share == 0) continue;
-      const Complex c = response.compliance(row.index, problem_.coordinates_[j].dof);
+      const Complex c = row.response.compliance(row.index, problem_.coordinates_[j].dof);
       add_force(j, order, -share * std::conj(c) * weight);
     }
   }
 
   void add_motion(Index coordinate, Index order, Complex weight) {
     const Index place = 2 * (coordinate * problem_.harmonics() + order);
-    add_unknown(place, weight.real());
-    add_unknown(place + 1, weight.imag());
+    add(problem_.place_of(place), weight.real());
+    add(problem_.place_of(place + 1), weight.imag());
   }
 
   void add_force(Index coordinate, Index order, Complex weight) {
@@ -232,42 +249,32 @@ class HarmonicProblem::Observation {
   }
 
   void add_log_load(double value) {
-    const double by_load = value / problem_.load(u_, p_);
-    add(problem_.layout_.preload, by_load);
-    add(problem_.layout_.eta, 2 * system_.preload_growth * problem_.frequency(u_, p_) * by_load);
+    if (gradient_ != nullptr) problem_.add_log_load(value, u_, p_, *gradient_);
   }
-
-  void add_unknown(Index place, double value) {
-    if (place > 1) {
-      gradient_->unknowns(place) += value;
-    } else {
-      add(place == 0 ? problem_.layout_.real : problem_.layout_.imaginary, value);
-    }
-  }
-
   void add(const Place& place, double value) {
-    if (gradient_ == nullptr || place.of == Place::nowhere) return;
-    (place.of == Place::unknowns ? gradient_->unknowns : gradient_->parameters)(place.index) += value;
+    if (gradient_ != nullptr) HarmonicProblem::add(place, value, *gradient_);
   }
 
-  /// Whose row of the compliance a motion is.
+  /// The row of a structure's compliance that a motion of damper or output is, found once for quantities that
+  /// follow one another, and the forces on it.
   struct Row {
-    const ContactModes* structure;  // in the first harmonic
+    const Response& response;
     bool is_base;
     Index index;
-  };
-  Row row_of(Body of, Index which) const {
-    if (of != Body::output) return {nullptr, false, which};
-    const ContactOutput& output = system_.outputs[at(which)];
-    return {&output.modes, output.on_base, problem_.contacts()};
-  }
+    ContactVector forces;
 
-  /// Of a structure, or of the damper; found once for quantities that follow one another.
-  const Response& respond(const ContactModes* structure, bool is_base, Index order) {
-    const ContactModes* of = structure != nullptr ? structure : &system_.damper[at(order)];
-    if (of != responded_) problem_.respond(*of, is_base, order, u_, p_, response_);
-    responded_ = of;
-    return response_;
+    Complex times(const ContactMatrix& compliance) const {
+      return (compliance.row(index).head(forces.size()) * forces).value();
+    }
+  };
+  Row row_of(Body of, Index which, Index order) {
+    const ContactOutput* output = of == Body::output ? &system_.outputs[at(which)] : nullptr;
+    const ContactModes* structure = output != nullptr ? &output->modes : &system_.damper[at(order)];
+    const bool is_base = output != nullptr && output->on_base;
+    if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, response_);
+    responded_ = structure;
+    return {response_, is_base, output != nullptr ? problem_.contacts() : which,
+            problem_.coordinates_.forces_on(is_base, elements_, order)};
   }
 
   const HarmonicProblem& problem_;
@@ -288,18 +295,12 @@ double HarmonicProblem::border(const Vector& u, const Vector& p, int regime, int
   if (gradient == nullptr) return at_border.value;
   gradient->unknowns.setZero();
   gradient->parameters.setZero();
-  const auto add = [&](const Place& place, double value) {
-    if (place.of == Place::nowhere) return;
-    (place.of == Place::unknowns ? gradient->unknowns : gradient->parameters)(place.index) += value;
-  };
   for (Index a = 0; a < harmonics(); ++a) {
     const Index place = 2 * (border * harmonics() + a);
-    add(place == 0 ? layout_.real : Place{Place::unknowns, place}, at_border.by_motion(a).real());
-    add(place == 0 ? layout_.imaginary : Place{Place::unknowns, place + 1}, at_border.by_motion(a).imag());
+    add(place_of(place), at_border.by_motion(a).real(), *gradient);
+    add(place_of(place + 1), at_border.by_motion(a).imag(), *gradient);
   }
-  const double by_load = at_border.by_log_load / load(u, p);
-  add(layout_.preload, by_load);
-  add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load);
+  add_log_load(at_border.by_log_load, u, p, *gradient);
   return at_border.value;
 }
 

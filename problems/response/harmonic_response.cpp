@@ -216,8 +216,7 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
 
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
-  Vector springs(contacts());
-  for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[at(i)].stiffness;
+  const Vector springs = contact_springs(system_);
   std::vector<double> values;
   for (Index a = 0; a < harmonics(); ++a) {
     const ContactModes* base = &system_.base[at(a)];

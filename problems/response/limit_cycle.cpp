@@ -84,54 +84,39 @@ void LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Vecto
   values(dissipated) = dissipated_energy(log_ratio);
 }
 
-double LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Index which,
+double LimitCycle::observe(const Vector& u, const Vector& p, int regime, Index which,
                            continuation::Gradient& gradient) const {
+  Vector values;
+  observe(u, p, regime, values);
+  const LogThreshold threshold = system_.log_threshold(u(eta), p(preload));
+  const HarmonicCoefficient law = slip_coefficient(u(log_R) - threshold.value);
+  const ContactResponse damper = system_.damper.at(u(eta));
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
-  if (which == frequency) {
-    gradient.unknowns(eta) = 1;
-    return u(eta);
-  }
-  const double amplitude = std::exp(u(log_R));
-  if (which == R) {
-    gradient.unknowns(log_R) = amplitude;
-    return amplitude;
-  }
-  const LogThreshold threshold = system_.log_threshold(u(eta), p(preload));
-  const double log_ratio = u(log_R) - threshold.value;
-  const HarmonicCoefficient law = slip_coefficient(log_ratio);
-  const ContactResponse damper = system_.damper.at(u(eta));
   // value times a change by ln R and one by ln S, and by eta beside that
-  const auto filled = [&](double value, double by_log_R, double by_log_S, double by_eta) {
+  const auto fill = [&](double value, double by_log_R, double by_log_S, double by_eta) {
     gradient.unknowns << value * (by_eta + by_log_S * threshold.by_eta), value * by_log_R;
     gradient.parameters(preload) = value * by_log_S * threshold.by_preload;
   };
-  if (which == S) {
-    const double value = system_.slip_threshold(u(eta), p(preload));
-    filled(value, 0, 1, 0);
-    return value;
+  switch (which) {
+    case frequency: gradient.unknowns(eta) = 1; break;
+    case R: gradient.unknowns(log_R) = values(R); break;
+    case S: fill(values(S), 0, 1, 0); break;
+    case R_over_S: fill(values(R_over_S), 1, -1, 0); break;
+    case dissipated: fill(4 * values(R_over_S), 1, -1, 0); break;
+    case U: {
+      if (values(U) == 0) break;  // a damper that is held
+      const double by_ratio = std::real(law.phi_log / law.phi);
+      fill(values(U), 1 + by_ratio, -by_ratio, std::real(damper.compliance_eta / damper.compliance));
+      break;
+    }
+    default: {
+      const BaseAmplitude base = base_amplitude(system_, damper, law, threshold);
+      gradient.unknowns << values(Y) * base.by_eta, values(Y) * base.by_log_R;
+      gradient.parameters(preload) = values(Y) * base.by_preload;
+    }
   }
-  if (which == R_over_S) {
-    filled(std::exp(log_ratio), 1, -1, 0);
-    return std::exp(log_ratio);
-  }
-  if (which == dissipated) {
-    filled(4 * std::exp(log_ratio), 1, -1, 0);
-    return dissipated_energy(log_ratio);
-  }
-  if (which == U) {
-    const Complex motion = system_.contact_stiffness * law.phi * damper.compliance;
-    if (motion == 0.0) return 0;  // a damper that is held
-    const double by_ratio = std::real(law.phi_log / law.phi);
-    filled(amplitude * std::abs(motion), 1 + by_ratio, -by_ratio,
-           std::real(damper.compliance_eta / damper.compliance));
-    return amplitude * std::abs(motion);
-  }
-  const BaseAmplitude base = base_amplitude(system_, damper, law, threshold);
-  const double value = amplitude * base.over_R;
-  gradient.unknowns << value * base.by_eta, value * base.by_log_R;
-  gradient.parameters(preload) = value * base.by_preload;
-  return value;
+  return values(which);
 }
 
 continuation::Guess LimitCycle::guess(double zeta_value, double preload_value, Size size) const {

@@ -5,20 +5,8 @@
 #include "arcslip/continuation/path/newton.hpp"
 
 namespace arcslip::problems {
-namespace {
 
 using continuation::Guess;
-
-/// The first border that the solution lies beyond, or -1.
-int crossed_border(const HarmonicResponse& problem, const Guess& at) {
-  constexpr double rounding = 1e-12;
-  for (int border = 0; border < problem.border_count(at.regime); ++border) {
-    if (problem.border(at.unknowns, at.parameters, at.regime, border, nullptr) > rounding) return border;
-  }
-  return -1;
-}
-
-}  // namespace
 
 Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
   Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
@@ -41,7 +29,7 @@ std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicRespons
     const continuation::Solution near = continuation::solve(to, guess);
     if (near.outcome != continuation::Correction::converged) return std::nullopt;
     guess.unknowns = near.unknowns;
-    const int border = crossed_border(to, guess);
+    const int border = to.crossed_border(guess);
     if (border < 0) return guess;
     guess.regime = to.regime_beyond(guess.regime, border);
   }

@@ -73,8 +73,7 @@ std::optional<std::array<double, 2>> NonlinearMode::flanks(const Vector& u, cons
 continuation::Guess NonlinearMode::guess(double eta_value, double R_value, double preload_value) const {
   if (!(eta_value > 0 && R_value > 0 && preload_value > 0))
     throw std::invalid_argument("NonlinearMode: eta, R and the preload must be positive");
-  Vector springs(contacts());
-  for (Index i = 0; i < contacts(); ++i) springs(i) = system_.contacts[at(i)].stiffness;
+  const Vector springs = contact_springs(system_);
   std::vector<JoinedMode> modes = joined_modes({&system_.base[0], &system_.damper[0]}, springs);
   constexpr double still = 1e-8;  // of the most that any mode moves it: rounding, as of both moving as one
   double most = 0;

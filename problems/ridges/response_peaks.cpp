@@ -83,10 +83,7 @@ class ResponsePeaks::Slopes {
   }
 
   /// That of g as (u, a) change.
-  double rate(const Vector& change) const {
-    const Index n = problem_.size();
-    return gradient_.unknowns.dot(change.head(n)) + gradient_.parameters(along_) * change(n);
-  }
+  double rate(const Vector& change) const { return continuation::rate(gradient_, along_, change); }
 
   Vector crossing() const {
     Vector right(problem_.size() + 1);

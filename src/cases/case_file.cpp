@@ -186,7 +186,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response == Response::one_way;
   if (branch.problem.harmonics_tolerance && branch.problem.is_free())
-    system.fail("harmonics", "\"auto\" is only for the forced response");
+    system.fail("harmonics", "\"auto\" is not for limit cycles and nonlinear modes");
   if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())
     branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
   if (branch.curve) find_seed(section_, branch);

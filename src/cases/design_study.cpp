@@ -23,8 +23,7 @@ using problems::PreloadStudy;
 
 /// Whether closed slopes serve.
 bool is_closed(const StudyCase& study, const StudyDesign& design) {
-  return study.objective == "Y" && !needs_balance(design.system, design.harmonics_tolerance) &&
-         design.system.cubic_stiffness == 0;
+  return study.objective == "Y" && !needs_balance(design.system, design.harmonics_tolerance);
 }
 
 /// The design's response, from where it is known at the range's highest preload.

@@ -127,11 +127,8 @@ struct RingDisturbances::Builder {
 };
 
 RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves) : waves_(waves) {
-  Vector springs(std::ssize(system.contacts));
-  for (Index i = 0; i < springs.size(); ++i)
-    springs(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
   const int highest = system.orders.back();
-  Builder builder{waves_, springs, system.others, highest, cells_};
+  Builder builder{waves_, contact_springs(system), system.others, highest, cells_};
   builder.build();
   if (!builder.is_small()) {
     balanced_.emplace(

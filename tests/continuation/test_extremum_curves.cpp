@@ -95,6 +95,16 @@ std::vector<double> places(const Branch& curve, PointType type) {
   return all;
 }
 
+/// From q = 2 to a corner fold at q = 0 and back.
+void check_turns_back(const Branch& curve) {
+  REQUIRE(curve.complete());
+  CHECK(curve.points.front().parameters(0) == 2);
+  CHECK(curve.points.back().parameters(0) == 2);
+  const std::vector<double> folds = places(curve, PointType::corner_fold);
+  REQUIRE(folds.size() == 1);
+  CHECK_THAT(folds[0], WithinAbs(0, 1e-10));
+}
+
 }  // namespace
 
 TEST_CASE("A peak goes on from a regime along its border and into the next one") {
@@ -130,12 +140,7 @@ TEST_CASE("Where a peak meets a corner trough its curve turns back along the bor
   TraceOptions options = over("q", -3, 2);
   options.extrema_of = {"Y"};
   const Branch curve = curve_of(problem, PointType::peak, 1.5, options);
-  REQUIRE(curve.complete());
-  CHECK(curve.points.front().parameters(0) == 2);
-  CHECK(curve.points.back().parameters(0) == 2);
-  const std::vector<double> folds = places(curve, PointType::corner_fold);
-  REQUIRE(folds.size() == 1);
-  CHECK_THAT(folds[0], WithinAbs(0, 1e-10));
+  check_turns_back(curve);
   bool on_border = std::abs(curve.points.front().unknowns(1)) > 1;
   for (const BranchPoint& point : curve.points) {
     if (point.type == PointType::corner_fold) on_border = !on_border;
@@ -180,10 +185,5 @@ TEST_CASE("An extremum is followed along a corner that no border tells of") {
 TEST_CASE("Where a peak vanishes on a corner that no border tells of its curve goes back as a trough") {
   const HiddenEdge problem(1, 0);
   const Branch curve = curve_of(problem, PointType::peak, 1.5, over("q", -3, 2));
-  REQUIRE(curve.complete());
-  CHECK(curve.points.front().parameters(0) == 2);
-  CHECK(curve.points.back().parameters(0) == 2);
-  const std::vector<double> folds = places(curve, PointType::corner_fold);
-  REQUIRE(folds.size() == 1);
-  CHECK_THAT(folds[0], WithinAbs(0, 1e-10));
+  check_turns_back(curve);
 }

@@ -32,6 +32,9 @@ struct HarmonicSystem {
 /// threshold is not positive.
 void check(const HarmonicSystem& system);
 
+/// k of each contact.
+Vector contact_springs(const HarmonicSystem& system);
+
 /// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
 ContactSystem build_wave(const SystemParameters& parameters);
 

@@ -61,18 +61,17 @@ class CornerSlopes {
   std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign, double farthest);
 
  private:
-  std::optional<int> way_back(const BasePoint& point, int beyond) const;
   struct Branch {
     int regime = 0;
     int border = 0;
     Vector tangent;  // n + 1, unit length in units of the scale, from `arriving` to `leaving`
   };
 
+  std::optional<int> way_back(const BasePoint& point, int beyond) const;
   bool set_tangent(const BasePoint& point, Branch& side);
   BasePoint just_beyond(const BasePoint& point, const Branch& side);
   double border_rate(const BasePoint& point, const Branch& side);
   std::optional<BasePoint> inside(const BasePoint& corner, Side side, double way);
-  double rate(const Gradient& gradient, const Vector& tangent) const;
 
   const Problem& base_;
   Index active_;

@@ -96,14 +96,27 @@ class ExtremumTracer {
   void add(BranchPoint point);
   void turn(Vector tangent, int regime);
   void stop(Stop reason, std::string explanation);
+  /// How an extremum is followed from response to response.
+  struct Walk {
+    BasePoint here;
+    bool peak = false;
+    double sense = 1;  // in which the parameter changes
+    double step = 0;   // of it, in its scale
+    Vector rate;       // of the unknowns over it
+    bool predicts = false;
+    int walked = 0;
+    int flips = 0;  // since the last row
+  };
   bool walk();
+  void stride(Walk& walk, const ResponseExtremum::Found& next, double to);
+  bool fold_back(Walk& walk, ResponseExtremum& extrema);
   std::optional<BasePoint> begin_walk(ResponseExtremum& extrema, bool& peak);
   bool smoothly_on(const BasePoint& here, double sense);
   bool has_turned_here() const;
   double way_so_far(double scale) const;
   double next_value(double from, double to) const;
   bool is_asked_for(double value) const;
-  bool finish_walk(double value);
+  bool finish(double value);
   bool came_back();
   bool stalls();
   bool is_satisfied();
@@ -117,6 +130,8 @@ class ExtremumTracer {
   BranchPoint row(const BasePoint& at, PointType type);
   Vector steps(const Vector& difference, const BranchPoint& at) const;
   Vector way(const BranchPoint& from, const BranchPoint& to) const;
+  Vector direction_to(const BranchPoint& point) const;
+  double parameter_scale(const BranchPoint& at) const;
   std::string place() const;
   double value(const BasePoint& point) const { return guess_at(point).parameters(parameter_); }
 

@@ -25,6 +25,19 @@ struct Gradient {
   Vector parameters;  ///< number of parameters
 };
 
+/// How fast the function changes as u and one parameter do (n + 1 entries).
+inline double rate(const Gradient& gradient, Index parameter, const Vector& change) {
+  const Index n = change.size() - 1;
+  return gradient.unknowns.dot(change.head(n)) + gradient.parameters(parameter) * change(n);
+}
+
+/// The same of a direction in units of a scale.
+inline double rate(const Gradient& gradient, Index parameter, const Vector& scale, const Vector& direction) {
+  const Index n = direction.size() - 1;
+  return gradient.unknowns.dot(scale.head(n).cwiseProduct(direction.head(n))) +
+         gradient.parameters(parameter) * scale(n) * direction(n);
+}
+
 /// An observable of which the tracer may find the extrema.
 struct Observable {
   std::string name;

@@ -7,6 +7,7 @@
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/problems/response/slip_regimes.hpp"
 
@@ -21,6 +22,9 @@ class HarmonicProblem : public continuation::Problem {
   double border(const Vector& u, const Vector& p, int regime, int border,
                 continuation::Gradient* gradient) const override;
   int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+
+  /// The first border that a solution lies beyond, or -1.
+  int crossed_border(const continuation::Guess& at) const;
 
   /// Amplitudes, ratios and energies have gradients, but for the outputs of sectors that are solved for.
   std::vector<continuation::Observable> observables() const override;
@@ -110,6 +114,11 @@ class HarmonicProblem : public continuation::Problem {
  private:
   struct Forces;
   static Forces& last_forces();
+  /// Where Re or Im of a harmonic stands, by its position among those of all.
+  Place place_of(Index unknown) const;
+  static void add(const Place& place, double value, continuation::Gradient& gradient);
+  /// Adds what is `value` times a change of ln(load).
+  void add_log_load(double value, const Vector& u, const Vector& p, continuation::Gradient& gradient) const;
   OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
   class Observation;
 };
