@@ -9,7 +9,7 @@
 namespace arcslip::continuation {
 
 std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
-                                            int regime, int except) {
+                                            const Regime& regime, int except) {
   Vector unknowns(base.size());
   Vector parameters(point.parameters.size());
   base.scale(point.unknowns, point.parameters, unknowns, parameters);
@@ -59,7 +59,7 @@ double CornerSlopes::border_rate(const BasePoint& point, const Branch& side) {
 }
 
 /// The border of the regime beyond one that leads back across it; where several meet, the nearest need not.
-std::optional<int> CornerSlopes::way_back(const BasePoint& point, int beyond) const {
+std::optional<int> CornerSlopes::way_back(const BasePoint& point, const Regime& beyond) const {
   std::optional<int> back;
   double nearest = 0;
   for (int b = 0; b < base_.border_count(beyond); ++b) {
@@ -75,10 +75,10 @@ std::optional<int> CornerSlopes::way_back(const BasePoint& point, int beyond) co
 }
 
 bool CornerSlopes::begin(const BasePoint& point, int border) {
-  const int beyond = base_.regime_beyond(point.regime, border);
-  const auto back = beyond < 0 ? std::nullopt : way_back(point, beyond);
+  const auto beyond = base_.regime_beyond(point.regime, border);
+  const auto back = beyond ? way_back(point, *beyond) : std::nullopt;
   if (!back) return false;
-  sides_ = {Branch{point.regime, border, {}}, Branch{beyond, *back, {}}};
+  sides_ = {Branch{point.regime, border, {}}, Branch{*beyond, *back, {}}};
   for (const Side side : {arriving, leaving}) {
     Branch& branch = sides_[side];
     if (!set_tangent(point, branch)) return false;

@@ -24,7 +24,7 @@ std::vector<BranchPoint> ExtremumTracer::step_off(BorderProblem& edge, const Bas
 
 /// So far that a slope which vanishes at the place is no rounding.
 std::vector<BranchPoint> ExtremumTracer::surely_off(BorderProblem& edge, const BasePoint& from, bool up,
-                                                    std::optional<int> vanishing) {
+                                                    const std::optional<Regime>& vanishing) {
   const Side side =
       vanishing == slopes_.regime(CornerSlopes::leaving) ? CornerSlopes::leaving : CornerSlopes::arriving;
   constexpr double plainly = 1e-8;  // of points that are known to rounding, also where the response is sharp
@@ -72,18 +72,18 @@ void ExtremumTracer::add_ledges(const BasePoint& at, int border, const Place& pl
 std::vector<ExtremumLedge> ExtremumTracer::ledges(const Place& place) {
   constexpr std::size_t most = 16;  // regimes
   std::vector<Ledge> all;
-  std::vector<int> regimes{place.at.regime};
+  std::vector<Regime> regimes{place.at.regime};
   for (std::size_t i = 0; i < regimes.size() && regimes.size() < most; ++i) {
     BasePoint at = place.at;
     at.regime = regimes[i];
     for (int b = 0; b < base_.border_count(at.regime); ++b) {
       const double value = base_.border(at.unknowns, at.parameters, at.regime, b, nullptr);
-      const int beyond = base_.regime_beyond(at.regime, b);
-      if (!(std::abs(value) <= on_border) || beyond < 0) continue;
-      const auto known = std::find(regimes.begin(), regimes.end(), beyond);
+      const auto beyond = base_.regime_beyond(at.regime, b);
+      if (!(std::abs(value) <= on_border) || !beyond) continue;
+      const auto known = std::find(regimes.begin(), regimes.end(), *beyond);
       const bool was_seen_from_there = known < regimes.begin() + static_cast<std::ptrdiff_t>(i);
       if (!was_seen_from_there) add_ledges(at, b, place, all);
-      if (known == regimes.end()) regimes.push_back(beyond);
+      if (known == regimes.end()) regimes.push_back(*beyond);
     }
   }
   return all;

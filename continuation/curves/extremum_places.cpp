@@ -214,7 +214,7 @@ std::optional<ExtremumPlace> ExtremumTracer::meeting() {
   const BasePoint at = split(last);
   const auto nearest = nearest_border(base_, problem_.active(), at, at.regime);
   if (!nearest || !(std::abs(nearest->distance) < within_reach)) return std::nullopt;
-  if (base_.regime_beyond(at.regime, nearest->border) < 0) return std::nullopt;
+  if (!base_.regime_beyond(at.regime, nearest->border)) return std::nullopt;
   if (curve_.stop != Stop::left_regime) return meeting_beside(last, *nearest);
   last.type = PointType::regime_switch;
   last.arrival = last.tangent;
@@ -253,7 +253,7 @@ std::optional<ExtremumPlace> ExtremumTracer::meeting_beside(const BranchPoint& l
   if (!beside || !slopes_.begin(beside->point, nearest.border)) return std::nullopt;
   TraceOptions options = freely(most);
   options.max_points = 1000;
-  options.events.push_back({before_vanishes, [&](const Vector& u, const Vector& p, int regime) {
+  options.events.push_back({before_vanishes, [&](const Vector& u, const Vector& p, const Regime& regime) {
                               return slopes_.slope(edge.split(u, p, regime), CornerSlopes::arriving);
                             }});
   options.stop_after.push_back({PointType::event, 1, before_vanishes});

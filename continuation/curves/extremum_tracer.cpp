@@ -163,7 +163,7 @@ void ExtremumTracer::smooth(const Guess& guess, bool towards_to, std::size_t ski
 }
 
 /// Traces a piece along a border, up to where one of the slopes vanishes.
-void ExtremumTracer::along(const Ledge& ledge, std::optional<int> vanishing) {
+void ExtremumTracer::along(const Ledge& ledge, const std::optional<Regime>& vanishing) {
   mode_ = Mode::ledge;
   border_ = ledge.border;
   peak_ = ledge.peak;
@@ -178,7 +178,7 @@ void ExtremumTracer::along(const Ledge& ledge, std::optional<int> vanishing) {
     const std::string& name = side == CornerSlopes::arriving ? before_vanishes : behind_vanishes;
     // Of a zero where the piece begins the slope is divided by the way from there.
     const bool begins_at_zero = vanishing == slopes_.regime(side);
-    const auto slope_at = [&, side, begins_at_zero](const Vector& u, const Vector& p, int regime) {
+    const auto slope_at = [&, side, begins_at_zero](const Vector& u, const Vector& p, const Regime& regime) {
       BranchPoint point = begin;
       point.unknowns = u;
       point.parameters = p;
@@ -212,7 +212,7 @@ void ExtremumTracer::along(const Ledge& ledge, std::optional<int> vanishing) {
 }
 
 /// Rows of what the curve turns at, where it goes on in another direction than that in which it came.
-void ExtremumTracer::turn(Vector tangent, int regime) {
+void ExtremumTracer::turn(Vector tangent, const Regime& regime) {
   const BranchPoint here = curve_.points.back();
   const Index last = tangent.size() - 1;
   const auto add_as = [&](PointType type) {

@@ -10,7 +10,8 @@ TraceOptions within_window(const TraceOptions& options, const CurveWindow& windo
   TraceOptions all = options;
   for (const double edge : {window.low, window.high}) {
     if (!std::isfinite(edge)) continue;
-    all.events.push_back({end_of_window, [=](const Vector& u, const Vector&, int) { return u(n) - edge; }});
+    all.events.push_back(
+        {end_of_window, [=](const Vector& u, const Vector&, const Regime&) { return u(n) - edge; }});
   }
   if (all.events.size() > options.events.size())
     all.stop_after.push_back({PointType::event, 1, end_of_window});

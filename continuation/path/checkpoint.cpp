@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <istream>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
@@ -12,7 +13,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 2;  // of the versions of the text
+constexpr int newest = 3;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -100,12 +101,26 @@ void list(Archive& archive, List& values, Entry entry) {
   for (auto& value : values) entry(value);
 }
 
+template <class Archive, class Pattern>
+void regime(Archive& archive, Pattern& value) {
+  std::string states;
+  if constexpr (!Archive::reads) states = digits(value);
+  if (archive.version >= 3) archive(states);
+  if constexpr (Archive::reads) {
+    long bits = 0;  // one for each switch
+    if (archive.version < 3) archive(bits);
+    if (bits < 0 || bits > std::numeric_limits<int>::max())
+      throw std::runtime_error("read_checkpoint: a regime that cannot be");
+    value = archive.version < 3 ? regime_of_bits(static_cast<unsigned>(bits)) : regime_of_digits(states);
+  }
+}
+
 template <class Archive, class Point>
 void curve_point(Archive& archive, Point& point) {
   const auto number = [&](auto& value) { archive(value); };
   for (auto* v : {&point.unknowns, &point.parameters, &point.scale, &point.tangent})
     list(archive, *v, number);
-  archive(point.regime);
+  regime(archive, point.regime);
   archive(point.orientation);
   archive(point.residual);
   archive(point.iterations);
@@ -187,12 +202,23 @@ void maybe(Archive& archive, Optional& value, Entry entry) {
   if (value) entry(*value);
 }
 
+/// Of the names of all patterns of switches, by their bits, those in which at most one is set.
+std::vector<std::string> without_patterns(const std::vector<std::string>& names) {
+  std::vector<std::string> kept;
+  for (std::size_t bits = 0; bits < names.size(); bits = bits == 0 ? 1 : 2 * bits)
+    kept.push_back(names[bits]);
+  return kept;
+}
+
 template <class Archive, class Identity>
 void identity(Archive& archive, Identity& of) {
   const auto name = [&](auto& value) { archive(value); };
   for (auto* names : {&of.parameters, &of.regimes, &of.tests, &of.extrema_of, &of.events})
     list(archive, *names, name);
   archive(of.parameter);
+  if constexpr (Archive::reads) {
+    if (archive.version == 2) of.regimes = without_patterns(of.regimes);
+  }
 }
 
 template <class Archive, class State>
@@ -212,7 +238,7 @@ void all(Archive& archive, State& state) {
   maybe(archive, state.begin_back, [&](auto& guess) {
     list(archive, guess.unknowns, number);
     list(archive, guess.parameters, number);
-    archive(guess.regime);
+    regime(archive, guess.regime);
     list(archive, guess.direction, number);
   });
 }

@@ -101,12 +101,22 @@ class Newton {
   Vector correction_;
 };
 
+constexpr double on_border = 1e-9;  // solutions on a border belong to both of its sides
+
 bool inside(const Problem& problem, const Guess& solution) {
-  for (int b = 0; b < problem.border_count(solution.regime); ++b) {
-    if (problem.border(solution.unknowns, solution.parameters, solution.regime, b, nullptr) > 1e-9)
-      return false;
+  return crossed_border(problem, solution.unknowns, solution.parameters, solution.regime, on_border) < 0;
+}
+
+/// In the regime that the point lies in: borders that it lies beyond are crossed, the first of them first.
+/// Where that does not end, as with borders that do not fit each other, in the last one.
+Guess in_its_regime(const Problem& problem, Guess guess) {
+  for (Index i = 0; i <= problem.switch_count(); ++i) {
+    const int border = crossed_border(problem, guess.unknowns, guess.parameters, guess.regime, 0);
+    const auto beyond = border < 0 ? std::nullopt : problem.regime_beyond(guess.regime, border);
+    if (!beyond) break;
+    guess.regime = *beyond;
   }
-  return true;
+  return guess;
 }
 
 /// Collects solutions: each start is tried until nothing new comes of it, then the next.
@@ -169,12 +179,10 @@ std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& g
   if (options.lower.size() == problem.size()) {
     std::mt19937_64 random(options.seed);
     std::uniform_real_distribution<double> unit(0, 1);
-    const auto regimes = static_cast<int>(problem.regime_names().size());
     for (int i = 0; i < options.starts; ++i) {
       Vector u = options.lower;
       for (Index k = 0; k < u.size(); ++k) u(k) += unit(random) * (options.upper(k) - options.lower(k));
-      for (int regime = 0; regime < regimes; ++regime)
-        collector.exhaust({u, guesses.front().parameters, regime, {}});
+      collector.exhaust(in_its_regime(problem, {u, guesses.front().parameters, guesses.front().regime, {}}));
     }
   }
   for (std::size_t i = 0; i < collector.known().size(); ++i) {
@@ -182,6 +190,7 @@ std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& g
     Vector near = again.unknowns;
     near.array() += 1e-3 * (1 + near.array().abs());
     collector.exhaust({near, again.parameters, again.regime, {}});
+    if (!inside(problem, again)) collector.exhaust(in_its_regime(problem, again));
   }
   std::vector<Guess> solutions;
   for (const Guess& solution : collector.known()) {

@@ -31,7 +31,8 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
     m->reserve(tracked_.size() + 8);
 }
 
-Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int regime, double forward) {
+Correction Stepper::start(const Vector& unknowns, const Vector& parameters, const Regime& regime,
+                          double forward) {
   here_.unknowns = unknowns;
   here_.parameters = parameters;
   here_.regime = regime;
@@ -47,7 +48,7 @@ Correction Stepper::start(const Vector& unknowns, const Vector& parameters, int 
   return result;
 }
 
-Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters, int regime,
+Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters, const Regime& regime,
                                 const Vector& direction) {
   here_.unknowns = unknowns;
   here_.parameters = parameters;
@@ -98,7 +99,7 @@ void Stepper::restore(const Progress& progress) {
   here_.log_determinant = corrector_.log_determinant();
 }
 
-Correction Stepper::enter(int regime) {
+Correction Stepper::enter(const Regime& regime) {
   here_.regime = regime;
   double nearest = std::numeric_limits<double>::infinity();
   // The border of the new regime on which the point lies; the new piece leaves it against its gradient.

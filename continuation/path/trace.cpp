@@ -35,9 +35,9 @@ void check(const Problem& problem, const Guess& guess) {
         "none or {}",
         guess.unknowns.size(), guess.parameters.size(), guess.direction.size(), n, parameters, n + 1));
   }
-  if (guess.regime < 0 || guess.regime >= static_cast<int>(problem.regime_names().size()))
+  if (guess.regime.size() > problem.switch_count())
     throw std::invalid_argument(
-        fmt::format("trace: the guess names a regime {} that is not there", guess.regime));
+        fmt::format("trace: the guess names a regime {} that is not there", digits(guess.regime)));
 }
 
 double sense(const TraceOptions& options) { return options.to > options.from ? 1 : -1; }
@@ -100,7 +100,7 @@ Branch trace_parts(const std::function<Branch()>& ahead, const std::function<Bra
 namespace {
 
 /// Appends all points but the first `skipped`, backwards; `regime` is that of the point before the first.
-void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, int regime,
+void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, const Regime& regime,
                      std::vector<BranchPoint>& out) {
   for (std::size_t i = points.size(); i-- > skipped;) {
     BranchPoint& point = points[i];
@@ -117,7 +117,7 @@ void append_reversed(std::vector<BranchPoint>& points, std::size_t skipped, int 
 
 /// Joins two parts; of the first one `skipped` points are the other's, too, and `regime` is that before the
 /// others.
-Branch join(Branch first, std::size_t skipped, int regime, Branch second) {
+Branch join(Branch first, std::size_t skipped, const Regime& regime, Branch second) {
   Branch whole;
   whole.first_stop = first.stop;
   whole.stop = second.stop;
@@ -141,7 +141,7 @@ Branch join(Branch first, std::size_t skipped, int regime, Branch second) {
 
 }  // namespace
 
-Branch join(Branch first, Branch second) { return join(std::move(first), 1, 0, std::move(second)); }
+Branch join(Branch first, Branch second) { return join(std::move(first), 1, {}, std::move(second)); }
 
 Branch resume_parts(const Checkpoint& checkpoint, const std::function<Branch(const Progress&)>& go_on,
                     const std::function<Branch(const Guess&)>& begin_back) {

@@ -42,8 +42,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
                options.branch_point_pairs),
       watch_(problem, options.events),
-      targets_(problem, parameter_, options),
-      seen_in_regime_(problem.regime_names().size()) {
+      targets_(problem, parameter_, options) {
   state_.distance = 0.1 * options.max_step;
   branch_.points.reserve(256);
 }
@@ -259,8 +258,8 @@ bool Tracer::on_several_borders() const {
 Correction Tracer::leave(int border, bool several) {
   const CurvePoint& here = stepper_.here();
   if (!several) {
-    const int beyond = problem_.regime_beyond(here.regime, border);
-    if (seen_in_regime_[static_cast<std::size_t>(beyond)] == 0)
+    const Regime beyond = *problem_.regime_beyond(here.regime, border);
+    if (!seen_in_regime_.contains(beyond))
       check_functions(problem_, here.unknowns, here.parameters, beyond, stepper_.tracked());
     return stepper_.enter(beyond);
   }
@@ -282,7 +281,7 @@ Correction Tracer::leave(int border, bool several) {
 }
 
 void Tracer::cross(int border, bool several) {
-  if (!several && problem_.regime_beyond(stepper_.here().regime, border) < 0) {
+  if (!several && !problem_.regime_beyond(stepper_.here().regime, border)) {
     store(PointType::end);
     return stop(Stop::left_regime,
                 fmt::format("the branch ends on the border of its regime, at {}", place()));

@@ -31,18 +31,24 @@ void require_count(const char* what, Index now, Index then) {
   if (now != then) refuse(fmt::format("there are {} {}; the checkpoint has {}", now, what, then));
 }
 
+/// The names of all regimes with at most one switch in a state other than 0: as many as there are switches.
+std::vector<std::string> regimes_of(const Problem& problem) {
+  std::vector<std::string> names{problem.describe({})};
+  for (Index i = 0; i < problem.switch_count(); ++i) names.push_back(problem.describe(Regime().with(i, 1)));
+  return names;
+}
+
 }  // namespace
 
 /// In each regime a few points behind its beginning, where a trivial solution or a corner may hide what is
 /// wrong.
 bool Tracer::is_time_to_look(PointType type) {
-  if (type == PointType::regular)
-    return ++seen_in_regime_[static_cast<std::size_t>(stepper_.here().regime)] == 3;
+  if (type == PointType::regular) return ++seen_in_regime_[stepper_.here().regime] == 3;
   return is_singular(type) && !std::exchange(singular_seen_, true);
 }
 
 /// Of an extended problem those of its base count: its own are made of them.
-void Tracer::look_at_derivatives(const Vector& u, const Vector& p, int regime) {
+void Tracer::look_at_derivatives(const Vector& u, const Vector& p, const Regime& regime) {
   if (!branch_.warning.empty()) return;
   ++corrector_.work().evaluations;
   std::optional<std::string> wrong;
@@ -58,8 +64,8 @@ void Tracer::look_at_derivatives(const Vector& u, const Vector& p, int regime) {
 }
 
 BranchIdentity Tracer::identity() const {
-  BranchIdentity of{problem_.parameter_names(), problem_.regime_names(), {},
-                    options_.parameter,         options_.extrema_of,     {}};
+  BranchIdentity of{problem_.parameter_names(), regimes_of(problem_), {},
+                    options_.parameter,         options_.extrema_of,  {}};
   for (const PointType type : problem_.test_types()) of.tests.emplace_back(to_string(type));
   for (const UserEvent& event : options_.events) of.events.push_back(event.name);
   return of;
@@ -85,8 +91,8 @@ void Tracer::require_same(const Progress& progress) const {
     require_count("parameters", std::ssize(problem_.parameter_names()), point->parameters.size());
     require_count("entries in the scale", n + 1, point->scale.size());
     require_count("entries in the tangent", n + 1, point->tangent.size());
-    if (point->regime < 0 || point->regime >= std::ssize(seen_in_regime_))
-      refuse(fmt::format("there is no regime {}, which the checkpoint names", point->regime));
+    if (point->regime.size() > problem_.switch_count())
+      refuse(fmt::format("there is no regime {}, which the checkpoint names", digits(point->regime)));
   }
   require_count("entries in the bend", n + 1, progress.bend.size());
   require_count("observables whose extrema are looked for", stepper_.tracked_count(),

@@ -40,9 +40,8 @@ void Tracer::start(const Guess& guess, double forward) {
   }
   for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
     if (stepper_.at_here()[b].value > 1e-12) {
-      return stop(Stop::no_start,
-                  fmt::format("the start lies outside the regime '{}' that was given for it",
-                              problem_.regime_names()[static_cast<std::size_t>(guess.regime)]));
+      return stop(Stop::no_start, fmt::format("the start lies outside the regime '{}' that was given for it",
+                                              problem_.describe(guess.regime)));
     }
   }
   storing_ = true;

@@ -8,7 +8,7 @@ BorderProblem::BorderProblem(const Problem& base, Index active, int border)
   slope_.parameters.setZero(static_cast<Index>(base.parameter_names().size()));
 }
 
-double BorderProblem::border(const Vector& u, const Vector& p, int regime, int border,
+double BorderProblem::border(const Vector& u, const Vector& p, const Regime& regime, int border,
                              Gradient* gradient) const {
   return ExtendedProblem::border(u, p, regime, border < border_ ? border : border + 1, gradient);
 }

@@ -14,7 +14,8 @@ ExtendedProblem::ExtendedProblem(const Problem& base, Index active, Index condit
   of_base_ = {Vector::Zero(base.size()), Vector::Zero(parameters)};
 }
 
-BasePoint ExtendedProblem::split(const Vector& unknowns, const Vector& parameters, int regime) const {
+BasePoint ExtendedProblem::split(const Vector& unknowns, const Vector& parameters,
+                                 const Regime& regime) const {
   const Index n = base_.size();
   BasePoint point{unknowns.head(n), Vector(parameters.size() + 1), regime, unknowns.tail(conditions_ - 1)};
   point.parameters.head(active_) = parameters.head(active_);
@@ -105,7 +106,8 @@ std::vector<std::string> ExtendedProblem::parameter_names() const {
   return names;
 }
 
-bool ExtendedProblem::evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const {
+bool ExtendedProblem::evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                               const Evaluation& out) const {
   const BasePoint point = split(u, p, regime);
   const bool derivatives =
       out.jacobian != nullptr || out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
@@ -181,7 +183,7 @@ void ExtendedProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, 
   parameters.tail(rest) = base_parameters.tail(rest);
 }
 
-double ExtendedProblem::border(const Vector& u, const Vector& p, int regime, int border,
+double ExtendedProblem::border(const Vector& u, const Vector& p, const Regime& regime, int border,
                                Gradient* gradient) const {
   const BasePoint point = split(u, p, regime);
   if (gradient == nullptr) return base_.border(point.unknowns, point.parameters, regime, border, nullptr);
@@ -206,7 +208,7 @@ std::vector<Observable> ExtendedProblem::observables() const {
   return result;
 }
 
-void ExtendedProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void ExtendedProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const BasePoint point = split(u, p, regime);
   Vector of_base;
   base_.observe(point.unknowns, point.parameters, regime, of_base);
@@ -215,7 +217,7 @@ void ExtendedProblem::observe(const Vector& u, const Vector& p, int regime, Vect
   values.tail(of_base.size()) = of_base;
 }
 
-double ExtendedProblem::observe(const Vector& u, const Vector& p, int regime, Index which,
+double ExtendedProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                                 Gradient& gradient) const {
   if (which == 0) {
     gradient.unknowns.setUnit(base_.size());

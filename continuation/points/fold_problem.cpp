@@ -89,7 +89,7 @@ std::vector<PointType> FoldProblem::test_types() const {
   return {PointType::cusp, PointType::bogdanov_takens};
 }
 
-void FoldProblem::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const BasePoint point = split(u, p, regime);
   const Index n = base().size();
   values.setConstant(static_cast<Index>(test_types().size()), std::nan(""));
@@ -104,7 +104,8 @@ void FoldProblem::test(const Vector& u, const Vector& p, int regime, Vector& val
   if (values.size() > 1) values(1) = w.dot(v) / (w.norm() * v.norm());
 }
 
-bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                              ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
   if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
   remove_zero(values);

@@ -101,14 +101,15 @@ std::vector<Observable> HopfProblem::observables() const {
   return result;
 }
 
-void HopfProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void HopfProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   Vector of_base;
   ExtendedProblem::observe(u, p, regime, of_base);
   values.resize(of_base.size() + 1);
   values << of_base, std::sqrt(std::max(0.0, u(u.size() - 1)));
 }
 
-bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                              ComplexVector& values) const {
   const BasePoint point = split(u, p, regime);
   if (!base().eigenvalues(point.unknowns, point.parameters, regime, values)) return false;
   const Complex critical = std::sqrt(Complex(-point.extras(0)));
@@ -117,7 +118,7 @@ bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, int regime, Comp
   return true;
 }
 
-void HopfProblem::test(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void HopfProblem::test(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Vector& values) const {
   values = u.tail(1);
 }
 

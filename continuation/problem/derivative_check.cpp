@@ -67,7 +67,7 @@ struct Differentiated {
 
 class Checker {
  public:
-  Checker(const Problem& problem, const Vector& u, const Vector& p, int regime)
+  Checker(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime)
       : problem_(problem), u_(u), p_(p), regime_(regime), scale_u_(u.size()), scale_p_(p.size()) {
     problem.scale(u, p, scale_u_, scale_p_);
     signs_.setOnes(u.size());
@@ -190,7 +190,7 @@ class Checker {
   const Problem& problem_;
   const Vector& u_;
   const Vector& p_;
-  int regime_;
+  Regime regime_;
   Vector scale_u_;
   Vector scale_p_;
   Vector signs_;  // of the directions' entries
@@ -199,7 +199,8 @@ class Checker {
 
 }  // namespace
 
-DerivativeReport check_derivatives(const Problem& problem, const Vector& u, const Vector& p, int regime) {
+DerivativeReport check_derivatives(const Problem& problem, const Vector& u, const Vector& p,
+                                   const Regime& regime) {
   return Checker(problem, u, p, regime).run();
 }
 

@@ -37,7 +37,7 @@ struct Function {
 
 class Comparison {
  public:
-  Comparison(const Problem& problem, const Vector& u, const Vector& p, int regime,
+  Comparison(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
              const std::vector<Index>& parameters)
       : problem_(problem), u_(u), p_(p), regime_(regime) {
     Vector unknown_scale(u.size());
@@ -179,11 +179,11 @@ class Comparison {
   const Problem& problem_;
   const Vector& u_;
   const Vector& p_;
-  int regime_;
+  Regime regime_;
   Direction all_;
 };
 
-Function residual_of(const Problem& problem, const Linearization& at, int regime) {
+Function residual_of(const Problem& problem, const Linearization& at, const Regime& regime) {
   Function f{"F", "the Jacobian differs from differences of the residual", {}, {}, {}};
   f.value = [&problem, regime](const Vector& u, const Vector& p, Vector& values) {
     values.resize(u.size());
@@ -223,7 +223,7 @@ Function scalar_of(const std::string& name, const Gradient& gradient, Gradient& 
 }  // namespace
 
 std::optional<std::string> find_wrong_derivative(const Problem& problem, const Vector& u, const Vector& p,
-                                                 int regime, const std::vector<Index>& parameters,
+                                                 const Regime& regime, const std::vector<Index>& parameters,
                                                  const std::vector<Index>& observables) {
   Linearization at(problem);
   if (!at.evaluate(u, p, regime)) return std::nullopt;

@@ -60,7 +60,8 @@ bool check_residual(const Vector& residual, Index n) {
 
 }  // namespace
 
-bool evaluate(const Problem& problem, const Vector& u, const Vector& p, int regime, const Evaluation& out) {
+bool evaluate(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
+              const Evaluation& out) {
   if (out.residual != nullptr) out.residual->setConstant(unfilled);
   if (out.jacobian != nullptr) out.jacobian->setConstant(unfilled);
   if (out.parameter_jacobian != nullptr) out.parameter_jacobian->setConstant(unfilled);
@@ -97,7 +98,7 @@ void require_filled(const std::string& name, const Gradient& gradient, Index n, 
 
 }  // namespace
 
-void check_functions(const Problem& problem, const Vector& u, const Vector& p, int regime,
+void check_functions(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
                      const std::vector<Index>& tracked) {
   const Index n = problem.size();
   const Index parameters = p.size();

@@ -18,7 +18,7 @@ Linearization::Linearization(const Problem& problem)
   }
 }
 
-bool Linearization::evaluate(const Vector& u, const Vector& p, int regime) {
+bool Linearization::evaluate(const Vector& u, const Vector& p, const Regime& regime) {
   ++evaluations_;
   const Evaluation out{&residual_, sparse_ ? nullptr : &jacobian_, &parameter_jacobian_,
                        sparse_ ? &sparse_jacobian_ : nullptr};

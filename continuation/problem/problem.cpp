@@ -15,12 +15,13 @@ void Problem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& 
   parameters = p.cwiseAbs().cwiseMax(1);
 }
 
-bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, const Vector& /*w*/,
+bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, const Vector& /*w*/,
                      const Vector& /*du*/, const Vector& /*dp*/, Vector& /*out*/) const {
   return false;
 }
 
-bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                          ComplexVector& values) const {
   if (!is_equilibrium() || sparse()) return false;
   Matrix jacobian(size(), size());
   Evaluation out;
@@ -30,26 +31,31 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexV
   return values.allFinite();
 }
 
-void Problem::test(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void Problem::test(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, Vector& values) const {
   values.resize(0);
 }
 
-int Problem::border_count(int /*regime*/) const { return 0; }
+std::string Problem::describe(const Regime& regime) const {
+  return switch_count() == 0 ? "smooth" : "states " + digits(regime);
+}
 
-double Problem::border(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, int /*border*/,
+int Problem::border_count(const Regime& /*regime*/) const { return 0; }
+
+double Problem::border(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, int /*border*/,
                        Gradient* /*gradient*/) const {
   throw std::logic_error("Problem::border: this problem has no borders");
 }
 
-int Problem::regime_beyond(int /*regime*/, int /*border*/) const {
+std::optional<Regime> Problem::regime_beyond(const Regime& /*regime*/, int /*border*/) const {
   throw std::logic_error("Problem::regime_beyond: this problem has no borders");
 }
 
-void Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void Problem::observe(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/,
+                      Vector& values) const {
   values.resize(0);
 }
 
-double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
                         Gradient& /*gradient*/) const {
   throw std::logic_error("Problem::observe: this problem has no observable with a gradient");
 }
@@ -62,6 +68,14 @@ std::vector<std::string> observable_names(const Problem& problem) {
   std::vector<std::string> names;
   for (const Observable& observable : problem.observables()) names.push_back(observable.name);
   return names;
+}
+
+int crossed_border(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
+                   double tolerance) {
+  for (int b = 0; b < problem.border_count(regime); ++b) {
+    if (problem.border(u, p, regime, b, nullptr) > tolerance) return b;
+  }
+  return -1;
 }
 
 Index index_of(const std::vector<std::string>& names, const std::string& name) {

@@ -82,7 +82,7 @@ double SecondDerivative::length(const Vector& u, const Vector& p, const Vector& 
                   dp.size() == 0 ? 0 : dp.cwiseQuotient(parameter_scale_).lpNorm<Eigen::Infinity>());
 }
 
-bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, const Vector& w,
+bool SecondDerivative::contract(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
                                 const Vector& du, const Vector& dp, Vector& out) {
   Matrix column;
   if (!contract(u, p, regime, Matrix(w), du, dp, column)) return false;
@@ -90,7 +90,7 @@ bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, co
   return true;
 }
 
-bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, const Matrix& weights,
+bool SecondDerivative::contract(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
                                 const Vector& du, const Vector& dp, Matrix& out) {
   out.setZero(u.size() + p.size(), weights.cols());
   const double size = length(u, p, du, dp);
@@ -99,7 +99,7 @@ bool SecondDerivative::contract(const Vector& u, const Vector& p, int regime, co
   return difference(u, p, regime, weights, du, dp, out);
 }
 
-bool SecondDerivative::ask(const Vector& u, const Vector& p, int regime, const Matrix& weights,
+bool SecondDerivative::ask(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
                            const Vector& du, const Vector& dp, Matrix& out) {
   for (Index k = 0; k < weights.cols(); ++k) {
     weight_ = weights.col(k);
@@ -114,8 +114,8 @@ bool SecondDerivative::ask(const Vector& u, const Vector& p, int regime, const M
   return true;
 }
 
-bool SecondDerivative::difference(const Vector& u, const Vector& p, int regime, const Matrix& weights,
-                                  const Vector& du, const Vector& dp, Matrix& out) {
+bool SecondDerivative::difference(const Vector& u, const Vector& p, const Regime& regime,
+                                  const Matrix& weights, const Vector& du, const Vector& dp, Matrix& out) {
   const Index n = u.size();
   const auto f = [&](double h, Vector& value) {
     if (!at_.evaluate(u + h * du, p + h * dp, regime)) return false;

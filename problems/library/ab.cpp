@@ -20,7 +20,7 @@ Vector lowest_equilibrium(const continuation::Problem& /*problem*/, const Vector
 
 }  // namespace
 
-bool StirredTank::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool StirredTank::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                            const continuation::Evaluation& out) const {
   const double arrhenius = std::exp(u(1));
   const double left = (1 - u(0)) * arrhenius;

@@ -6,7 +6,7 @@
 
 namespace arcslip::problems {
 
-bool Bratu::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool Bratu::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                      const continuation::Evaluation& out) const {
   const auto at = [&](Index i) { return i < 0 || i >= size_ ? 0 : u(i); };
   SparseMatrix* jacobian = out.sparse_jacobian;
@@ -32,13 +32,14 @@ std::vector<continuation::Observable> Bratu::observables() const {
   return {{"u_mid", true}, {"slope", true}};
 }
 
-void Bratu::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void Bratu::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                    Vector& values) const {
   continuation::Gradient unused{Vector(size_), Vector(1)};
   values.resize(2);
   for (const Index which : {u_mid, slope}) values(which) = observe(u, p, regime, which, unused);
 }
 
-double Bratu::observe(const Vector& u, const Vector& p, int /*regime*/, Index which,
+double Bratu::observe(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/, Index which,
                       continuation::Gradient& gradient) const {
   gradient.unknowns.setZero();
   gradient.parameters.setZero();

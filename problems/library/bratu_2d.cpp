@@ -6,7 +6,7 @@
 
 namespace arcslip::problems {
 
-bool BratuSquare::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool BratuSquare::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                            const continuation::Evaluation& out) const {
   const double area = h_ * h_;
   if (out.residual != nullptr) {
@@ -41,13 +41,14 @@ void BratuSquare::fill(const Vector& u, double lambda, SparseMatrix& jacobian) c
   jacobian.finalize();
 }
 
-void BratuSquare::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void BratuSquare::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                          Vector& values) const {
   continuation::Gradient unused{Vector(size()), Vector(1)};
   values.setConstant(1, observe(u, p, regime, 0, unused));
 }
 
-double BratuSquare::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
-                            continuation::Gradient& gradient) const {
+double BratuSquare::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                            Index /*which*/, continuation::Gradient& gradient) const {
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
   double value = 0;

@@ -15,7 +15,7 @@ Vector outer_bound(const continuation::Problem& /*problem*/, const Vector& p) {
 
 }  // namespace
 
-bool Cusp::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool Cusp::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                     const continuation::Evaluation& out) const {
   const double x = u(0);
   if (out.residual != nullptr) *out.residual << p(0) + p(1) * x - x * x * x;

@@ -55,7 +55,7 @@ Matrix DuffingOscillator::linear_part(const Vector& p) const {
   return stiffness;
 }
 
-bool DuffingOscillator::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool DuffingOscillator::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                                  const continuation::Evaluation& out) const {
   const double weight = 2 / static_cast<double>(basis_.rows());
   const Matrix stiffness = linear_part(p);
@@ -96,13 +96,15 @@ std::vector<continuation::Observable> DuffingOscillator::observables() const {
   return result;
 }
 
-void DuffingOscillator::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void DuffingOscillator::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                                Vector& values) const {
   values.resize(count() + 1);
   for (Index k = 0; k < count(); ++k) values(k) = u.segment<2>(2 * k).norm();
   values(count()) = u.norm() / std::numbers::sqrt2;
 }
 
-double DuffingOscillator::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index which,
+double DuffingOscillator::observe(const Vector& u, const Vector& /*p*/,
+                                  const continuation::Regime& /*regime*/, Index which,
                                   continuation::Gradient& gradient) const {
   const bool all = which == count();
   const Index first = all ? 0 : 2 * which;
@@ -133,14 +135,15 @@ std::vector<ComplexMatrix> DuffingOscillator::variation(const Vector& u, const V
   return coefficients;
 }
 
-void DuffingOscillator::test(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const {
+void DuffingOscillator::test(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+                             Vector& values) const {
   values.setConstant(1, std::nan(""));
   if (!u.allFinite() || !p.allFinite()) return;
   const auto coefficients = variation(u, p);
   values(0) = continuation::returning_determinant(coefficients, 2 * p(frequency), twice_order(coefficients));
 }
 
-bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, int /*regime*/,
+bool DuffingOscillator::eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                                     ComplexVector& values) const {
   if (!u.allFinite() || !p.allFinite()) return false;
   const auto coefficients = variation(u, p);

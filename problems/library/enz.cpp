@@ -22,7 +22,7 @@ Vector lower_bound(const continuation::Problem& /*problem*/, const Vector& p) {
 
 }  // namespace
 
-bool EnzymeCompartments::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool EnzymeCompartments::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                                   const continuation::Evaluation& out) const {
   const Rate first(u(0), p(3)), second(u(1), p(3));
   if (!(first.denominator > 0 && second.denominator > 0)) return false;

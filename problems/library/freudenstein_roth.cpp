@@ -14,7 +14,7 @@ Vector least_solution(const continuation::Problem& /*problem*/, const Vector& p)
 
 }  // namespace
 
-bool FreudensteinRoth::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool FreudensteinRoth::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                                 const continuation::Evaluation& out) const {
   const double x = u(0), y = u(1), z = p(0) - 1;
   if (out.residual != nullptr) {

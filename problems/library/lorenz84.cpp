@@ -4,7 +4,7 @@
 
 namespace arcslip::problems {
 
-bool Lorenz84::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool Lorenz84::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                         const continuation::Evaluation& out) const {
   const double X = u(0), Y = u(1), Z = u(2), U = u(3);
   const double F = p(0), T = p(1), a = p(2), b = p(3), G = p(4), d = p(5), g = p(6);

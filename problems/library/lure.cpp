@@ -64,7 +64,7 @@ LureCycle::LureCycle(Index harmonics) {
   }
 }
 
-bool LureCycle::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool LureCycle::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                          const continuation::Evaluation& out) const {
   const Index n = basis_.cols();
   const double w = u(n);
@@ -100,12 +100,13 @@ bool LureCycle::evaluate(const Vector& u, const Vector& p, int /*regime*/,
   return true;
 }
 
-void LureCycle::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void LureCycle::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                        Vector& values) const {
   values.resize(2);
   values << std::hypot(u(first_cosine), u(first_sine)), two_pi / u(basis_.cols());
 }
 
-double LureCycle::observe(const Vector& u, const Vector& p, int regime, Index which,
+double LureCycle::observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                           continuation::Gradient& gradient) const {
   Vector values;
   observe(u, p, regime, values);
@@ -116,7 +117,8 @@ double LureCycle::observe(const Vector& u, const Vector& p, int regime, Index wh
   return values(which);
 }
 
-bool LureCycle::eigenvalues(const Vector& u, const Vector& p, int /*regime*/, ComplexVector& values) const {
+bool LureCycle::eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+                            ComplexVector& values) const {
   if (!u.allFinite() || !p.allFinite()) return false;
   const auto coefficients = variation(u, p);
   const auto all =
@@ -128,7 +130,8 @@ bool LureCycle::eigenvalues(const Vector& u, const Vector& p, int /*regime*/, Co
   return values.allFinite();
 }
 
-void LureCycle::test(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const {
+void LureCycle::test(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+                     Vector& values) const {
   values.setConstant(1, std::nan(""));
   if (!u.allFinite() || !p.allFinite()) return;
   const auto coefficients = variation(u, p);

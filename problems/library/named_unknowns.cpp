@@ -9,12 +9,13 @@ std::vector<continuation::Observable> NamedUnknowns::observables() const {
   return result;
 }
 
-void NamedUnknowns::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void NamedUnknowns::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                            Vector& values) const {
   values = u;
 }
 
-double NamedUnknowns::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index which,
-                              continuation::Gradient& gradient) const {
+double NamedUnknowns::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                              Index which, continuation::Gradient& gradient) const {
   gradient.unknowns.setUnit(which);
   gradient.parameters.setZero();
   return u(which);

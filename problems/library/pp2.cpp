@@ -6,7 +6,7 @@
 
 namespace arcslip::problems {
 
-bool PredatorPrey::evaluate(const Vector& unknowns, const Vector& p, int /*regime*/,
+bool PredatorPrey::evaluate(const Vector& unknowns, const Vector& p, const continuation::Regime& /*regime*/,
                             const continuation::Evaluation& out) const {
   const double u = unknowns(0), v = unknowns(1);
   const double caught = -std::expm1(-5 * u);

@@ -200,7 +200,8 @@ class Prover {
     for (int i = 0; i < corrections; ++i) {
       const double threshold = problem_.system().slip_threshold(parameters(ContactProblem::eta),
                                                                 parameters(ContactProblem::preload));
-      const int regime = unknown(0) > std::log(threshold) ? ContactProblem::slip : ContactProblem::stick;
+      const continuation::Regime regime =
+          unknown(0) > std::log(threshold) ? ContactProblem::slip : ContactProblem::stick;
       if (!problem_.evaluate(unknown, parameters, regime, {&residual, &slope, &slopes})) return middle;
       const double by_log_q = q * slopes(0, parameter_);
       const double correction = -residual(0) / (slope(0, 0) * slope(0, 0) + by_log_q * by_log_q);

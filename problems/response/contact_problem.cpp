@@ -59,9 +59,9 @@ void ContactProblem::scale(const Vector& /*u*/, const Vector& p, Vector& unknown
   parameters = p;
 }
 
-double ContactProblem::border(const Vector& u, const Vector& p, int regime, int /*border*/,
-                              continuation::Gradient* gradient) const {
-  const double sign = regime == stick ? 1 : -1;
+double ContactProblem::border(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              int /*border*/, continuation::Gradient* gradient) const {
+  const double sign = regime[0] == stick ? 1 : -1;
   const LogThreshold threshold = log_threshold(p);
   if (gradient != nullptr) {
     gradient->unknowns.setZero();
@@ -76,8 +76,8 @@ std::vector<continuation::Observable> ContactProblem::observables() const {
   return {{"R"}, {"S"}, {"R_over_S"}, {"Y", true}, {"U"}, {"beta"}, {"alpha"}, {"psi"}, {"dissipated"}};
 }
 
-void ContactProblem::observe_motion(const State& at, double log_R, Complex r, const Vector& p, int regime,
-                                    Vector& values) const {
+void ContactProblem::observe_motion(const State& at, double log_R, Complex r, const Vector& p,
+                                    const continuation::Regime& regime, Vector& values) const {
   const Complex y = -r * (1.0 + at.force * at.damper.compliance);
   const Complex motion = -r * at.force * at.damper.compliance;  // u of the damper
   values.resize(9);
@@ -89,7 +89,7 @@ void ContactProblem::observe_motion(const State& at, double log_R, Complex r, co
   values(beta) = lag(y);
   values(alpha) = lag(motion);
   values(psi) = lag(r);
-  values(dissipated) = regime == slip ? dissipated_energy(at.log_ratio) : 0;
+  values(dissipated) = regime[0] == slip ? dissipated_energy(at.log_ratio) : 0;
 }
 
 std::vector<double> ContactProblem::landmarks(Index parameter, double from, double to) const {

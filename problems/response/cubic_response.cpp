@@ -11,7 +11,7 @@ double CubicResponse::spring(const Vector& u) const {
   return 0.75 * system_.cubic_stiffness * std::exp(2 * u(1));
 }
 
-bool CubicResponse::evaluate(const Vector& u, const Vector& p, int regime,
+bool CubicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
   if (!has_value(p)) return false;
   const auto [base, damper, threshold, log_ratio, law, force] = state(u(0), p, regime);
@@ -43,7 +43,8 @@ bool CubicResponse::evaluate(const Vector& u, const Vector& p, int regime,
   return true;
 }
 
-ComplexVector CubicResponse::motions(const Vector& u, const Vector& p, int regime) const {
+ComplexVector CubicResponse::motions(const Vector& u, const Vector& p,
+                                     const continuation::Regime& regime) const {
   const State at = state(u(0), p, regime);
   const Complex c_B = at.base.compliance;
   const Complex q = 1.0 + at.force * at.damper.compliance;
@@ -51,12 +52,13 @@ ComplexVector CubicResponse::motions(const Vector& u, const Vector& p, int regim
   return Eigen::Vector2cd(r, -q * r);
 }
 
-void CubicResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void CubicResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                            Vector& values) const {
   observe_motion(state(u(0), p, regime), u(0), motions(u, p, regime)(0), p, regime, values);
 }
 
-double CubicResponse::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
-                              continuation::Gradient& gradient) const {
+double CubicResponse::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                              Index /*which*/, continuation::Gradient& gradient) const {
   const double value = std::exp(u(1));
   gradient.unknowns << 0, value;
   gradient.parameters.setZero();

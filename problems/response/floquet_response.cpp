@@ -61,7 +61,8 @@ FloquetResponse::FloquetResponse(const HarmonicSystem& system, const HarmonicSys
       is_in_modes_(false),
       finer_(std::move(finer)) {}
 
-std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vector& p, int regime) const {
+std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vector& p,
+                                                    const continuation::Regime& regime) const {
   std::vector<StickPattern> all;
   for (Index i = 0; i < contacts(); ++i)
     all.push_back(stick_pattern(system().orders, motion(u, i), slip_threshold(i, p), slips(regime, i)));
@@ -70,7 +71,8 @@ std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vecto
   return all;
 }
 
-RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vector& p, int regime,
+RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vector& p,
+                                                      const continuation::Regime& regime,
                                                       std::span<const StickPattern> contacts,
                                                       bool active) const {
   RingDisturbances::Disturbances found = disturbances_.at(p(eta), contacts, active);
@@ -90,11 +92,12 @@ struct FloquetResponse::Last {
   const FloquetResponse* problem = nullptr;
   Vector unknowns;
   Vector parameters;
-  int regime = 0;
+  continuation::Regime regime;
   RingDisturbances::Disturbances active;
 };
 
-const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector& p, int regime) const {
+const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector& p,
+                                                   const continuation::Regime& regime) const {
   thread_local Last last;
   const bool known =
       last.problem == this && last.regime == regime && last.unknowns == u && last.parameters == p;
@@ -102,7 +105,8 @@ const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector
   return last;
 }
 
-bool FloquetResponse::eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const {
+bool FloquetResponse::eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                  ComplexVector& values) const {
   const auto& all = last(u, p, regime).active.all;
   values.resize(std::ssize(all));
   std::transform(all.begin(), all.end(), values.begin(), [](const auto& one) { return one.exponent; });
@@ -113,17 +117,19 @@ std::vector<PointType> FloquetResponse::test_types() const {
   return std::vector<PointType>(disturbances_.symmetries(), PointType::symmetry_breaking);
 }
 
-void FloquetResponse::test(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void FloquetResponse::test(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                           Vector& values) const {
   const std::vector<double>& all = last(u, p, regime).active.symmetries;
   values = Vector::Map(all.data(), std::ssize(all));
 }
 
-std::vector<RingDisturbances::Disturbance> FloquetResponse::disturbances(const Vector& u, const Vector& p,
-                                                                         int regime) const {
+std::vector<RingDisturbances::Disturbance> FloquetResponse::disturbances(
+    const Vector& u, const Vector& p, const continuation::Regime& regime) const {
   return found(u, p, regime, patterns(u, p, regime), false).all;
 }
 
-FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p, int regime) const {
+FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p,
+                                              const continuation::Regime& regime) const {
   const std::vector<StickPattern> contacts = patterns(u, p, regime);
   const auto all = found(u, p, regime, contacts, false).all;
   const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -139,7 +145,8 @@ std::vector<continuation::Observable> FloquetResponse::observables() const {
   return all;
 }
 
-void FloquetResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void FloquetResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              Vector& values) const {
   HarmonicResponse::observe(u, p, regime, values);
   const Worst found = worst(u, p, regime);
   const double error = growth_error(u, p, regime, found.growth);
@@ -150,9 +157,10 @@ void FloquetResponse::observe(const Vector& u, const Vector& p, int regime, Vect
 }
 
 /// What is left out falls as h^-3, though not from each harmonic to the next: twice what that gives.
-double FloquetResponse::growth_error(const Vector& u, const Vector& p, int regime, double growth) const {
+double FloquetResponse::growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                     double growth) const {
   if (finer_ == nullptr) return none;
-  if (regime == 0 && !coordinates_.has_others()) return 0;
+  if (all_stick(regime) && !coordinates_.has_others()) return 0;
   const std::optional<Guess> at = solved_in(*finer_, *this, {u, p, regime});
   if (!at) return none;
   const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;

@@ -6,7 +6,7 @@
 
 namespace arcslip::problems {
 
-bool ForcedResponse::evaluate(const Vector& u, const Vector& p, int regime,
+bool ForcedResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const {
   if (!has_value(p)) return false;
   const auto [base, damper, threshold, log_ratio, law, force] = state(u(0), p, regime);
@@ -40,7 +40,8 @@ Complex ForcedResponse::motion(const State& at) {
   return -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
 }
 
-void ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void ForcedResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                             Vector& values) const {
   const State at = state(u(0), p, regime);
   const Complex r = motion(at);
   observe_motion(at, u(0), r, p, regime, values);
@@ -76,8 +77,8 @@ struct Change {
 
 }  // namespace
 
-double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Index which,
-                               continuation::Gradient& gradient) const {
+double ForcedResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                               Index which, continuation::Gradient& gradient) const {
   if (which == Y) return observe_base(u, p, regime, gradient);
   Vector values;
   observe(u, p, regime, values);
@@ -95,7 +96,7 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Ind
       of(values(U), over_r == 0.0 ? Change{} : Change{1, 0, 0} + 1.0 / over_r * change);
       break;
     }
-    case dissipated: of(regime == slip ? 4 * values(R_over_S) : 0, log_ratio); break;
+    case dissipated: of(regime[0] == slip ? 4 * values(R_over_S) : 0, log_ratio); break;
     default: {
       const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
       const ContactReceptance receptance = output.modes.at(p(eta));
@@ -119,7 +120,7 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, int regime, Ind
 }
 
 /// Y.
-double ForcedResponse::observe_base(const Vector& u, const Vector& p, int regime,
+double ForcedResponse::observe_base(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                     continuation::Gradient& gradient) const {
   const LogThreshold threshold = log_threshold(p);
   const BaseAmplitude amplitude = base_amplitude(system_, system_.damper.at(p(eta)),

@@ -21,10 +21,11 @@ double FreeVibration::length(const Vector& u, const Vector& p) const {
   return std::hypot(amplitude(u, p), u.tail(u.size() - 2).norm());
 }
 
-FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Vector& p, int regime) const {
+FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Vector& p,
+                                          const continuation::Regime& regime) const {
   const Index m = coordinates_.size();
   Order order{which, ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m)};
-  if (regime == 0 && which > 0 && !coordinates_.has_others())
+  if (all_stick(regime) && which > 0 && !coordinates_.has_others())
     return order;  // x_h = 0, also at a resonance of C_h
   const auto add = [&](const ContactModes& structure, bool is_base) {
     Response found;
@@ -52,7 +53,7 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
   return order;
 }
 
-bool FreeVibration::evaluate(const Vector& u, const Vector& p, int regime,
+bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
   if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 && load(u, p) > 0))
     return false;

@@ -40,9 +40,9 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
   zeta_scale_ = std::min(zeta_scale_ / two_pi, 1.0);
 }
 
-bool HarmonicCycle::evaluate(const Vector& u, const Vector& p, int regime,
+bool HarmonicCycle::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
-  return regime != 0 && FreeVibration::evaluate(u, p, regime, out);
+  return !all_stick(regime) && FreeVibration::evaluate(u, p, regime, out);
 }
 
 void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -51,9 +51,10 @@ void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
   parameters << std::max(std::abs(p(zeta)), zeta_scale_), p(preload);
 }
 
-int HarmonicCycle::regime_beyond(int regime, int border) const {
-  const int beyond = HarmonicProblem::regime_beyond(regime, border);
-  return beyond == 0 ? -1 : beyond;
+std::optional<continuation::Regime> HarmonicCycle::regime_beyond(const continuation::Regime& regime,
+                                                                 int border) const {
+  const auto beyond = HarmonicProblem::regime_beyond(regime, border);
+  return all_stick(*beyond) ? std::nullopt : beyond;
 }
 
 struct HarmonicCycle::Found {
@@ -93,7 +94,7 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
     const BranchPoint& b = branch.points[k + 1];
     const double at_a = a.unknowns(NonlinearMode::damping);
     const double at_b = b.unknowns(NonlinearMode::damping);
-    if (a.regime == 0 || (at_a < 0) == (at_b < 0)) continue;
+    if (all_stick(a.regime) || (at_a < 0) == (at_b < 0)) continue;
     const double part = at_a / (at_a - at_b);
     Guess guess{a.unknowns + part * (b.unknowns - a.unknowns), Vector(2), a.regime};
     guess.unknowns(Unknown::amplitude) = a.parameters(0) + part * (b.parameters(0) - a.parameters(0));

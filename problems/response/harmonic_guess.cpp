@@ -14,6 +14,7 @@ namespace arcslip::problems {
 
 using continuation::Gradient;
 using continuation::Guess;
+using continuation::Regime;
 
 /// The response at fixed eta and P over the share of the load that acts.
 class HarmonicResponse::LoadPath : public continuation::Problem {
@@ -24,7 +25,7 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
   Index size() const override { return response_.size(); }
   std::vector<std::string> parameter_names() const override { return {"load"}; }
 
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                 const continuation::Evaluation& out) const override {
     continuation::Evaluation inner = out;
     Matrix columns(size(), 3);
@@ -39,9 +40,10 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
     parameters = p;
   }
 
-  std::vector<std::string> regime_names() const override { return response_.regime_names(); }
-  int border_count(int regime) const override { return response_.border_count(regime); }
-  double border(const Vector& u, const Vector& /*p*/, int regime, int border,
+  Index switch_count() const override { return response_.switch_count(); }
+  std::string describe(const Regime& regime) const override { return response_.describe(regime); }
+  int border_count(const Regime& regime) const override { return response_.border_count(regime); }
+  double border(const Vector& u, const Vector& /*p*/, const Regime& regime, int border,
                 Gradient* gradient) const override {
     if (gradient == nullptr) return response_.border(u, parameters_, regime, border, nullptr);
     Gradient inner{Vector(size()), Vector(2)};
@@ -50,7 +52,9 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
     gradient->parameters.setZero();
     return value;
   }
-  int regime_beyond(int regime, int border) const override { return response_.regime_beyond(regime, border); }
+  std::optional<Regime> regime_beyond(const Regime& regime, int border) const override {
+    return response_.regime_beyond(regime, border);
+  }
 
  private:
   const HarmonicResponse& response_;

@@ -13,7 +13,7 @@ struct HarmonicProblem::Forces {
   std::vector<int> orders;
   Vector unknowns;
   Vector parameters;
-  int regime = 0;
+  continuation::Regime regime;
   std::vector<ElementForce> of_elements;
 };
 
@@ -37,7 +37,8 @@ HarmonicVector HarmonicProblem::motion(const Vector& u, const Vector& p, Index c
   return x;
 }
 
-const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const Vector& p, int regime,
+const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const Vector& p,
+                                                         const continuation::Regime& regime,
                                                          bool derivatives) const {
   Forces& last = last_forces();
   last.orders = system_.orders;
@@ -110,17 +111,14 @@ void HarmonicProblem::add_log_load(double value, const Vector& u, const Vector& 
 
 int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
   constexpr double rounding = 1e-12;
-  for (int b = 0; b < border_count(at.regime); ++b) {
-    if (border(at.unknowns, at.parameters, at.regime, b, nullptr) > rounding) return b;
-  }
-  return -1;
+  return continuation::crossed_border(*this, at.unknowns, at.parameters, at.regime, rounding);
 }
 
 /// What is known of one point, with the gradient of what is asked of it.
 class HarmonicProblem::Observation {
  public:
-  Observation(const HarmonicProblem& problem, const Vector& u, const Vector& p, int regime,
-              continuation::Gradient* gradient)
+  Observation(const HarmonicProblem& problem, const Vector& u, const Vector& p,
+              const continuation::Regime& regime, continuation::Gradient* gradient)
       : problem_(problem),
         system_(problem.system_),
         u_(u),
@@ -281,15 +279,15 @@ class HarmonicProblem::Observation {
   const HarmonicSystem& system_;
   const Vector& u_;
   const Vector& p_;
-  int regime_;
+  continuation::Regime regime_;
   continuation::Gradient* gradient_;
   const std::vector<ElementForce>& elements_;
   const ContactModes* responded_ = nullptr;
   Response response_;
 };
 
-double HarmonicProblem::border(const Vector& u, const Vector& p, int regime, int border,
-                               continuation::Gradient* gradient) const {
+double HarmonicProblem::border(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                               int border, continuation::Gradient* gradient) const {
   const StateBorder at_border = coordinates_.element(border).border(system_.orders, maximum(u, p, border),
                                                                     load(u, p), slips(regime, border));
   if (gradient == nullptr) return at_border.value;
@@ -315,21 +313,23 @@ std::vector<continuation::Observable> HarmonicProblem::observables() const {
   return all;
 }
 
-void HarmonicProblem::observe(const Vector& u, const Vector& p, int regime, Vector& values) const {
+void HarmonicProblem::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              Vector& values) const {
   values.resize(std::ssize(quantities_));
   Observation at_point(*this, u, p, regime, nullptr);
   for (std::size_t i = 0; i < quantities_.size(); ++i)
     values(static_cast<Index>(i)) = at_point.value(quantities_[i]);
 }
 
-double HarmonicProblem::observe(const Vector& u, const Vector& p, int regime, Index which,
-                                continuation::Gradient& gradient) const {
+double HarmonicProblem::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                Index which, continuation::Gradient& gradient) const {
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
   return Observation(*this, u, p, regime, &gradient).value(quantities_[at(which)]);
 }
 
-double HarmonicProblem::synthesised_force(const Vector& /*u*/, const Vector& /*p*/, int /*regime*/) const {
+double HarmonicProblem::synthesised_force(const Vector& /*u*/, const Vector& /*p*/,
+                                          const continuation::Regime& /*regime*/) const {
   return 0;
 }
 

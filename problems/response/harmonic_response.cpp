@@ -49,7 +49,7 @@ HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const
 }
 
 HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u, const Vector& p,
-                                                                 int regime) const {
+                                                                 const continuation::Regime& regime) const {
   const std::vector<ElementForce>& all = forces(u, p, regime, false);
   ElementForces sum{{}, {}, 0};
   for (Index a = 0; a < harmonics(); ++a) {
@@ -60,12 +60,14 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   return sum;
 }
 
-void HarmonicResponse::set_order(Index which, double eta_value, int regime, Order& order) const {
+void HarmonicResponse::set_order(Index which, double eta_value, const continuation::Regime& regime,
+                                 Order& order) const {
   const double h = system_.orders[at(which)];
   ContactReceptance& joint = order.joint;
   order.which = which;
   coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * eta_value, joint);
-  if (regime == 0 && which > 0 && !coordinates_.has_others()) {  // x_h = 0, also where C_h has a resonance
+  if (all_stick(regime) && which > 0 &&
+      !coordinates_.has_others()) {  // x_h = 0, also where C_h has a resonance
     joint.compliance.setZero();
     joint.compliance_eta.setZero();
   }
@@ -91,15 +93,15 @@ struct HarmonicResponse::Rows {
   ComplexVector difference;
 };
 
-bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime,
+bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                 const continuation::Evaluation& out) const {
   return evaluate(u, p, regime, 1, out);
 }
 
 /// Under `share` times the load, by which the derivative follows those by the parameters if there is a column
 /// for it.
-bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime, double share,
-                                const continuation::Evaluation& out) const {
+bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                double share, const continuation::Evaluation& out) const {
   if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
   for (Index i = 0; i < contacts(); ++i) {
     if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
@@ -114,7 +116,8 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, int regime, do
 }
 
 void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u,
-                                 const Vector& p, int regime, Rows& rows, Matrix* parameter_jacobian) const {
+                                 const Vector& p, const continuation::Regime& regime, Rows& rows,
+                                 Matrix* parameter_jacobian) const {
   rows.residual.resize(size());
   rows.weight.resize(harmonics());
   rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
@@ -125,7 +128,8 @@ void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, doub
 }
 
 void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
-                            int regime, Matrix& jacobian, Matrix& parameter_jacobian) const {
+                            const continuation::Regime& regime, Matrix& jacobian,
+                            Matrix& parameter_jacobian) const {
   Rows rows;
   fill_rows(elements, 1, u, p, regime, rows, &parameter_jacobian);
   fill_jacobian(rows, elements, u, regime, jacobian);
@@ -181,7 +185,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
 
 /// Column by column, in which the harmonics of a coordinate's rows follow one another.
 void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
-                                     int regime, Matrix& jacobian) const {
+                                     const continuation::Regime& regime, Matrix& jacobian) const {
   const Index n = harmonics();
   const Index m = coordinates_.size();
   jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();

@@ -8,8 +8,8 @@
 
 namespace arcslip::problems {
 
-bool HarmonicResponse::second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
-                              const Vector& dp, Vector& out) const {
+bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const Vector& w, const Vector& du, const Vector& dp, Vector& out) const {
   if (!evaluate(u, p, regime, {})) return false;
   const std::vector<ElementForce> elements = forces(u, p, regime, true);
   const double log_load = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / load(p);

@@ -22,7 +22,7 @@ LimitCycle::LimitCycle(FrictionSystem system) : system_(std::move(system)) {
   zeta_scale_ = std::min(0.5 * std::numbers::inv_pi * system_.contact_stiffness * zeta_scale_, 1.0);
 }
 
-bool LimitCycle::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool LimitCycle::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                           const continuation::Evaluation& out) const {
   if (!(u(eta) > 0) || !system_.is_loaded(u(eta), p(preload))) return false;
   const DampedCompliance base =
@@ -55,8 +55,8 @@ void LimitCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Vecto
   parameters << std::max(std::abs(p(zeta)), zeta_scale_), p(preload);
 }
 
-double LimitCycle::border(const Vector& u, const Vector& p, int /*regime*/, int /*border*/,
-                          continuation::Gradient* gradient) const {
+double LimitCycle::border(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+                          int /*border*/, continuation::Gradient* gradient) const {
   const LogThreshold threshold = system_.log_threshold(u(eta), p(preload));
   if (gradient != nullptr) {
     gradient->unknowns << threshold.by_eta, -1;
@@ -70,7 +70,8 @@ std::vector<continuation::Observable> LimitCycle::observables() const {
           {"Y", true},   {"U", true}, {"dissipated", true}};
 }
 
-void LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const {
+void LimitCycle::observe(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+                         Vector& values) const {
   const double log_ratio = u(log_R) - system_.log_threshold(u(eta), p(preload)).value;
   const Complex motion =
       system_.contact_stiffness * slip_coefficient(log_ratio).phi * system_.damper.at(u(eta)).compliance;
@@ -84,7 +85,7 @@ void LimitCycle::observe(const Vector& u, const Vector& p, int /*regime*/, Vecto
   values(dissipated) = dissipated_energy(log_ratio);
 }
 
-double LimitCycle::observe(const Vector& u, const Vector& p, int regime, Index which,
+double LimitCycle::observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                            continuation::Gradient& gradient) const {
   Vector values;
   observe(u, p, regime, values);

@@ -31,7 +31,7 @@ std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicRespons
     guess.unknowns = near.unknowns;
     const int border = to.crossed_border(guess);
     if (border < 0) return guess;
-    guess.regime = to.regime_beyond(guess.regime, border);
+    guess.regime = *to.regime_beyond(guess.regime, border);
   }
   return std::nullopt;
 }

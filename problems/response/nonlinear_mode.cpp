@@ -33,12 +33,14 @@ void NonlinearMode::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
   parameters = p;
 }
 
-double NonlinearMode::synthesised_force(const Vector& u, const Vector& p, int regime) const {
+double NonlinearMode::synthesised_force(const Vector& u, const Vector& p,
+                                        const continuation::Regime& regime) const {
   const Modal mode = modal(u, p, regime);
   return 2 * u(Unknown::damping) * std::pow(u(Unknown::frequency), 2) * mode.amplitude / mode.load;
 }
 
-NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p, int regime) const {
+NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p,
+                                          const continuation::Regime& regime) const {
   const std::vector<ElementForce>& elements = forces(u, p, regime, false);
   const double mass = -2 * u(Unknown::damping) * u(Unknown::frequency);
   double square = 0;
@@ -59,7 +61,8 @@ NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p, int 
   return {std::sqrt(square), std::abs(load) / std::sqrt(square)};
 }
 
-std::optional<std::array<double, 2>> NonlinearMode::flanks(const Vector& u, const Vector& p, int regime,
+std::optional<std::array<double, 2>> NonlinearMode::flanks(const Vector& u, const Vector& p,
+                                                           const continuation::Regime& regime,
                                                            double force_value) const {
   const Modal mode = modal(u, p, regime);
   const double square = u(Unknown::frequency) * u(Unknown::frequency);

@@ -11,7 +11,8 @@ double PowerBalance::cancellation() const {
   return magnitude / std::max({std::abs(input), std::abs(base), std::abs(damper), std::abs(friction)});
 }
 
-PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p,
+                           const continuation::Regime& regime) {
   const HarmonicSystem& system = problem.system();
   const double eta = p(HarmonicResponse::eta);
   const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
@@ -28,7 +29,8 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
   return balance;
 }
 
-double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime) {
+double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p,
+                    const continuation::Regime& regime) {
   const HarmonicSystem& system = problem.system();
   const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
   double gap = 0;

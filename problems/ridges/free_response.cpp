@@ -46,7 +46,7 @@ Peak highest_peak(const continuation::Problem& problem, const continuation::Gues
 
 }  // namespace
 
-bool FreeResponse::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool FreeResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                             const continuation::Evaluation& out) const {
   if (!(p(0) > 0)) return false;
   const ContactReceptance at = base_.at(p(0));
@@ -64,12 +64,13 @@ void FreeResponse::scale(const Vector& /*u*/, const Vector& p, Vector& unknowns,
   parameters = p;
 }
 
-void FreeResponse::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const {
+void FreeResponse::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                           Vector& values) const {
   values.setConstant(1, std::exp(u(0)));
 }
 
-double FreeResponse::observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
-                             Gradient& gradient) const {
+double FreeResponse::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                             Index /*which*/, Gradient& gradient) const {
   gradient.parameters.setZero();
   gradient.unknowns(0) = std::exp(u(0));
   return std::exp(u(0));

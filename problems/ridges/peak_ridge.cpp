@@ -155,7 +155,7 @@ RidgePoint ridge_point(const FrictionSystem& system, double w, double eta, doubl
   return point;
 }
 
-bool PeakRidge::evaluate(const Vector& u, const Vector& p, int /*regime*/,
+bool PeakRidge::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                          const continuation::Evaluation& out) const {
   if (!(u(eta) > 0) || !system_.is_loaded(u(eta), p(0))) return false;
   RidgePoint at = ridge_point(system_, u(root_of_log_ratio), u(eta), p(0));
@@ -173,8 +173,8 @@ void PeakRidge::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector
   parameters = p;
 }
 
-double PeakRidge::border(const Vector& u, const Vector& /*p*/, int /*regime*/, int /*border*/,
-                         continuation::Gradient* gradient) const {
+double PeakRidge::border(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                         int /*border*/, continuation::Gradient* gradient) const {
   if (gradient != nullptr) {
     gradient->unknowns << -1, 0;
     gradient->parameters.setZero();

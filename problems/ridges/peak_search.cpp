@@ -168,7 +168,7 @@ bool PeakSearch::falls_inwards(double edge, double preload) const {
 
 /// The end of the window is a local peak of it while Y falls from there into it.
 void PeakSearch::search_edge(double eta) {
-  const auto slope = [&](const Vector& u, const Vector& p, int regime) {
+  const auto slope = [&](const Vector& u, const Vector& p, const continuation::Regime& regime) {
     return ResponseSlopes(problem_.system(), eta, p(ContactProblem::preload), u(0),
                           regime == ContactProblem::slip)
         .by_eta()

@@ -37,10 +37,10 @@ bool PeakSearch::follow(const PeakNode& start) {
   continuation::TraceOptions options = over("P");
   options.extrema_of.clear();
   for (const double edge : {range_.eta_low, range_.eta_high}) {
-    options.events.push_back(
-        {"edge", [end = edge * (1 - inwards(edge) * beyond_window)](const Vector& u, const Vector&, int) {
-           return u(PeakRidge::eta) - end;
-         }});
+    options.events.push_back({"edge", [end = edge * (1 - inwards(edge) * beyond_window)](
+                                          const Vector& u, const Vector&, const continuation::Regime&) {
+                                return u(PeakRidge::eta) - end;
+                              }});
   }
   options.stop_after = {{PointType::event, 1, "edge"}};
   continuation::Guess guess{Vector(2), Vector::Constant(1, start.preload), 0};

@@ -93,8 +93,9 @@ double depth(const continuation::Problem& problem, const continuation::BranchPoi
 }
 
 /// A branch's points by regime, but for those at its borders, where differences would leave it.
-std::map<int, std::vector<const continuation::BranchPoint*>> points_inside(const TracedBranch& traced) {
-  std::map<int, std::vector<const continuation::BranchPoint*>> inside;
+std::map<continuation::Regime, std::vector<const continuation::BranchPoint*>> points_inside(
+    const TracedBranch& traced) {
+  std::map<continuation::Regime, std::vector<const continuation::BranchPoint*>> inside;
   for (const continuation::BranchPoint& point : traced.branch.points) {
     if (depth(*traced.base, point) >= 0.01) inside[point.regime].push_back(&point);
   }

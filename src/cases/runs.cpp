@@ -169,14 +169,13 @@ bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
 
 /// Why a branch that was traced whole begins no curve.
 std::string why_none(const continuation::Problem& problem, const Branch& branch, const std::string& second) {
-  const std::vector<std::string> names = problem.regime_names();
   std::vector<std::string> met;
   for (const BranchPoint& point : branch.points) {
-    const std::string& name = names[static_cast<std::size_t>(point.regime)];
+    const std::string name = problem.describe(point.regime);
     if (std::find(met.begin(), met.end(), name) == met.end()) met.push_back(name);
   }
   const std::string regimes =
-      names.size() > 1
+      problem.switch_count() > 0
           ? fmt::format(" in the {} {}", met.size() > 1 ? "regimes" : "regime", fmt::join(met, ", "))
           : "";
   return fmt::format(": the branch there, traced from end to end{}, has none; at another {} it may", regimes,

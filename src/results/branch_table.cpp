@@ -50,11 +50,9 @@ std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, De
   const PhysicalColumns physical(traced);
   std::vector<Index> places;
   for (const std::string& name : names_) places.push_back(columns.find(name));
-  const std::vector<std::string> regimes = traced.base->regime_names();
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
-    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
-                   regimes[static_cast<std::size_t>(point.regime)]);
+    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type), traced.base->describe(point.regime));
     const std::vector<double>& values = columns.values(point);
     for (const Index place : places)
       number_to(place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);

@@ -73,8 +73,8 @@ void report(int highest, int contacts) {
     for (int k = 0; k < contacts; ++k) {
       const SectorContact& contact = problem.system().contacts[static_cast<std::size_t>(k)];
       const Jenkins element(contact.stiffness, contact.slip_per_preload);
-      element.force(problem.system().orders, problem.motion(point.unknowns, k), 1,
-                    (point.regime >> k & 1) != 0, true, force);
+      element.force(problem.system().orders, problem.motion(point.unknowns, k), 1, point.regime[k] != 0, true,
+                    force);
       sum += force.energy;
     }
   }

@@ -41,7 +41,8 @@ class IntegralEquation : public Problem {
   }
   Index size() const override { return kernel_.rows(); }
   std::vector<std::string> parameter_names() const override { return {"L"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     if (out.jacobian != nullptr) out.jacobian->setIdentity();
     if (out.residual != nullptr) *out.residual = u;
     if (out.parameter_jacobian != nullptr) out.parameter_jacobian->setZero();

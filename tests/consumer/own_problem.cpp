@@ -16,7 +16,7 @@ class Arch : public Problem {
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"d", "k"}; }
 
-  bool evaluate(const Vector& unknowns, const Vector& p, int /*regime*/,
+  bool evaluate(const Vector& unknowns, const Vector& p, const Regime& /*regime*/,
                 const Evaluation& out) const override {
     const double u = unknowns(0), d = p(0), k = p(1);
     if (out.residual) *out.residual << u * (1 - u) * (2 - u) / 2 - k * (d - u);

@@ -36,19 +36,21 @@ ScalarProblem circle() {
 /// Four pieces meet at the origin: u = slope_r p in the regimes p < 0, p > 0 of both signs of u.
 class Crossroads : public Problem {
  public:
-  // regimes: 0 (u<0, p<0), 1 (u>0, p>0), 2 (u<0, p>0), 3 (u>0, p<0): u - p in the first two, u + 2p else
+  // one switch: 0 (u<0, p<0), 1 (u>0, p>0), 2 (u<0, p>0), 3 (u>0, p<0): u - p in the first two, u + 2p else
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
-    const double slope = regime < 2 ? 1 : -2;
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
+    const double slope = regime[0] < 2 ? 1 : -2;
     if (out.residual != nullptr) (*out.residual)(0) = u(0) - slope * p(0);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
     if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = -slope;
     return true;
   }
-  std::vector<std::string> regime_names() const override { return {"--", "++", "-+", "+-"}; }
-  int border_count(int /*regime*/) const override { return 2; }
-  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override {
+  Index switch_count() const override { return 1; }
+  int border_count(const Regime& /*regime*/) const override { return 2; }
+  double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                Gradient* gradient) const override {
     const double sign_u = regime == 0 || regime == 2 ? 1 : -1;
     const double sign_p = regime == 0 || regime == 3 ? 1 : -1;
     if (gradient != nullptr) {
@@ -57,10 +59,10 @@ class Crossroads : public Problem {
     }
     return border == 0 ? sign_u * u(0) : sign_p * p(0);
   }
-  int regime_beyond(int regime, int border) const override {
+  std::optional<Regime> regime_beyond(const Regime& regime, int border) const override {
     const int over_u[] = {3, 2, 1, 0};
     const int over_p[] = {2, 3, 0, 1};
-    return border == 0 ? over_u[regime] : over_p[regime];
+    return border == 0 ? over_u[regime[0]] : over_p[regime[0]];
   }
 };
 
@@ -172,7 +174,8 @@ TEST_CASE("Several solutions of one problem come from a single guess") {
    public:
     Index size() const override { return 2; }
     std::vector<std::string> parameter_names() const override { return {"p"}; }
-    bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+    bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                  const Evaluation& out) const override {
       if (out.residual != nullptr) *out.residual << u(0) * u(0) - p(0), u(1) * u(1) - 4 * p(0);
       if (out.jacobian != nullptr) *out.jacobian << 2 * u(0), 0, 0, 2 * u(1);
       if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << -1, -4;
@@ -192,7 +195,7 @@ TEST_CASE("At a corner of several regimes all pieces that leave are found and ca
   const std::vector<Guess> pieces = leaving_pieces(problem, 0, {vector_of({0}), vector_of({0}), 0, {}});
   REQUIRE(pieces.size() == 4);
   for (const Guess& piece : pieces) {
-    const double slope = piece.regime < 2 ? 1 : -2;
+    const double slope = piece.regime[0] < 2 ? 1 : -2;
     CHECK_THAT(piece.direction(0) / piece.direction(1), WithinRel(slope, 1e-10));
     const Branch branch = trace(problem, piece, over("p", -1, 1));
     CHECK(branch.complete());

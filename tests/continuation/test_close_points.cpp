@@ -28,7 +28,8 @@ class ReactingCells : public Problem {
   Index size() const override { return exchange_.rows(); }
   bool is_equilibrium() const override { return equilibrium_; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const Vector d = 1 + u.array() + u.array().square();
     if (out.residual != nullptr)
       *out.residual = (p(0) - 100 * u.array() / d.array()).matrix() - exchange_ * u;

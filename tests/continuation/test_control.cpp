@@ -38,7 +38,7 @@ TEST_CASE("A branch stops after so many folds, at the first event, and says so")
   CHECK_THAT(folds[2].unknowns(0), WithinRel(2.5 * 3.14159265358979323846, 1e-10));
 
   options.stop_after = {{PointType::fold, 3, {}}, {PointType::event, 1, "two"}};
-  options.events = {{"two", [](const Vector& u, const Vector&, int) { return u(0) - 2; }}};
+  options.events = {{"two", [](const Vector& u, const Vector&, const Regime&) { return u(0) - 2; }}};
   const Branch shorter = trace(sine(), {vector_of({0}), vector_of({0}), 0, vector_of({1, 1})}, options);
   CHECK(shorter.stop == Stop::requested);
   CHECK(shorter.points.back().label == "two");
@@ -48,8 +48,9 @@ TEST_CASE("A branch stops after so many folds, at the first event, and says so")
 TEST_CASE("User events stand beside folds and listed values in one run") {
   TraceOptions options = over("mu", -2, 2);
   options.stop_at = {-1, 0, 1};
-  options.events = {{"zero", [](const Vector& u, const Vector&, int) { return u(0); }},
-                    {"jump", [](const Vector& u, const Vector&, int) { return u(0) > 0.3 ? 1.0 : -1.0; }}};
+  options.events = {
+      {"zero", [](const Vector& u, const Vector&, const Regime&) { return u(0); }},
+      {"jump", [](const Vector& u, const Vector&, const Regime&) { return u(0) > 0.3 ? 1.0 : -1.0; }}};
   const Branch branch = trace(Cusp(), {vector_of({-1.5}), vector_of({-2})}, options);
   REQUIRE(branch.complete());
   const auto events = of_type(branch, PointType::event);

@@ -29,7 +29,8 @@ class Brusselator : public Problem {
   bool is_equilibrium() const override { return true; }
   std::vector<std::string> parameter_names() const override { return {"Dx", "B"}; }
 
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const Index n = points_;
     const double c = coupling(), Dx = p(0), B = p(1);
     const Vector x = u.head(n), y = u.tail(n);
@@ -103,8 +104,8 @@ class CountedCusp : public ScalarProblem {
             {[](double, const Vector&) { return 1.0; }, [](double x, const Vector&) { return x; }}),
         gives_second_(gives_second),
         entries_(entries) {}
-  bool second(const Vector& u, const Vector& /*p*/, int /*regime*/, const Vector& w, const Vector& du,
-              const Vector& dp, Vector& out) const override {
+  bool second(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, const Vector& w,
+              const Vector& du, const Vector& dp, Vector& out) const override {
     out.resize(entries_);
     if (entries_ == 3) out << -6 * u(0) * du(0) + dp(1), 0, du(0);
     out *= w(0);

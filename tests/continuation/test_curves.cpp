@@ -31,7 +31,8 @@ class BogdanovTakens : public Problem {
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"b1", "b2"}; }
   bool is_equilibrium() const override { return true; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double x = u(0), y = u(1);
     if (out.residual != nullptr) *out.residual << y, p(0) + p(1) * x + x * x - x * y;
     if (out.jacobian != nullptr) *out.jacobian << 0, 1, p(1) + 2 * x - y, -x;
@@ -46,7 +47,8 @@ class TwoOscillators : public Problem {
   Index size() const override { return 4; }
   std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
   bool is_equilibrium() const override { return true; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double a = p(0), b = p(0) + p(1) - 1;
     Matrix matrix = Matrix::Zero(4, 4);
     matrix.topLeftCorner(2, 2) << a, -1, 1, a;
@@ -67,7 +69,8 @@ class Parabola : public Corner {
  public:
   Parabola() : Corner(1, 1) {}
   std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     if (out.residual != nullptr) (*out.residual)(0) = u(0) - p(0) + p(1) * p(1);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
     if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << -1, 2 * p(1);

@@ -23,7 +23,8 @@ class ChafeeInfante : public Problem {
   bool sparse() const override { return sparse_; }
   double spacing() const { return std::numbers::pi / static_cast<double>(m_ + 1); }
 
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double h = spacing();
     Matrix jacobian = Matrix::Zero(m_, m_);
     for (Index i = 0; i < m_; ++i) {
@@ -52,7 +53,8 @@ class Lorenz : public Problem {
   Index size() const override { return 3; }
   std::vector<std::string> parameter_names() const override { return {"r"}; }
   bool is_equilibrium() const override { return true; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     constexpr double s = 10, b = 8.0 / 3;
     const double x = u(0), y = u(1), z = u(2), r = p(0);
     if (out.residual != nullptr) *out.residual << s * (y - x), x * (r - z) - y, x * y - b * z;

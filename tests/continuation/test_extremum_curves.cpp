@@ -19,19 +19,20 @@ namespace {
 class Edge : public Problem {
  public:
   Edge(double slope, double rise) : slope_(slope), rise_(rise) {}
-  enum Regime : int { before, behind };
+  enum SwitchState : int { before, behind };
 
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"p", "q"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     if (out.residual != nullptr) (*out.residual)(0) = u(0) - p(0);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
     if (out.parameter_jacobian != nullptr) *out.parameter_jacobian << -1, 0;
     return true;
   }
-  std::vector<std::string> regime_names() const override { return {"before", "behind"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& p, int regime, int /*border*/,
+  Index switch_count() const override { return 1; }
+  int border_count(const Regime& /*regime*/) const override { return 1; }
+  double border(const Vector& u, const Vector& p, const Regime& regime, int /*border*/,
                 Gradient* gradient) const override {
     const double sign = regime == before ? 1 : -1;
     if (gradient != nullptr) {
@@ -40,13 +41,15 @@ class Edge : public Problem {
     }
     return sign * (u(0) - p(1));
   }
-  int regime_beyond(int regime, int /*border*/) const override { return regime == before ? behind : before; }
+  std::optional<Regime> regime_beyond(const Regime& regime, int /*border*/) const override {
+    return Regime(regime == before ? behind : before);
+  }
   std::vector<Observable> observables() const override { return {{"Y", true}}; }
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override {
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override {
     Gradient unused{Vector::Zero(1), Vector::Zero(2)};
     values = Vector::Constant(1, observe(u, p, regime, 0, unused));
   }
-  double observe(const Vector& u, const Vector& p, int regime, Index /*which*/,
+  double observe(const Vector& u, const Vector& p, const Regime& regime, Index /*which*/,
                  Gradient& gradient) const override {
     gradient.parameters.setZero();
     if (regime == before) {
@@ -70,9 +73,9 @@ class Edge : public Problem {
 class HiddenEdge : public Edge {
  public:
   using Edge::Edge;
-  std::vector<std::string> regime_names() const override { return {"whole"}; }
-  int border_count(int /*regime*/) const override { return 0; }
-  double observe(const Vector& u, const Vector& p, int /*regime*/, Index which,
+  Index switch_count() const override { return 0; }
+  int border_count(const Regime& /*regime*/) const override { return 0; }
+  double observe(const Vector& u, const Vector& p, const Regime& /*regime*/, Index which,
                  Gradient& gradient) const override {
     return Edge::observe(u, p, u(0) < p(1) ? before : behind, which, gradient);
   }

@@ -25,7 +25,8 @@ ScalarProblem graph(std::function<double(double)> f, std::function<double(double
 class CornerNextToFold : public Corner {
  public:
   CornerNextToFold(double gap, double slope) : Corner(0, slope), gap_(gap), slope_(slope) {}
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     const double x = u(0);
     if (out.residual != nullptr)
       (*out.residual)(0) = p(0) - (regime == 0 ? -x * x + 2 * gap_ * x : slope_ * x);

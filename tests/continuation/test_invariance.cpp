@@ -31,7 +31,8 @@ class Changed : public Problem {
     return back;
   }
 
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     const Index n = size();
     Vector residual(n);
     Matrix jacobian(n, n);

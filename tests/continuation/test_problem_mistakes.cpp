@@ -22,7 +22,8 @@ class Mistaken : public FreudensteinRoth {
  public:
   using Spoil = std::function<void(const Vector& u, const Evaluation& out)>;
   explicit Mistaken(Spoil spoil) : spoil_(std::move(spoil)) {}
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     if (!FreudensteinRoth::evaluate(u, p, regime, out)) return false;
     spoil_(u, out);
     return true;
@@ -74,7 +75,8 @@ class Forgetful : public Problem {
   explicit Forgetful(int forgotten) : forgotten_(forgotten) {}
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     if (out.residual != nullptr) {
       (*out.residual)(0) = u(0) - p(0);
       if (forgotten_ != 0) (*out.residual)(1) = u(1) - u(0) * u(0);
@@ -89,10 +91,11 @@ class Forgetful : public Problem {
     return true;
   }
   std::vector<Observable> observables() const override { return {{"sum", true}}; }
-  void observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const override {
+  void observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/,
+               Vector& values) const override {
     values = Vector::Constant(forgotten_ == 4 ? 2 : 1, u.sum());
   }
-  double observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+  double observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
                  Gradient& gradient) const override {
     gradient.unknowns.setOnes();
     if (forgotten_ != 5) gradient.parameters.setZero();
@@ -158,7 +161,8 @@ TEST_CASE("A wrong entry is found among many, and a wrong gradient") {
   class Spoilt : public Bratu {
    public:
     using Bratu::Bratu;
-    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                  const Evaluation& out) const override {
       Bratu::evaluate(u, p, regime, out);
       if (out.jacobian != nullptr) (*out.jacobian)(70, 71) *= 1.0002;
       return true;
@@ -170,7 +174,7 @@ TEST_CASE("A wrong entry is found among many, and a wrong gradient") {
   class Slope : public Needle {
    public:
     using Needle::Needle;
-    double observe(const Vector& u, const Vector& p, int regime, Index which,
+    double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                    Gradient& gradient) const override {
       const double value = Needle::observe(u, p, regime, which, gradient);
       gradient.unknowns *= 1.1;
@@ -186,7 +190,8 @@ TEST_CASE("A wrong entry is found among many, and a wrong gradient") {
 }
 
 TEST_CASE("Right derivatives are never suspected: beside corners and borders, on needles, with rounding") {
-  const auto silent = [](const Problem& problem, const Vector& u, const Vector& p, int regime = 0) {
+  const auto silent = [](const Problem& problem, const Vector& u, const Vector& p,
+                         const Regime& regime = {}) {
     const auto found = find_wrong_derivative(problem, u, p, regime, {0}, {});
     INFO(found.value_or(""));
     CHECK_FALSE(found);

@@ -45,7 +45,7 @@ TEST_CASE("A resumed branch is the one that was left, bit by bit, wherever it wa
 TEST_CASE("A branch with corners, extrema and events is resumed bit by bit") {
   const long count = GENERATE(5, 10, 14, 15, 16, 17, 25);
   TraceOptions options = over("p", 0, 2);
-  options.events = {{"half", [](const Vector&, const Vector& p, int) { return p(0) - 0.5; }}};
+  options.events = {{"half", [](const Vector&, const Vector& p, const Regime&) { return p(0) - 0.5; }}};
   check_resume(Bump(0.3), {vector_of({-0.91}), vector_of({0})}, options, count);
 }
 
@@ -70,7 +70,7 @@ std::string refusal(const Problem& problem, const Checkpoint& checkpoint, const 
 
 TEST_CASE("A branch is not gone on with as another one: what differs is named") {
   TraceOptions options = over("p", 0, 9);
-  options.events = {{"one", [](const Vector& u, const Vector&, int) { return u(0) - 1; }}};
+  options.events = {{"one", [](const Vector& u, const Vector&, const Regime&) { return u(0) - 1; }}};
   options.max_points = 5;
   const Branch begun = trace(line("p", 1), {vector_of({0}), vector_of({0})}, options);
   REQUIRE(begun.checkpoint);
@@ -80,7 +80,7 @@ TEST_CASE("A branch is not gone on with as another one: what differs is named") 
   CHECK_THAT(refusal(Bratu(3), checkpoint, over("L", 0, 1)), ContainsSubstring("the parameters are"));
   CHECK_THAT(refusal(line("q", 1), checkpoint, over("q", 0, 9)), ContainsSubstring(R"(["q"])"));
   TraceOptions more = options;
-  more.events.push_back({"two", [](const Vector& u, const Vector&, int) { return u(0) - 2; }});
+  more.events.push_back({"two", [](const Vector& u, const Vector&, const Regime&) { return u(0) - 2; }});
   CHECK_THAT(refusal(line("p", 1), checkpoint, more), ContainsSubstring(R"(the events are ["one", "two"])"));
   more = options;
   more.extrema_of = {"u"};
@@ -155,7 +155,8 @@ class CuspOfTwo : public Problem {
  public:
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"mu", "lambda"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double x = u(0);
     if (out.residual != nullptr) (*out.residual)(0) = p(0) + p(1) * x - x * x * x;
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = p(1) - 3 * x * x;

@@ -22,7 +22,8 @@ class OvalAndLine : public Problem {
   static constexpr double r = 0.7;
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double w = u(0) - std::sin(p(0));
     const double oval = w * w + p(0) * p(0) - r * r;
     const double by_w = oval + 2 * w * w;

@@ -143,7 +143,8 @@ BasePoint near_fold(const Problem& problem) {
 class WrongEntry : public Ignition {
  public:
   using Ignition::Ignition;
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     Ignition::evaluate(u, p, regime, out);
     if (out.sparse_jacobian != nullptr) out.sparse_jacobian->coeffRef(7, 8) = 1.01;
     return true;
@@ -154,7 +155,8 @@ class WrongEntry : public Ignition {
 class MissingEntry : public Ignition {
  public:
   explicit MissingEntry(Index size, Index on) : Ignition(size, true), on_(on) {}
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     Ignition::evaluate(u, p, regime, out);
     if (out.residual != nullptr) (*out.residual)(4) += 0.01 * u(on_);
     return true;
@@ -167,12 +169,13 @@ class MissingEntry : public Ignition {
 class WrongGradients : public Ignition {
  public:
   WrongGradients(Index size, bool of_border) : Ignition(size, true), of_border_(of_border) {}
-  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override {
+  double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                Gradient* gradient) const override {
     const double value = Ignition::border(u, p, regime, border, gradient);
     if (of_border_ && gradient != nullptr) gradient->unknowns(5) = 0.1;
     return value;
   }
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                  Gradient& gradient) const override {
     const double value = Ignition::observe(u, p, regime, which, gradient);
     if (!of_border_ && which == 1) gradient.unknowns(6) = 0.1;

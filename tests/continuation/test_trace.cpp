@@ -15,7 +15,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-Guess guess_of(std::initializer_list<double> unknowns, double parameter, int regime = 0) {
+Guess guess_of(std::initializer_list<double> unknowns, double parameter, const Regime& regime = {}) {
   Guess guess{Vector(static_cast<Index>(unknowns.size())), Vector::Constant(1, parameter), regime};
   std::copy(unknowns.begin(), unknowns.end(), guess.unknowns.begin());
   return guess;
@@ -228,7 +228,9 @@ TEST_CASE("Each end of a branch has its reason") {
 
   class NoSolution : public Cusp {
    public:
-    bool evaluate(const Vector&, const Vector&, int, const Evaluation&) const override { return false; }
+    bool evaluate(const Vector&, const Vector&, const Regime&, const Evaluation&) const override {
+      return false;
+    }
   };
   const Branch none = trace(NoSolution(), guess_of({0}, 0), over("mu", 0, 1));
   CHECK(none.stop == Stop::no_start);
@@ -236,7 +238,8 @@ TEST_CASE("Each end of a branch has its reason") {
 
   class Wall : public Cusp {  // cannot be evaluated beyond mu = 1
    public:
-    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                  const Evaluation& out) const override {
       return p(0) <= 1 && Cusp::evaluate(u, p, regime, out);
     }
   };
@@ -247,7 +250,8 @@ TEST_CASE("Each end of a branch has its reason") {
 
   class Broken : public Cusp {  // nan beyond mu = 1
    public:
-    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                  const Evaluation& out) const override {
       Cusp::evaluate(u, p, regime, out);
       if (p(0) > 1 && out.residual != nullptr) (*out.residual)(0) = std::nan("");
       return true;
@@ -283,7 +287,8 @@ TEST_CASE("The derivative checker passes exact derivatives and names a wrong one
 
   class Wrong : public FreudensteinRoth {
    public:
-    bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+    bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                  const Evaluation& out) const override {
       FreudensteinRoth::evaluate(u, p, regime, out);
       if (out.jacobian != nullptr) (*out.jacobian)(1, 0) *= 1.01;
       return true;

@@ -50,9 +50,10 @@ TEST_CASE("An extremum and two events at one place, which is to be landed on, ar
     options.max_points = 1000;
     options.extrema_of = {"u"};
     options.stop_at = {std::sqrt(square)};
-    options.events = {
-        {"slope", [=](const Vector&, const Vector& p, int) { return slope(p(0)); }},
-        {"other", [=](const Vector&, const Vector& p, int) { return away(p(0)) / p(0) / norm(p(0)); }}};
+    options.events = {{"slope", [=](const Vector&, const Vector& p, const Regime&) { return slope(p(0)); }},
+                      {"other", [=](const Vector&, const Vector& p, const Regime&) {
+                         return away(p(0)) / p(0) / norm(p(0));
+                       }}};
     const Branch branch =
         trace(resonance, {Vector::Constant(1, -0.5 * std::log(norm(1))), vector_of({1})}, options);
     CAPTURE(i, branch.explanation);

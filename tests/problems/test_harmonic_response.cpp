@@ -30,7 +30,7 @@ HarmonicResponse balanced(SystemParameters parameters, int highest) {
 }
 
 /// An observable by name.
-double observed(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime,
+double observed(const HarmonicResponse& problem, const Vector& u, const Vector& p, const Regime& regime,
                 const std::string& name) {
   Vector values;
   problem.observe(u, p, regime, values);

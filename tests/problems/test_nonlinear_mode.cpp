@@ -112,8 +112,9 @@ TEST_CASE("Where its damping vanishes a mode is the limit cycle", "[nonlinear mo
   const NonlinearMode mode(build_harmonic_system(parameters));
   const double S = mode.system().contacts[0].slip_per_preload;
   continuation::TraceOptions options = over("R", 0.5 * S, 1e4 * S);
-  options.events = {
-      {"limit cycle", [](const Vector& u, const Vector&, int) { return u(NonlinearMode::damping); }}};
+  options.events = {{"limit cycle", [](const Vector& u, const Vector&, const Regime&) {
+                       return u(NonlinearMode::damping);
+                     }}};
   const Branch branch = continuation::trace(mode, mode.guess(3.7, 0.5 * S, 1), options);
   CAPTURE(branch.explanation);
   REQUIRE(branch.complete());

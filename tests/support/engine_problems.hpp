@@ -18,7 +18,8 @@ class Cusp : public Problem {
  public:
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"mu"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     if (out.residual != nullptr) (*out.residual)(0) = p(0) + u(0) - u(0) * u(0) * u(0);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1 - 3 * u(0) * u(0);
     if (out.parameter_jacobian != nullptr) (*out.parameter_jacobian)(0, 0) = 1;
@@ -31,7 +32,8 @@ class FreudensteinRoth : public Problem {
  public:
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"x3"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double x = u(0), y = u(1), z = p(0) - 1;
     if (out.residual != nullptr) {
       *out.residual << x - y * y * y + 5 * y * y - 2 * y - 13 + 34 * z,
@@ -51,7 +53,8 @@ class Needle : public Problem {
   explicit Needle(double width) : width_(width) {}
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double x = (p(0) - 1) / width_;
     if (out.residual != nullptr) (*out.residual)(0) = u(0) + 0.5 * std::log1p(x * x);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
@@ -63,10 +66,11 @@ class Needle : public Problem {
     parameters = p;
   }
   std::vector<Observable> observables() const override { return {{"amplitude", true}}; }
-  void observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const override {
+  void observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/,
+               Vector& values) const override {
     values = u.array().exp();
   }
-  double observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
+  double observe(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
                  Gradient& gradient) const override {
     gradient.unknowns(0) = std::exp(u(0));
     gradient.parameters(0) = 0;
@@ -83,10 +87,13 @@ class Corner : public Problem {
   Corner(double a, double b) : a_(a), b_(b) {}
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"p"}; }
-  std::vector<std::string> regime_names() const override { return {"below", "above"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  int regime_beyond(int regime, int /*border*/) const override { return 1 - regime; }
-  double border(const Vector& u, const Vector& /*p*/, int regime, int /*border*/,
+  Index switch_count() const override { return 1; }
+  std::string describe(const Regime& regime) const override { return regime[0] == 0 ? "below" : "above"; }
+  int border_count(const Regime& /*regime*/) const override { return 1; }
+  std::optional<Regime> regime_beyond(const Regime& regime, int /*border*/) const override {
+    return 1 - regime[0];
+  }
+  double border(const Vector& u, const Vector& /*p*/, const Regime& regime, int /*border*/,
                 Gradient* gradient) const override {
     const double sign = regime == 0 ? 1 : -1;
     if (gradient != nullptr) {
@@ -95,7 +102,8 @@ class Corner : public Problem {
     }
     return sign * u(0);
   }
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     const double slope = regime == 0 ? a_ : b_;
     if (out.residual != nullptr) (*out.residual)(0) = p(0) - slope * u(0);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = -slope;
@@ -111,9 +119,10 @@ class Corner : public Problem {
 class HiddenCorner : public Corner {
  public:
   using Corner::Corner;
-  std::vector<std::string> regime_names() const override { return {"all"}; }
-  int border_count(int /*regime*/) const override { return 0; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  Index switch_count() const override { return 0; }
+  int border_count(const Regime& /*regime*/) const override { return 0; }
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     return Corner::evaluate(u, p, u(0) < 0 ? 0 : 1, out);
   }
 };
@@ -122,7 +131,8 @@ class HiddenCorner : public Corner {
 class Bump : public Corner {
  public:
   explicit Bump(double width) : Corner(1, 1), width_(width) {}
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double x = p(0) - 1;
     if (out.residual != nullptr) (*out.residual)(0) = u(0) - (width_ * width_ - x * x);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
@@ -138,7 +148,8 @@ class Bump : public Corner {
 class Rescaled : public FreudensteinRoth {
  public:
   Rescaled(double unknowns, double residuals) : unknowns_(unknowns), residuals_(residuals) {}
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                const Evaluation& out) const override {
     FreudensteinRoth::evaluate(u / unknowns_, p, regime, out);
     if (out.residual != nullptr) *out.residual *= residuals_;
     if (out.jacobian != nullptr) *out.jacobian *= residuals_ / unknowns_;
@@ -160,7 +171,8 @@ class Bratu : public Problem {
   explicit Bratu(Index m) : m_(m) {}
   Index size() const override { return m_; }
   std::vector<std::string> parameter_names() const override { return {"L"}; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/, const Evaluation& out) const override {
+  bool evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                const Evaluation& out) const override {
     const double h = 1.0 / static_cast<double>(m_ + 1);
     if (out.jacobian != nullptr) out.jacobian->setZero();
     for (Index i = 0; i < m_; ++i) {

@@ -55,7 +55,7 @@ struct PolynomialSystem : continuation::Problem {
     return sum * y;
   }
 
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                 const continuation::Evaluation& out) const override {
     const Vector x = to_x * u;
     const double y = x(0);

@@ -23,7 +23,7 @@ class ScalarProblem : public continuation::Problem {
 
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return names_; }
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                 const continuation::Evaluation& out) const override {
     if (out.residual != nullptr) (*out.residual)(0) = f_(u(0), p);
     if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = by_unknown_(u(0), p);
@@ -32,11 +32,12 @@ class ScalarProblem : public continuation::Problem {
     return true;
   }
   std::vector<continuation::Observable> observables() const override { return {{"u", true}}; }
-  void observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Vector& values) const override {
+  void observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+               Vector& values) const override {
     values = u;
   }
-  double observe(const Vector& u, const Vector& /*p*/, int /*regime*/, Index /*which*/,
-                 continuation::Gradient& gradient) const override {
+  double observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                 Index /*which*/, continuation::Gradient& gradient) const override {
     gradient.unknowns(0) = 1;
     gradient.parameters.setZero();
     return u(0);

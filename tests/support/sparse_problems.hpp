@@ -24,7 +24,7 @@ class Chain : public continuation::Problem {
   Index middle() const { return m_ / 2; }
   double spacing() const { return 1 / static_cast<double>(m_ + 1); }
 
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                 const continuation::Evaluation& out) const override {
     const double square = spacing() * spacing();
     SparseMatrix* const entries = out.sparse_jacobian;
@@ -47,9 +47,12 @@ class Chain : public continuation::Problem {
     return true;
   }
 
-  int border_count(int /*regime*/) const override { return 1; }
-  int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
-  double border(const Vector& u, const Vector& /*p*/, int /*regime*/, int /*border*/,
+  int border_count(const continuation::Regime& /*regime*/) const override { return 1; }
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& /*regime*/,
+                                                    int /*border*/) const override {
+    return {};
+  }
+  double border(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/, int /*border*/,
                 continuation::Gradient* gradient) const override {
     if (gradient != nullptr) {
       gradient->unknowns.setUnit(m_, middle());
@@ -61,11 +64,12 @@ class Chain : public continuation::Problem {
   std::vector<continuation::Observable> observables() const override {
     return {{"middle", true}, {"L", true}};
   }
-  void observe(const Vector& u, const Vector& p, int /*regime*/, Vector& values) const override {
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
+               Vector& values) const override {
     values.resize(2);
     values << u(middle()), p(0);
   }
-  double observe(const Vector& u, const Vector& p, int /*regime*/, Index which,
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/, Index which,
                  continuation::Gradient& gradient) const override {
     gradient.unknowns.setZero(m_);
     gradient.parameters.setZero(2);
@@ -127,7 +131,7 @@ class BratuRectangle : public continuation::Problem {
   bool sparse() const override { return true; }
   std::vector<std::string> parameter_names() const override { return {"L"}; }
 
-  bool evaluate(const Vector& u, const Vector& p, int /*regime*/,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
                 const continuation::Evaluation& out) const override {
     SparseMatrix* const entries = out.sparse_jacobian;
     if (entries != nullptr && entries->nonZeros() == 0) set_pattern(*entries);

@@ -23,7 +23,7 @@ struct NearestBorder {
   double distance;  ///< >= 0 inside
 };
 std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
-                                            int regime, int except = -1);
+                                            const Regime& regime, int except = -1);
 
 /// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
 inline double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
@@ -45,7 +45,7 @@ class CornerSlopes {
   /// Takes the tangents at a point next to the last.
   void follow(const BasePoint& point);
 
-  int regime(Side side) const { return sides_[side].regime; }
+  const Regime& regime(Side side) const { return sides_[side].regime; }
 
   /// The slope a little way, in the base's scale, from a point on the border into the regime of a side.
   double slope_inside(const BasePoint& corner, Side side, double way);
@@ -62,12 +62,12 @@ class CornerSlopes {
 
  private:
   struct Branch {
-    int regime = 0;
+    Regime regime;
     int border = 0;
     Vector tangent;  // n + 1, unit length in units of the scale, from `arriving` to `leaving`
   };
 
-  std::optional<int> way_back(const BasePoint& point, int beyond) const;
+  std::optional<int> way_back(const BasePoint& point, const Regime& beyond) const;
   bool set_tangent(const BasePoint& point, Branch& side);
   BasePoint just_beyond(const BasePoint& point, const Branch& side);
   double border_rate(const BasePoint& point, const Branch& side);

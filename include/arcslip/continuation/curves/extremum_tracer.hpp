@@ -15,10 +15,10 @@ namespace arcslip::continuation {
 
 /// A place on a border to which a curve comes.
 struct ExtremumPlace {
-  BasePoint at;                  ///< in the regime from which it comes
-  std::optional<int> vanishing;  ///< the regime in which the slope vanishes there
-  Vector arrival;                ///< of the curve, as BranchPoint::tangent; empty where it starts there
-  std::optional<bool> peak;      ///< whether it comes along a border, and as a peak
+  BasePoint at;                     ///< in the regime from which it comes
+  std::optional<Regime> vanishing;  ///< the regime in which the slope vanishes there
+  Vector arrival;                   ///< of the curve, as BranchPoint::tangent; empty where it starts there
+  std::optional<bool> peak;         ///< whether it comes along a border, and as a peak
 };
 
 /// A piece of the curve that leaves a place along a border as a corner.
@@ -82,7 +82,7 @@ class ExtremumTracer {
   void add_ledges(const BasePoint& at, int border, const Place& place, std::vector<Ledge>& all);
   std::vector<BranchPoint> step_off(BorderProblem& edge, const BasePoint& from, bool up, double way) const;
   std::vector<BranchPoint> surely_off(BorderProblem& edge, const BasePoint& from, bool up,
-                                      std::optional<int> vanishing);
+                                      const std::optional<Regime>& vanishing);
   struct Inside {
     double slope;
     double way;
@@ -91,10 +91,10 @@ class ExtremumTracer {
   bool fill(int border, const BasePoint& corner, double from, double to, Side side);
 
   void smooth(const Guess& guess, bool towards_to, std::size_t skipped);
-  void along(const Ledge& ledge, std::optional<int> vanishing);
+  void along(const Ledge& ledge, const std::optional<Regime>& vanishing);
   void append(Branch piece, std::size_t skipped);
   void add(BranchPoint point);
-  void turn(Vector tangent, int regime);
+  void turn(Vector tangent, const Regime& regime);
   void stop(Stop reason, std::string explanation);
   /// How an extremum is followed from response to response.
   struct Walk {

@@ -9,12 +9,13 @@
 #include "arcslip/continuation/path/checkpoint.hpp"
 #include "arcslip/continuation/path/stop.hpp"
 #include "arcslip/continuation/points/point_type.hpp"
+#include "arcslip/continuation/problem/regime.hpp"
 
 namespace arcslip::continuation {
 
 struct BranchPoint {
   PointType type = PointType::regular;
-  int regime = 0;             ///< at a switch, the regime that the branch enters
+  Regime regime;              ///< at a switch, the regime that the branch enters
   Vector unknowns;            ///< n
   Vector parameters;          ///< all of the problem's
   double arclength = 0;       ///< from the start, in the problem's scale

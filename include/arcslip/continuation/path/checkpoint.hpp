@@ -74,7 +74,7 @@ struct Progress {
 /// What a branch is one of; whatever goes on with it must be the same.
 struct BranchIdentity {
   std::vector<std::string> parameters;  ///< the problem's
-  std::vector<std::string> regimes;     ///< the problem's
+  std::vector<std::string> regimes;     ///< names of those in which at most one switch is not in state 0
   std::vector<std::string> tests;       ///< types of the points that the problem looks for
   std::string parameter;                ///< the one that is continued
   std::vector<std::string> extrema_of;

@@ -20,7 +20,7 @@ namespace arcslip::continuation {
 struct CurvePoint {
   Vector unknowns;
   Vector parameters;
-  int regime = 0;
+  Regime regime;
   Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
   Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
   double orientation = 0;  ///< sign of det [J F_p; tangent^T], which changes at branch points alone

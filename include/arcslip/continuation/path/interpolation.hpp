@@ -21,7 +21,7 @@ struct Sample {
   Vector unknowns;       ///< n
   Vector parameters;     ///< all
   double arclength = 0;  ///< as in the branch
-  int regime = 0;
+  Regime regime;
   Vector error;  ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece
 };
 

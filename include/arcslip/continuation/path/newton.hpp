@@ -30,7 +30,7 @@ struct SolveAllOptions {
   double tolerance = 1e-10;
   Vector lower;      ///< n, a box in which starts are taken beside the given guesses; empty: none
   Vector upper;      ///< n
-  int starts = 100;  ///< how many are taken in the box, in each regime
+  int starts = 100;  ///< how many are taken in the box, each in its regime
   std::uint64_t seed = 1;
   double distinct = 1e-6;            ///< solutions nearer than this, in the problem's scale, are the same
   std::function<bool()> go_on = {};  ///< asked before each start; false ends the search
@@ -39,7 +39,8 @@ struct SolveAllOptions {
 /// All solutions at the guesses' parameters that deflated Newton finds [Farrell, Birkisson & Funke 2015] from
 /// the guesses, from each solution found, and from points spread over the box: each start is used until no
 /// further solution comes of it. In the order found; the same for the same input. A solution counts only
-/// within its regime. All guesses must share their parameters.
+/// within its regime; one beyond borders is a start in the regime beyond them. All guesses must share their
+/// parameters.
 std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
                              const SolveAllOptions& options = {});
 

@@ -29,11 +29,11 @@ class Stepper {
   const CurvePoint& there() const { return there_; }
 
   /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
-  Correction start(const Vector& unknowns, const Vector& parameters, int regime, double forward);
+  Correction start(const Vector& unknowns, const Vector& parameters, const Regime& regime, double forward);
 
   /// Starts at a point along a direction, n + 1 of (u, p_a). A point that already solves the problem stays
   /// as it is, so that the start may be a branch point.
-  Correction start_along(const Vector& unknowns, const Vector& parameters, int regime,
+  Correction start_along(const Vector& unknowns, const Vector& parameters, const Regime& regime,
                          const Vector& direction);
 
   /// Puts back what a checkpoint holds.
@@ -46,7 +46,7 @@ class Stepper {
 
   /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented
   /// into it.
-  Correction enter(int regime);
+  Correction enter(const Regime& regime);
 
   /// Goes past a corner within the regime, just ahead, at which the branch turns by more than a right angle.
   /// False, and still at `here`, if there is none.

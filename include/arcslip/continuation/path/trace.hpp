@@ -21,7 +21,7 @@ Guess restart(const BranchPoint& point, bool forward = true);
 /// A function whose zeros along the branch become `event` points.
 struct UserEvent {
   std::string name;
-  std::function<double(const Vector& u, const Vector& p, int regime)> function;
+  std::function<double(const Vector& u, const Vector& p, const Regime& regime)> function;
 };
 
 /// Ends the branch at the count-th special point of a type; of an `event`, of those with this label.

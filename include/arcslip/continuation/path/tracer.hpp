@@ -3,6 +3,7 @@
 // The loop that traces a branch: steps, events, targets, limits.
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ class Tracer {
   void go_on();
   void start(const Guess& guess, double forward);
   Vector raw_tangent() const;
-  void look_at_derivatives(const Vector& u, const Vector& p, int regime);
+  void look_at_derivatives(const Vector& u, const Vector& p, const Regime& regime);
   bool is_time_to_look(PointType type);
   BranchIdentity identity() const;
   void require_same(const Progress& progress) const;
@@ -90,7 +91,7 @@ class Tracer {
   bool landing_failed_ = false;  // from here
   std::optional<double> closing_;
   std::vector<Event> events_;
-  std::vector<int> seen_in_regime_;  // regular points so far
+  std::map<Regime, int> seen_in_regime_;  // regular points so far
   bool singular_seen_ = false;
   bool stopped_ = false;
   bool interrupted_ = false;

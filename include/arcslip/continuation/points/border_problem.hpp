@@ -11,8 +11,9 @@ class BorderProblem : public ExtendedProblem {
  public:
   BorderProblem(const Problem& base, Index active, int border);
 
-  int border_count(int regime) const override { return base().border_count(regime) - 1; }
-  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override;
+  int border_count(const Regime& regime) const override { return base().border_count(regime) - 1; }
+  double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                Gradient* gradient) const override;
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;

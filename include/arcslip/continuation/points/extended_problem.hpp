@@ -24,7 +24,7 @@ namespace arcslip::continuation {
 struct BasePoint {
   Vector unknowns;    ///< n
   Vector parameters;  ///< all of the base problem's
-  int regime = 0;
+  Regime regime;
   Vector extras;  ///< m - 1
 };
 
@@ -38,7 +38,7 @@ class ExtendedProblem : public Problem {
   const Problem& base() const { return base_; }
   Index active() const { return active_; }
 
-  BasePoint split(const Vector& unknowns, const Vector& parameters, int regime) const;
+  BasePoint split(const Vector& unknowns, const Vector& parameters, const Regime& regime) const;
   /// The inverse: unknowns and parameters of the extended problem.
   void join(const BasePoint& point, Vector& unknowns, Vector& parameters) const;
 
@@ -65,18 +65,20 @@ class ExtendedProblem : public Problem {
   std::vector<std::string> parameter_names() const override;
   bool sparse() const override { return base_.sparse(); }
   long revision() const override { return revision_; }
-  bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const override;
+  bool evaluate(const Vector& u, const Vector& p, const Regime& regime, const Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return base_.regime_names(); }
-  int border_count(int regime) const override { return base_.border_count(regime); }
-  double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const override;
-  int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
+  Index switch_count() const override { return base_.switch_count(); }
+  std::string describe(const Regime& regime) const override { return base_.describe(regime); }
+  int border_count(const Regime& regime) const override { return base_.border_count(regime); }
+  double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                Gradient* gradient) const override;
+  std::optional<Regime> regime_beyond(const Regime& /*regime*/, int /*border*/) const override { return {}; }
 
   /// The active parameter, then the base's observables, each with its gradient if it has one there.
   std::vector<Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                  Gradient& gradient) const override;
 
  protected:

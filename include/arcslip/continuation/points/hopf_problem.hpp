@@ -22,10 +22,11 @@ class HopfProblem : public ExtendedProblem {
 
   bool adapt(const BasePoint& point) override;
   std::vector<Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   std::vector<PointType> test_types() const override { return {PointType::bogdanov_takens}; }
-  void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
+  void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+  bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                   ComplexVector& values) const override;
   PointType pair_crossing() const override { return PointType::hopf_hopf; }
   PointType real_crossing() const override { return PointType::zero_hopf; }
 

@@ -21,6 +21,7 @@ struct DerivativeReport {
 /// as its fullest row has entries. Entries that its pattern lacks are found, too, and named as "dF0/du7,
 /// which the pattern lacks". Gradients by more than 1000 unknowns are compared in 20 random directions. Where
 /// several unknowns were moved at once and the difference is below 1e-6, `where` has no number, as "dF0/du".
-DerivativeReport check_derivatives(const Problem& problem, const Vector& u, const Vector& p, int regime);
+DerivativeReport check_derivatives(const Problem& problem, const Vector& u, const Vector& p,
+                                   const Regime& regime);
 
 }  // namespace arcslip::continuation

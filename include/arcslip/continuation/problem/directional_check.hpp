@@ -18,7 +18,7 @@ namespace arcslip::continuation {
 /// differs from differences of the residual by 5 % in dF0/du1". Corners and borders within a step, rounding,
 /// and what is sharper than the steps make these disagree, and then nothing is said.
 std::optional<std::string> find_wrong_derivative(const Problem& problem, const Vector& u, const Vector& p,
-                                                 int regime, const std::vector<Index>& parameters,
+                                                 const Regime& regime, const std::vector<Index>& parameters,
                                                  const std::vector<Index>& observables);
 
 }  // namespace arcslip::continuation

@@ -2,6 +2,7 @@
 
 // Where a branch starts.
 
+#include "arcslip/continuation/problem/regime.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -10,7 +11,7 @@ namespace arcslip::continuation {
 struct Guess {
   Vector unknowns;
   Vector parameters;
-  int regime = 0;
+  Regime regime = {};
   /// n + 1, in (u, p_a), of any length: the branch starts right here and goes this way. Empty: it starts at
   /// `TraceOptions::from` and goes towards `to`.
   Vector direction = {};

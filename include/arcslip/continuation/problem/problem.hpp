@@ -3,10 +3,12 @@
 // The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within
 // each of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "arcslip/continuation/points/point_type.hpp"
+#include "arcslip/continuation/problem/regime.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -58,7 +60,8 @@ class Problem {
 
   /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
   /// the step.
-  virtual bool evaluate(const Vector& u, const Vector& p, int regime, const Evaluation& out) const = 0;
+  virtual bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                        const Evaluation& out) const = 0;
 
   /// Second derivatives of F along one direction, contracted from the left,
   ///
@@ -66,8 +69,8 @@ class Problem {
   ///
   /// n entries for the unknowns, then one for each parameter. False where the problem does not give them:
   /// then differences of `evaluate` take their place, at the price of six evaluations or more.
-  virtual bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
-                      const Vector& dp, Vector& out) const;
+  virtual bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                      const Vector& du, const Vector& dp, Vector& out) const;
 
   /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
   virtual bool sparse() const { return false; }
@@ -81,7 +84,8 @@ class Problem {
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
   /// takes those of a dense equilibrium's Jacobian; a periodic solution has the rates of hill.hpp.
-  virtual bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const;
+  virtual bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                           ComplexVector& values) const;
 
   /// What a pair of these that crosses the imaginary axis is called.
   virtual PointType pair_crossing() const { return PointType::hopf; }
@@ -93,29 +97,37 @@ class Problem {
   /// Functions along a branch whose zeros are special points: the types of these points, and the functions'
   /// values, in the same order.
   virtual std::vector<PointType> test_types() const { return {}; }
-  virtual void test(const Vector& u, const Vector& p, int regime, Vector& values) const;
+  virtual void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
   /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
 
-  virtual std::vector<std::string> regime_names() const { return {"smooth"}; }
-  virtual int border_count(int regime) const;
+  /// How many switches a regime has, each with a state: the pieces are the patterns of these states, which
+  /// nobody lists. A switch that is not there is in state 0.
+  virtual Index switch_count() const { return 0; }
+
+  /// What a regime is called.
+  virtual std::string describe(const Regime& regime) const;
+
+  virtual int border_count(const Regime& regime) const;
 
   /// Value of a border function, negative inside `regime`, and its gradient where that is not null.
-  virtual double border(const Vector& u, const Vector& p, int regime, int border, Gradient* gradient) const;
+  virtual double border(const Vector& u, const Vector& p, const Regime& regime, int border,
+                        Gradient* gradient) const;
 
-  /// The regime that a branch enters across this border; -1 where the branch ends on it.
-  virtual int regime_beyond(int regime, int border) const;
+  /// The regime that a branch enters across this border; none where the branch ends on it.
+  virtual std::optional<Regime> regime_beyond(const Regime& regime, int border) const;
 
   /// What is written beside each point, besides u and p.
   virtual std::vector<Observable> observables() const { return {}; }
 
   /// All of them, in the order of `observables()`.
-  virtual void observe(const Vector& u, const Vector& p, int regime, Vector& values) const;
+  virtual void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
   /// The value of one with has_gradient, and its gradient on the branch.
-  virtual double observe(const Vector& u, const Vector& p, int regime, Index which, Gradient& gradient) const;
+  virtual double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
+                         Gradient& gradient) const;
 
   /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any
   /// step. The tracer puts a point on each and refines towards it.
@@ -124,6 +136,10 @@ class Problem {
 
 /// The names of a problem's observables, in their order.
 std::vector<std::string> observable_names(const Problem& problem);
+
+/// The first border of its regime that a point lies beyond by more than `tolerance`; -1 if there is none.
+int crossed_border(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
+                   double tolerance);
 
 /// Position of a name in `names`; throws std::invalid_argument that lists what there is.
 Index index_of(const std::vector<std::string>& names, const std::string& name);

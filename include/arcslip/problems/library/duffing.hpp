@@ -26,27 +26,30 @@ class DuffingOscillator : public continuation::Problem {
 
   Index size() const override { return basis_.cols(); }
   std::vector<std::string> parameter_names() const override { return {"W", "force", "delta", "k3"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
 
   /// The harmonics' amplitudes a1, a3, ..., whose gradients count as zero where they are zero, and the root
   /// mean square of q, rms.
   std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
   /// The rates (hill.hpp) of y'' + delta y' + (1 + 3 k3 q^2) y = 0 over half a period of q, in the same odd
   /// harmonics and in the even ones that go with them, so that one vanishes exactly at a fold. Where another
   /// multiplier passes 1 the motion loses its symmetry.
-  bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
+  bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                   ComplexVector& values) const override;
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
   /// Zero where it does.
   std::vector<continuation::PointType> test_types() const override {
     return {continuation::PointType::symmetry_breaking};
   }
-  void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
+            Vector& values) const override;
 
  private:
   Index count() const { return basis_.cols() / 2; }  // of harmonics

@@ -19,7 +19,7 @@ class FreudensteinRoth : public NamedUnknowns {
  public:
   FreudensteinRoth() : NamedUnknowns({"x1", "x2"}, {"x3"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
 };
 

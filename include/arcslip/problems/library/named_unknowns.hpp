@@ -15,8 +15,9 @@ class NamedUnknowns : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return parameters_; }
 
   std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
  protected:

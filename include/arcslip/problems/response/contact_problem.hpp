@@ -54,7 +54,7 @@ std::optional<double> first_root(const std::function<ValueAndSlope(double)>& fun
 class ContactProblem : public continuation::Problem {
  public:
   enum Parameter : Index { eta, preload };
-  enum Regime : int { stick, slip };
+  enum ContactState : int { stick, slip };
   /// Observables in this order; amplitudes and phases as in the columns of branches.csv.
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
 
@@ -63,11 +63,17 @@ class ContactProblem : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return {"stick", "slip"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& p, int regime, int border,
+  Index switch_count() const override { return 1; }
+  std::string describe(const continuation::Regime& regime) const override {
+    return regime[0] == stick ? "stick" : "slip";
+  }
+  int border_count(const continuation::Regime& /*regime*/) const override { return 1; }
+  double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int regime, int /*border*/) const override { return regime == stick ? slip : stick; }
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& regime,
+                                                    int /*border*/) const override {
+    return continuation::Regime(regime[0] == stick ? slip : stick);
+  }
 
   /// Of them Y has a gradient.
   std::vector<continuation::Observable> observables() const override;
@@ -76,7 +82,8 @@ class ContactProblem : public continuation::Problem {
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
   /// The first harmonics of the coordinates that HarmonicResponse has of the same system.
-  virtual ComplexVector motions(const Vector& u, const Vector& p, int regime) const = 0;
+  virtual ComplexVector motions(const Vector& u, const Vector& p,
+                                const continuation::Regime& regime) const = 0;
 
   const FrictionSystem& system() const { return system_; }
 
@@ -84,8 +91,8 @@ class ContactProblem : public continuation::Problem {
   LogThreshold log_threshold(const Vector& p) const { return system_.log_threshold(p(eta), p(preload)); }
   bool has_value(const Vector& p) const { return p(eta) > 0 && system_.is_loaded(p(eta), p(preload)); }
 
-  static HarmonicCoefficient coefficient(double log_ratio, int regime) {
-    return regime == stick ? HarmonicCoefficient{{1, 0}, {0, 0}} : slip_coefficient(log_ratio);
+  static HarmonicCoefficient coefficient(double log_ratio, const continuation::Regime& regime) {
+    return regime[0] == stick ? HarmonicCoefficient{{1, 0}, {0, 0}} : slip_coefficient(log_ratio);
   }
 
   /// What the response equations consist of, at one point.
@@ -98,7 +105,7 @@ class ContactProblem : public continuation::Problem {
     Complex force;            ///< k phi
   };
 
-  State state(double log_R, const Vector& p, int regime) const {
+  State state(double log_R, const Vector& p, const continuation::Regime& regime) const {
     const LogThreshold threshold = log_threshold(p);
     const double log_ratio = log_R - threshold.value;
     const HarmonicCoefficient law = coefficient(log_ratio, regime);
@@ -111,8 +118,8 @@ class ContactProblem : public continuation::Problem {
   }
 
   /// All observables, where r is the phasor of the relative displacement, known but for rounding.
-  void observe_motion(const State& at, double log_R, Complex r, const Vector& p, int regime,
-                      Vector& values) const;
+  void observe_motion(const State& at, double log_R, Complex r, const Vector& p,
+                      const continuation::Regime& regime, Vector& values) const;
 
   FrictionSystem system_;
 };

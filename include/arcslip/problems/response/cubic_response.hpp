@@ -23,16 +23,17 @@ class CubicResponse : public ContactProblem {
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 2; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
 
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
   /// Y alone has a gradient.
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
   /// r and y.
-  ComplexVector motions(const Vector& u, const Vector& p, int regime) const override;
+  ComplexVector motions(const Vector& u, const Vector& p, const continuation::Regime& regime) const override;
 
   /// The solution at (eta, P), of several the one with the smallest R. Throws std::invalid_argument where the
   /// response has no value.

@@ -35,26 +35,30 @@ class FloquetResponse : public HarmonicResponse {
                   std::shared_ptr<const FloquetResponse> finer);
 
   /// sigma, lambda = 2 pi sigma, of all cells of waves in which something may grow.
-  bool eigenvalues(const Vector& u, const Vector& p, int regime, ComplexVector& values) const override;
+  bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                   ComplexVector& values) const override;
 
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
   std::vector<continuation::PointType> test_types() const override;
-  void test(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
+            Vector& values) const override;
 
   std::vector<continuation::Observable> observables() const override;
   using HarmonicResponse::observe;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
 
   /// Those of all cells.
-  std::vector<RingDisturbances::Disturbance> disturbances(const Vector& u, const Vector& p, int regime) const;
+  std::vector<RingDisturbances::Disturbance> disturbances(const Vector& u, const Vector& p,
+                                                          const continuation::Regime& regime) const;
 
   /// The largest |mu| of a period, and the wave that this disturbance mostly is.
   struct Worst {
     double growth;
     Index wave;
   };
-  Worst worst(const Vector& u, const Vector& p, int regime) const;
+  Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 
   /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has
   /// it there in the harmonics of `finer`; none without them, and where no such place is found.
@@ -64,12 +68,14 @@ class FloquetResponse : public HarmonicResponse {
   int finer_highest() const { return finer_ ? finer_->system().orders.back() : 0; }
 
  private:
-  std::vector<StickPattern> patterns(const Vector& u, const Vector& p, int regime) const;
-  RingDisturbances::Disturbances found(const Vector& u, const Vector& p, int regime,
+  std::vector<StickPattern> patterns(const Vector& u, const Vector& p,
+                                     const continuation::Regime& regime) const;
+  RingDisturbances::Disturbances found(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                        std::span<const StickPattern> contacts, bool active) const;
   struct Last;
-  const Last& last(const Vector& u, const Vector& p, int regime) const;
-  double growth_error(const Vector& u, const Vector& p, int regime, double growth) const;
+  const Last& last(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
+  double growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                      double growth) const;
 
   RingDisturbances disturbances_;
   bool is_in_modes_ = true;  ///< as disturbances are

@@ -24,18 +24,19 @@ class ForcedResponse : public ContactProblem {
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 1; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
 
   /// Those of every contact problem, then the amplitudes of the system's outputs. All but the phases have
   /// gradients.
   std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
   /// r, whose modulus the unknown has.
-  ComplexVector motions(const Vector& u, const Vector& p, int regime) const override {
+  ComplexVector motions(const Vector& u, const Vector& p, const continuation::Regime& regime) const override {
     return ComplexVector::Constant(1, motion(state(u(0), p, regime)));
   }
 
@@ -44,7 +45,8 @@ class ForcedResponse : public ContactProblem {
   continuation::Guess guess(double eta_value, double preload_value) const;
 
  private:
-  double observe_base(const Vector& u, const Vector& p, int regime, continuation::Gradient& gradient) const;
+  double observe_base(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                      continuation::Gradient& gradient) const;
   static Complex motion(const State& at);
 };
 

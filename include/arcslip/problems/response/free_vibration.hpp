@@ -15,7 +15,7 @@ namespace arcslip::problems {
 
 class FreeVibration : public HarmonicProblem {
  public:
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
 
  protected:
@@ -28,7 +28,7 @@ class FreeVibration : public HarmonicProblem {
 
  private:
   struct Order;
-  Order order(Index which, const Vector& u, const Vector& p, int regime) const;
+  Order order(Index which, const Vector& u, const Vector& p, const continuation::Regime& regime) const;
   void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
                 const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
 };

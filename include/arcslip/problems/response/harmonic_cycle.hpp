@@ -24,10 +24,11 @@ class HarmonicCycle : public FreeVibration {
   explicit HarmonicCycle(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"zeta_B", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
-  int regime_beyond(int regime, int border) const override;
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& regime,
+                                                    int border) const override;
 
   /// A cycle at (zeta_B, P): where a nonlinear mode, followed from stick over its amplitude, has no damping.
   /// One at which the damping rises with the amplitude comes before one at which it falls, then the lowest

@@ -1,8 +1,8 @@
 #pragma once
 
 // What the problems of base, damper and contacts in several harmonics share: the coordinates x in which
-// elements act, the regimes, which contacts slip, bit i for contact i, with the borders A_i = max |x_i(t)| =
-// S_i, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the first
+// elements act, the regimes, which contacts slip, switch i for contact i, with the borders A_i = max |x_i(t)|
+// = S_i, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the first
 // coordinate is an unknown or a parameter is each problem's own matter, its layout.
 
 #include "arcslip/assembly/coordinates.hpp"
@@ -17,19 +17,28 @@ class HarmonicProblem : public continuation::Problem {
  public:
   Index size() const override { return 2 * coordinates_.size() * harmonics(); }
 
-  std::vector<std::string> regime_names() const override { return slip_regimes(contacts()); }
-  int border_count(int /*regime*/) const override { return static_cast<int>(contacts()); }
-  double border(const Vector& u, const Vector& p, int regime, int border,
+  Index switch_count() const override { return contacts(); }
+  std::string describe(const continuation::Regime& regime) const override {
+    return slip_name(regime, contacts());
+  }
+  int border_count(const continuation::Regime& /*regime*/) const override {
+    return static_cast<int>(contacts());
+  }
+  double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int regime, int border) const override { return regime ^ (1 << border); }
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& regime,
+                                                    int border) const override {
+    return regime.with(border, 1 - regime[border]);
+  }
 
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
 
   /// Amplitudes, ratios and energies have gradients, but for the outputs of sectors that are solved for.
   std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
   Index contacts() const { return coordinates_.contacts(); }
@@ -93,8 +102,8 @@ class HarmonicProblem : public continuation::Problem {
   }
 
   /// Of each coordinate; valid until the thread's next call, whose work space it is.
-  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p, int regime,
-                                          bool derivatives) const;
+  const std::vector<ElementForce>& forces(const Vector& u, const Vector& p,
+                                          const continuation::Regime& regime, bool derivatives) const;
 
   /// A structure in one harmonic, with derivatives by eta itself and by the damping of the layout.
   struct Response : ContactReceptance {
@@ -104,7 +113,8 @@ class HarmonicProblem : public continuation::Problem {
                Response& response) const;
 
   /// The force whose response, synthesised from a mode, peaks here.
-  virtual double synthesised_force(const Vector& u, const Vector& p, int regime) const;
+  virtual double synthesised_force(const Vector& u, const Vector& p,
+                                   const continuation::Regime& regime) const;
 
   HarmonicSystem system_;
   Coordinates coordinates_;

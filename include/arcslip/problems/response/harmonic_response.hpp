@@ -33,12 +33,12 @@ class HarmonicResponse : public HarmonicProblem {
   explicit HarmonicResponse(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
   /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
   /// smooth and differentiated by differences.
-  bool second(const Vector& u, const Vector& p, int regime, const Vector& w, const Vector& du,
-              const Vector& dp, Vector& out) const override;
+  bool second(const Vector& u, const Vector& p, const continuation::Regime& regime, const Vector& w,
+              const Vector& du, const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
@@ -64,11 +64,11 @@ class HarmonicResponse : public HarmonicProblem {
     std::vector<ContactVector> damper;  ///< the same
     double energy;                      ///< lost per cycle in all elements
   };
-  ElementForces element_forces(const Vector& u, const Vector& p, int regime) const;
+  ElementForces element_forces(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 
  private:
   class LoadPath;
-  bool evaluate(const Vector& u, const Vector& p, int regime, double share,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime, double share,
                 const continuation::Evaluation& out) const;
   continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
                               Index parameter, double to, const continuation::TraceOptions& limits) const;
@@ -82,20 +82,20 @@ class HarmonicResponse : public HarmonicProblem {
     double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
   };
-  void set_order(Index which, double eta_value, int regime, Order& order) const;
+  void set_order(Index which, double eta_value, const continuation::Regime& regime, Order& order) const;
   struct Rows;
   void fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u, const Vector& p,
-                 int regime, Rows& rows, Matrix* parameter_jacobian) const;
+                 const continuation::Regime& regime, Rows& rows, Matrix* parameter_jacobian) const;
   void fill_order(Order& order, const std::vector<ElementForce>& elements, double share, const Vector& u,
                   const Vector& p, Rows& rows, Matrix* parameter_jacobian) const;
-  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u, int regime,
-                     Matrix& jacobian) const;
+  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
+                     const continuation::Regime& regime, Matrix& jacobian) const;
 
   /// The derivatives of F with these forces of the elements.
-  void fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p, int regime,
-            Matrix& jacobian, Matrix& parameter_jacobian) const;
+  void fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
+            const continuation::Regime& regime, Matrix& jacobian, Matrix& parameter_jacobian) const;
 
-  bool is_linear(int regime, Index coordinate) const {
+  bool is_linear(const continuation::Regime& regime, Index coordinate) const {
     return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
   }
   double load(const Vector& p) const { return HarmonicProblem::load({}, p); }

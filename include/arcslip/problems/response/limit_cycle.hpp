@@ -40,20 +40,24 @@ class LimitCycle : public continuation::Problem {
 
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"zeta_B", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return {"slip"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& p, int regime, int border,
+  std::string describe(const continuation::Regime& /*regime*/) const override { return "slip"; }
+  int border_count(const continuation::Regime& /*regime*/) const override { return 1; }
+  double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& /*regime*/,
+                                                    int /*border*/) const override {
+    return {};
+  }
 
   /// "eta" and the others.
   std::vector<continuation::Observable> observables() const override;
-  void observe(const Vector& u, const Vector& p, int regime, Vector& values) const override;
-  double observe(const Vector& u, const Vector& p, int regime, Index which,
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
   /// A cycle at (zeta_B, P): one along which -zeta_B rises with R (small), else one along which it falls

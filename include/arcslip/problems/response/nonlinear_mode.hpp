@@ -45,18 +45,19 @@ class NonlinearMode : public FreeVibration {
 
   /// The excitation frequencies at which the response to `force` times the load, synthesised from the mode at
   /// this point, has its amplitude; none above the peak.
-  std::optional<std::array<double, 2>> flanks(const Vector& u, const Vector& p, int regime,
-                                              double force) const;
+  std::optional<std::array<double, 2>> flanks(const Vector& u, const Vector& p,
+                                              const continuation::Regime& regime, double force) const;
 
  protected:
-  double synthesised_force(const Vector& u, const Vector& p, int regime) const override;
+  double synthesised_force(const Vector& u, const Vector& p,
+                           const continuation::Regime& regime) const override;
 
  private:
   struct Modal {
     double amplitude;  // a
     double load;       // |psi^H l|
   };
-  Modal modal(const Vector& u, const Vector& p, int regime) const;
+  Modal modal(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 };
 
 }  // namespace arcslip::problems

@@ -27,10 +27,12 @@ struct PowerBalance {
   double cancellation() const;
 };
 
-PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);
+PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p,
+                           const continuation::Regime& regime);
 
 /// The largest |u - y - r| of any contact and harmonic, y of the base's equation alone and u of the damper's,
 /// over the largest of |y|, |u| and |r|.
-double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p, int regime);
+double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p,
+                    const continuation::Regime& regime);
 
 }  // namespace arcslip::problems

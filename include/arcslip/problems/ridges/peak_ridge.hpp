@@ -42,15 +42,18 @@ class PeakRidge : public continuation::Problem {
 
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"P"}; }
-  bool evaluate(const Vector& u, const Vector& p, int regime,
+  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                 const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
-  std::vector<std::string> regime_names() const override { return {"slip"}; }
-  int border_count(int /*regime*/) const override { return 1; }
-  double border(const Vector& u, const Vector& p, int regime, int border,
+  std::string describe(const continuation::Regime& /*regime*/) const override { return "slip"; }
+  int border_count(const continuation::Regime& /*regime*/) const override { return 1; }
+  double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
-  int regime_beyond(int /*regime*/, int /*border*/) const override { return -1; }
+  std::optional<continuation::Regime> regime_beyond(const continuation::Regime& /*regime*/,
+                                                    int /*border*/) const override {
+    return {};
+  }
 
   /// Makes h a relative distance in the unknowns around this point.
   void adapt(const Vector& u, const Vector& p);
