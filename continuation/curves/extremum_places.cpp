@@ -229,8 +229,9 @@ bool ExtremumTracer::turns_between(const BasePoint& point, const NearestBorder& 
   constexpr double same = 0.01;  // of the distance
   const double on_edge = slopes_.slope(beside, CornerSlopes::arriving);
   const auto first = slopes_.extremum_inside(beside, CornerSlopes::arriving);
-  slopes_.begin(place, nearest.border);
-  if (!first || on_edge * next_inside(place, CornerSlopes::arriving).slope > 0) return true;
+  if (!slopes_.begin(place, nearest.border) || !first ||
+      on_edge * next_inside(place, CornerSlopes::arriving).slope > 0)
+    return true;
   const auto there = nearest_border(base_, problem_.active(), *first, point.regime);
   return !(std::abs(there->distance / nearest.distance - 1) < same);
 }

@@ -152,7 +152,8 @@ void ExtremumTracer::smooth(const Guess& guess, bool towards_to, std::size_t ski
   TraceOptions options = rest();
   options.turns_at_corners = false;
   const std::size_t before = curve_.points.size();
-  problem_.adapt(problem_.split(guess.unknowns, guess.parameters, guess.regime));
+  if (!problem_.adapt(problem_.split(guess.unknowns, guess.parameters, guess.regime)))
+    return stop(Stop::no_value, "the problem has no value where the curve goes on");
   append(follow_curve(problem_, watch,
                       [&](const Observer& follow) {
                         return trace_one_way(problem_, guess, towards_to, options, follow);
@@ -169,8 +170,8 @@ void ExtremumTracer::along(const Ledge& ledge, const std::optional<Regime>& vani
   peak_ = ledge.peak;
   near_ = false;
   BorderProblem edge(base_, problem_.active(), ledge.border);
-  edge.adapt(ledge.from);
-  slopes_.begin(ledge.from, ledge.border);
+  if (!edge.adapt(ledge.from) || !slopes_.begin(ledge.from, ledge.border))
+    return stop(Stop::no_value, "the corner cannot be followed along its border");
   const Guess from = guess_at(ledge.from, ledge.direction);
   const BranchPoint begin = row(ledge.from, PointType::start);
   TraceOptions options = rest();

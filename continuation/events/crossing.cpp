@@ -180,8 +180,8 @@ bool Stepper::take_crossing(const RemoteZero& zero, double sign_behind) {
   }
   CurvePoint& point = crossing.point;
   corrector_.displace(here_, expected_, point);
-  corrector_.linearise(point, normal_);
-  if (!(point.residual <= 10 * corrector_.tolerance())) return false;
+  const bool has_value = corrector_.linearise(point, normal_) != Correction::cannot_evaluate;
+  if (!has_value || !(point.residual <= 10 * corrector_.tolerance())) return false;
   // A parameter that turns at the branch point runs the other way on its other side.
   double& rate = crossing.slope(n);
   const auto behind =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace arcslip::continuation {
 
@@ -70,7 +71,8 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
   here_.tangent = normal_;
   here_.orientation = 0;
   if (result == Correction::converged && !starts_singular()) {
-    corrector_.linearise(here_, normal_);
+    result = corrector_.linearise(here_, normal_);
+    if (result != Correction::converged) return result;
     begin_piece(here_);
   } else {  // a branch point: the direction is all there is
     here_.log_determinant = -std::numeric_limits<double>::infinity();
@@ -86,8 +88,8 @@ void Stepper::restore(const Progress& progress) {
   here_ = progress.start;
   if (progress.residual_size > 0) {
     corrector_.set_residual_size(progress.residual_size);
-  } else {
-    corrector_.calibrate(here_);
+  } else if (!corrector_.calibrate(here_)) {
+    throw std::invalid_argument("resume: the problem has no value where the branch started");
   }
   here_ = progress.here;
   bend_ = progress.bend;
@@ -95,8 +97,8 @@ void Stepper::restore(const Progress& progress) {
   past_ = progress.past;
   revision_ = problem_.revision();
   if (!std::isnan(here_.log_determinant)) return;
-  corrector_.linearise(here_, here_.tangent);
-  here_.log_determinant = corrector_.log_determinant();
+  if (corrector_.linearise(here_, here_.tangent) == Correction::converged)
+    here_.log_determinant = corrector_.log_determinant();
 }
 
 Correction Stepper::enter(const Regime& regime) {
@@ -290,7 +292,7 @@ void Stepper::cut() {
   anchors_.clear();
 }
 
-Correction Stepper::settle_on_border(int border) {
+void Stepper::settle_on_border(int border) {
   const Index n = corrector_.size();
   for (int i = 0; i < 3; ++i) {
     const double value =
@@ -304,9 +306,8 @@ Correction Stepper::settle_on_border(int border) {
     const bool far = !(work_.norm() <= 1e-8 && std::abs(work_(n)) <= 1e-12);
     if (result == Correction::converged && !far) continue;
     std::swap(there_, probe_);
-    return result;
+    return;
   }
-  return Correction::converged;
 }
 
 double Stepper::arc_rate() const {

@@ -178,8 +178,8 @@ bool Tracer::try_step() {
   return false;
 }
 
-/// Looks for events in the step; false if it has to be shorter. A target must not be passed, but by a step
-/// that ends before it.
+/// Looks for events in the step, and probes it where it ends at one; false if it has to be shorter. A target
+/// must not be passed, but by a step that ends before it.
 bool Tracer::find_events() {
   closing_.reset();
   watch_.look(stepper_.there());
@@ -219,7 +219,6 @@ void Tracer::take() {
   }
   const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
   if (!events_.empty() || closing_) {
-    stepper_.probe(closing_ ? *closing_ : events_.front().s);
     stepper_.cut();
     for (const Event& event : events_) {
       if (event.kind == Event::Kind::border) stepper_.settle_on_border(static_cast<int>(event.index));

@@ -57,11 +57,11 @@ long allocated(const continuation::Problem& problem, const continuation::Guess& 
   for (int i = -warm; i < 20; ++i) {
     if (i == 0) before = allocations;
     kept += static_cast<int>(stepper.attempt(continuation::Hold::tangent, step));
-    stepper.probe(0.5 * step);
+    kept += static_cast<int>(stepper.probe(0.5 * step));
     stepper.advance();
   }
   const long during = allocations - before;
-  CHECK(kept == 20 + warm);
+  CHECK(kept == 2 * (20 + warm));
   CHECK(corrector.work().iterations >= 5);
   return during;
 }

@@ -59,11 +59,10 @@ namespace {
 /// What `resume` says of a checkpoint that is not this problem's, or "none".
 std::string refusal(const Problem& problem, const Checkpoint& checkpoint, const TraceOptions& options) {
   try {
-    resume(problem, checkpoint, options);
+    return resume(problem, checkpoint, options).points.empty() ? "no point" : "none";
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  return "none";
 }
 
 }  // namespace

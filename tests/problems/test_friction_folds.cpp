@@ -157,8 +157,8 @@ TEST_CASE("Springs of no stiffness leave the forced response as it is") {
     Vector own(1);
     Vector u(2);
     u << b.unknowns(0) + 0.1, a.unknowns(1);
-    cubic.evaluate(u, b.parameters, ForcedResponse::slip, {&residual});
-    forced.evaluate(u.head(1), b.parameters, ForcedResponse::slip, {&own});
+    REQUIRE(cubic.evaluate(u, b.parameters, ForcedResponse::slip, {&residual}));
+    REQUIRE(forced.evaluate(u.head(1), b.parameters, ForcedResponse::slip, {&own}));
     CHECK_THAT(residual(1), WithinAbs(own(0), 1e-13));
   }
   const ForcedResponse forced(build_system(rods(1)));

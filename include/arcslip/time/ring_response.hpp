@@ -58,7 +58,7 @@ Vector neutral_drift(const Ring& ring);
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b);
 
 /// A response that repeats itself.
-struct SettledMotion {
+struct [[nodiscard]] SettledMotion {
   RingState state;
   double error;  ///< |G(s) - s| over |s|, this without its part along the drift
   int rounds;    ///< of the march, each nT/N long, or of Newton's method

@@ -22,8 +22,9 @@ struct NearestBorder {
   int border;
   double distance;  ///< >= 0 inside
 };
-std::optional<NearestBorder> nearest_border(const Problem& base, Index active, const BasePoint& point,
-                                            const Regime& regime, int except = -1);
+[[nodiscard]] std::optional<NearestBorder> nearest_border(const Problem& base, Index active,
+                                                          const BasePoint& point, const Regime& regime,
+                                                          int except = -1);
 
 /// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
 inline double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
@@ -36,7 +37,7 @@ class CornerSlopes {
 
   /// At a point on a border of its regime. False where nothing lies beyond the border or the branch has no
   /// tangent.
-  bool begin(const BasePoint& point, int border);
+  [[nodiscard]] bool begin(const BasePoint& point, int border);
 
   /// d ln|Y|/ds on one side, with s in the base's scale; the tangents are those of the last call to `begin`
   /// or `follow` as they go on. nan where the base cannot be evaluated.
@@ -51,14 +52,15 @@ class CornerSlopes {
   double slope_inside(const BasePoint& corner, Side side, double way);
 
   /// The first extremum inside the regime of a side, next to a point on the border and farther than `from`.
-  std::optional<BasePoint> extremum_inside(const BasePoint& corner, Side side, double from = 0);
+  [[nodiscard]] std::optional<BasePoint> extremum_inside(const BasePoint& corner, Side side, double from = 0);
 
   /// Where the slope times a sign is largest inside the regime of a side, up to a distance.
   struct Steepest {
     BasePoint point;
     double slope;  ///< times 1 or -1
   };
-  std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign, double farthest);
+  [[nodiscard]] std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign,
+                                                        double farthest);
 
  private:
   struct Branch {
@@ -71,7 +73,7 @@ class CornerSlopes {
   bool set_tangent(const BasePoint& point, Branch& side);
   BasePoint just_beyond(const BasePoint& point, const Branch& side);
   double border_rate(const BasePoint& point, const Branch& side);
-  std::optional<BasePoint> inside(const BasePoint& corner, Side side, double way);
+  [[nodiscard]] std::optional<BasePoint> inside(const BasePoint& corner, Side side, double way);
 
   const Problem& base_;
   Index active_;

@@ -23,13 +23,13 @@ class ResponseExtremum {
 
   /// The peak or trough that is nearest to a guess within its regime, at the guess's other parameters; none
   /// within `farthest`.
-  std::optional<Found> next_to(const BasePoint& guess, bool peak, double farthest);
+  [[nodiscard]] std::optional<Found> next_to(const BasePoint& guess, bool peak, double farthest);
 
   /// Sets the way that counts as forward: that of rising active parameter at this point.
-  bool begin(const BasePoint& point);
+  [[nodiscard]] bool begin(const BasePoint& point);
 
  private:
-  bool go(double way);
+  [[nodiscard]] bool go(double way);
   double slope(double way);
 
   const Problem& base_;

@@ -22,7 +22,7 @@ inline constexpr int most_exact = 8;
 /// that a piece runs beyond are crossed, all at first, then the first again and again, which ends where all
 /// pieces turn the same way [Murty 1974], as a rule in as many rounds as borders; it is given up after the
 /// square of that.
-std::vector<Guess> leaving_pieces(const Problem& problem, Index parameter, const Guess& corner,
-                                  double tolerance = same_border);
+[[nodiscard]] std::vector<Guess> leaving_pieces(const Problem& problem, Index parameter, const Guess& corner,
+                                                double tolerance = same_border);
 
 }  // namespace arcslip::continuation

@@ -20,7 +20,7 @@ struct Event {
   int unstable = 0;  ///< by how many eigenvalues more the branch is unstable behind it
 };
 
-struct EventSearch {
+struct [[nodiscard]] EventSearch {
   bool solved = true;         ///< false if an event is there but could not be located: take a shorter step
   std::vector<Event> events;  ///< the first one in the step, and those that fall together with it
 };

@@ -28,7 +28,7 @@ struct BranchPoint {
   std::string label;          ///< the name of a user's event
 };
 
-struct Branch {
+struct [[nodiscard]] Branch {
   std::vector<BranchPoint> points;  ///< in the order traced
   Stop stop = Stop::no_start;
   std::string explanation;  ///< the reason of the stop, a sentence; the warning follows, if there is one

@@ -30,7 +30,7 @@ struct CurvePoint {
   int iterations = 0;   ///< Newton corrections spent on it
 };
 
-enum class Correction { converged, cannot_evaluate, singular, diverging, too_many_iterations };
+enum class [[nodiscard]] Correction{converged, cannot_evaluate, singular, diverging, too_many_iterations};
 
 struct CorrectorOptions {
   double tolerance = 1e-10;  ///< on the largest entry of F
@@ -61,7 +61,7 @@ class Corrector {
 
   /// Sets the tolerance for a branch that starts at `point`, with its scale: as given, but of a problem whose
   /// F is in such units that its terms are above 1e3 relative to these. False where it has no value.
-  bool calibrate(CurvePoint& point);
+  [[nodiscard]] bool calibrate(CurvePoint& point);
 
   /// What the tolerance on F is relative to, as found by `calibrate`.
   double residual_size() const { return residual_size_; }
@@ -119,9 +119,9 @@ class Corrector {
   Work& work() { return work_; }
 
  private:
-  bool evaluate(CurvePoint& point);
-  bool factor(const Vector& scale, const Vector& normal);
-  bool solve_direction();
+  [[nodiscard]] bool evaluate(CurvePoint& point);
+  [[nodiscard]] bool factor(const Vector& scale, const Vector& normal);
+  [[nodiscard]] bool solve_direction();
   double solve_correction(double change);
   void apply(CurvePoint& point, const CurvePoint& origin);
   double turn_to_parameter();

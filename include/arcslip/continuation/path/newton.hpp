@@ -10,7 +10,7 @@
 
 namespace arcslip::continuation {
 
-struct Solution {
+struct [[nodiscard]] Solution {
   Correction outcome = Correction::cannot_evaluate;
   Vector unknowns;
   double residual = 0;  ///< largest entry of F
@@ -41,7 +41,7 @@ struct SolveAllOptions {
 /// further solution comes of it. In the order found; the same for the same input. A solution counts only
 /// within its regime; one beyond borders is a start in the regime beyond them. All guesses must share their
 /// parameters.
-std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
-                             const SolveAllOptions& options = {});
+[[nodiscard]] std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
+                                           const SolveAllOptions& options = {});
 
 }  // namespace arcslip::continuation

@@ -50,7 +50,7 @@ class Stepper {
 
   /// Goes past a corner within the regime, just ahead, at which the branch turns by more than a right angle.
   /// False, and still at `here`, if there is none.
-  bool turn_back();
+  [[nodiscard]] bool turn_back();
 
   /// Arclength per distance at `here`: 1 or more.
   double slope_length(Hold hold) const;
@@ -59,10 +59,10 @@ class Stepper {
   double parameter_slope(Hold hold) const;
 
   /// Tries a step of the given distance; true if it is kept, in `there`.
-  bool attempt(Hold hold, double distance);
+  [[nodiscard]] bool attempt(Hold hold, double distance);
 
   /// Tries to land on a value of the parameter ahead.
-  bool attempt_landing(double value);
+  [[nodiscard]] bool attempt_landing(double value);
 
   const StepSignals& signals() const { return signals_; }
   double tolerance() const { return corrector_.options().tolerance; }
@@ -93,7 +93,7 @@ class Stepper {
 
   /// The branch at 0 <= s <= distance within the step, solved to rounding; its ends and the branch point in
   /// it are known already. False if that fails.
-  bool probe(double s);
+  [[nodiscard]] bool probe(double s);
   const std::vector<Monitor>& probed() const { return probed_; }
   const CurvePoint& probed_point() const { return probe_; }
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
@@ -116,7 +116,7 @@ class Stepper {
 
   /// Moves `there`, which is next to it, onto a border of its regime, and thereby to the parameter's last bit
   /// off the branch rather than off the border: beyond it the residual may be 10^5 times as sensitive.
-  Correction settle_on_border(int border);
+  void settle_on_border(int border);
 
   /// The first branch point within the step, if the step passes one.
   struct Crossing {
@@ -129,7 +129,7 @@ class Stepper {
 
   /// Whether a point of the branch's past lies within the step, passed in the same direction; the step then
   /// ends there if `cut` is called with the value.
-  std::optional<double> passes(const CurvePoint& past);
+  [[nodiscard]] std::optional<double> passes(const CurvePoint& past);
 
   /// Makes `there` the new `here`.
   void advance();
@@ -140,15 +140,15 @@ class Stepper {
   bool starts_singular();
   void rescale_determinant();
   bool may_cross() const;
-  bool search_crossing();
+  [[nodiscard]] bool search_crossing();
   std::optional<Node> determinant_at(double s);
   double beside(double s) const;
   Correction linearise_beside(const CurvePoint& point, const Vector& slope, double offset);
-  bool probe_between(double s);
+  [[nodiscard]] bool probe_between(double s);
   void anchor(double s);
-  bool narrow(Node& before, Node& behind, double& s, double radius);
-  bool locate_crossing(Node before, Node behind);
-  bool take_crossing(const RemoteZero& zero, double sign_behind);
+  [[nodiscard]] bool narrow(Node& before, Node& behind, double& s, double radius);
+  [[nodiscard]] bool locate_crossing(Node before, Node behind);
+  [[nodiscard]] bool take_crossing(const RemoteZero& zero, double sign_behind);
   void remember();
   void scale_gradient(const Vector& scale, Vector& out) const;  // of gradient_
   bool is_tiny(double s) const;

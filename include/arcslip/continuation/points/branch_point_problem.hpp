@@ -18,7 +18,7 @@ class BranchPointProblem : public ExtendedProblem {
  public:
   BranchPointProblem(const Problem& base, Index active);
 
-  bool adapt(const BasePoint& point) override;
+  [[nodiscard]] bool adapt(const BasePoint& point) override;
 
   /// Basis of the null space of [dF/du dF/dp_a] at the point last evaluated: (n + 1) x 2, in the problem's
   /// units, orthonormal in its scale where the borders were chosen.

@@ -44,11 +44,11 @@ class ExtendedProblem : public Problem {
 
   /// Chooses borders for points around this one; once before the first evaluation, and again as a curve is
   /// followed. The solutions do not depend on it. False where the problem has no value.
-  virtual bool adapt(const BasePoint& point);
+  [[nodiscard]] virtual bool adapt(const BasePoint& point);
 
   /// Does so where the borders that there are have come to fit badly, at a point of a curve next to the last
   /// evaluation.
-  bool follow(const BasePoint& point);
+  [[nodiscard]] bool follow(const BasePoint& point);
 
   /// The observable of the base whose extrema the solutions are, if they are extrema.
   virtual std::optional<Index> extremum_of() const { return std::nullopt; }
@@ -65,7 +65,8 @@ class ExtendedProblem : public Problem {
   std::vector<std::string> parameter_names() const override;
   bool sparse() const override { return base_.sparse(); }
   long revision() const override { return revision_; }
-  bool evaluate(const Vector& u, const Vector& p, const Regime& regime, const Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                              const Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   Index switch_count() const override { return base_.switch_count(); }
@@ -84,7 +85,7 @@ class ExtendedProblem : public Problem {
  protected:
   /// Values of the conditions at a point where F has just been evaluated into `at_`, and where `gradients` is
   /// not null their gradients, m x (n + number of base parameters + extras).
-  virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
+  [[nodiscard]] virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
 
   /// Calls `use` with each list of numbers that `adapt` chooses.
   virtual void each_border(const std::function<void(double* numbers, Index count)>& use);

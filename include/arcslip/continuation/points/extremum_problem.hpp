@@ -17,7 +17,7 @@ class ExtremumProblem : public ExtendedProblem {
 
   std::optional<Index> extremum_of() const override { return observable_; }
 
-  bool adapt(const BasePoint& point) override;
+  [[nodiscard]] bool adapt(const BasePoint& point) override;
 
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
@@ -26,7 +26,7 @@ class ExtremumProblem : public ExtendedProblem {
   long own_evaluations() const override { return second_.evaluations(); }
 
  private:
-  bool solve_tangent(const BasePoint& point) const;
+  [[nodiscard]] bool solve_tangent(const BasePoint& point) const;
 
   Index observable_;
   std::unique_ptr<BorderedSolver> solver_;

@@ -17,11 +17,11 @@ class FoldProblem : public ExtendedProblem {
  public:
   FoldProblem(const Problem& base, Index active);
 
-  bool adapt(const BasePoint& point) override;
+  [[nodiscard]] bool adapt(const BasePoint& point) override;
   std::vector<PointType> test_types() const override;
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
-  bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                   ComplexVector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
   PointType pair_crossing() const override { return PointType::zero_hopf; }
 
   /// Null vectors at the point last evaluated: dF/du v = 0, v of unit length in the problem's scale, and

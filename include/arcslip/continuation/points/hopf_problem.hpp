@@ -20,13 +20,13 @@ class HopfProblem : public ExtendedProblem {
  public:
   HopfProblem(const Problem& base, Index active);
 
-  bool adapt(const BasePoint& point) override;
+  [[nodiscard]] bool adapt(const BasePoint& point) override;
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   std::vector<PointType> test_types() const override { return {PointType::bogdanov_takens}; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
-  bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                   ComplexVector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
   PointType pair_crossing() const override { return PointType::hopf_hopf; }
   PointType real_crossing() const override { return PointType::zero_hopf; }
 
@@ -37,7 +37,7 @@ class HopfProblem : public ExtendedProblem {
   long own_evaluations() const override { return second_.evaluations(); }
 
  private:
-  bool solve_borders(double kappa) const;
+  [[nodiscard]] bool solve_borders(double kappa) const;
 
   std::unique_ptr<BorderedSolver> solver_;  // real form, 2n and two borders
   Vector column_;                           // b, its two parts

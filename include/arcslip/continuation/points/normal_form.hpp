@@ -19,8 +19,8 @@ struct LocatedPoint {
   double residual = 0;
   int iterations = 0;
 };
-std::optional<LocatedPoint> locate(ExtendedProblem& problem, const BasePoint& guess,
-                                   double tolerance = 1e-10);
+[[nodiscard]] std::optional<LocatedPoint> locate(ExtendedProblem& problem, const BasePoint& guess,
+                                                 double tolerance = 1e-10);
 
 /// A fold, p_a = p_a* + quadratic x^2 + ..., with x along v; degenerate (a cusp) where quadratic vanishes.
 struct FoldForm {
@@ -28,7 +28,7 @@ struct FoldForm {
   Vector left;           ///< w, n: w^T dF/du = 0
   double quadratic = 0;  ///< c, in units of p_a
 };
-std::optional<FoldForm> fold_form(const Problem& problem, Index parameter, const Guess& fold);
+[[nodiscard]] std::optional<FoldForm> fold_form(const Problem& problem, Index parameter, const Guess& fold);
 
 enum class BranchPointKind {
   transcritical,  ///< both branches have a slope in the parameter
@@ -48,7 +48,7 @@ struct BranchPointForm {
   double cubic = 0;      ///< pitchfork: c in p_a = p_a* + c x^2 of the turning branch, x along u; else nan
   long evaluations = 0;  ///< that it took
 };
-std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
-                                                 const Guess& branch_point);
+[[nodiscard]] std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
+                                                               const Guess& branch_point);
 
 }  // namespace arcslip::continuation

@@ -17,8 +17,9 @@ namespace arcslip::continuation {
 /// every one of five steps that agree with one another, the entry is looked for and named: "the Jacobian
 /// differs from differences of the residual by 5 % in dF0/du1". Corners and borders within a step, rounding,
 /// and what is sharper than the steps make these disagree, and then nothing is said.
-std::optional<std::string> find_wrong_derivative(const Problem& problem, const Vector& u, const Vector& p,
-                                                 const Regime& regime, const std::vector<Index>& parameters,
-                                                 const std::vector<Index>& observables);
+[[nodiscard]] std::optional<std::string> find_wrong_derivative(const Problem& problem, const Vector& u,
+                                                               const Vector& p, const Regime& regime,
+                                                               const std::vector<Index>& parameters,
+                                                               const std::vector<Index>& observables);
 
 }  // namespace arcslip::continuation

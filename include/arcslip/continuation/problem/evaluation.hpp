@@ -10,8 +10,8 @@ namespace arcslip::continuation {
 /// Problem::evaluate. The entries of dense targets are set to a nan of its own kind first, so that those that
 /// are not filled are known. Throws std::logic_error that names what was resized or not filled. False also
 /// where F is not finite.
-bool evaluate(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
-              const Evaluation& out);
+[[nodiscard]] bool evaluate(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
+                            const Evaluation& out);
 
 /// Calls all other functions that a branch in this regime relies on, with gradients of the observables
 /// `tracked`. Throws std::logic_error that names the first of them that gives too much or too little.

@@ -14,7 +14,7 @@ class Linearization {
   explicit Linearization(const Problem& problem);
 
   /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
-  bool evaluate(const Vector& u, const Vector& p, const Regime& regime);
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime);
 
   long evaluations() const { return evaluations_; }  ///< so far
 

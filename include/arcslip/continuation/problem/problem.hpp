@@ -60,8 +60,8 @@ class Problem {
 
   /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
   /// the step.
-  virtual bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
-                        const Evaluation& out) const = 0;
+  [[nodiscard]] virtual bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                                      const Evaluation& out) const = 0;
 
   /// Second derivatives of F along one direction, contracted from the left,
   ///
@@ -69,8 +69,8 @@ class Problem {
   ///
   /// n entries for the unknowns, then one for each parameter. False where the problem does not give them:
   /// then differences of `evaluate` take their place, at the price of six evaluations or more.
-  virtual bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
-                      const Vector& du, const Vector& dp, Vector& out) const;
+  [[nodiscard]] virtual bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                                    const Vector& du, const Vector& dp, Vector& out) const;
 
   /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
   virtual bool sparse() const { return false; }
@@ -84,8 +84,8 @@ class Problem {
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
   /// takes those of a dense equilibrium's Jacobian; a periodic solution has the rates of hill.hpp.
-  virtual bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                           ComplexVector& values) const;
+  [[nodiscard]] virtual bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                         ComplexVector& values) const;
 
   /// What a pair of these that crosses the imaginary axis is called.
   virtual PointType pair_crossing() const { return PointType::hopf; }
@@ -117,7 +117,7 @@ class Problem {
                         Gradient* gradient) const;
 
   /// The regime that a branch enters across this border; none where the branch ends on it.
-  virtual std::optional<Regime> regime_beyond(const Regime& regime, int border) const;
+  [[nodiscard]] virtual std::optional<Regime> regime_beyond(const Regime& regime, int border) const;
 
   /// What is written beside each point, besides u and p.
   virtual std::vector<Observable> observables() const { return {}; }
@@ -138,8 +138,8 @@ class Problem {
 std::vector<std::string> observable_names(const Problem& problem);
 
 /// The first border of its regime that a point lies beyond by more than `tolerance`; -1 if there is none.
-int crossed_border(const Problem& problem, const Vector& u, const Vector& p, const Regime& regime,
-                   double tolerance);
+[[nodiscard]] int crossed_border(const Problem& problem, const Vector& u, const Vector& p,
+                                 const Regime& regime, double tolerance);
 
 /// Position of a name in `names`; throws std::invalid_argument that lists what there is.
 Index index_of(const std::vector<std::string>& names, const std::string& name);

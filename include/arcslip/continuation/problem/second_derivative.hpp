@@ -31,12 +31,12 @@ class SecondDerivative {
 
   /// n entries for the unknowns, then one for each parameter. False where F cannot be evaluated around (u,
   /// p).
-  bool contract(const Vector& u, const Vector& p, const Regime& regime, const Vector& w, const Vector& du,
-                const Vector& dp, Vector& out);
+  [[nodiscard]] bool contract(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                              const Vector& du, const Vector& dp, Vector& out);
 
   /// The same with several w at once, the columns of `weights`, n x k: (n + number of parameters) x k.
-  bool contract(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
-                const Vector& du, const Vector& dp, Matrix& out);
+  [[nodiscard]] bool contract(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
+                              const Vector& du, const Vector& dp, Matrix& out);
 
   /// Length of a direction in the problem's scale at (u, p): its largest entry.
   double length(const Vector& u, const Vector& p, const Vector& du, const Vector& dp);
@@ -48,10 +48,10 @@ class SecondDerivative {
   double& memory() { return level_; }
 
  private:
-  bool ask(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights, const Vector& du,
-           const Vector& dp, Matrix& out);
-  bool difference(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
-                  const Vector& du, const Vector& dp, Matrix& out);
+  [[nodiscard]] bool ask(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
+                         const Vector& du, const Vector& dp, Matrix& out);
+  [[nodiscard]] bool difference(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
+                                const Vector& du, const Vector& dp, Matrix& out);
 
   const Problem& problem_;
   Linearization at_;

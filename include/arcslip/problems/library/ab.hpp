@@ -19,8 +19,8 @@ class StirredTank : public NamedUnknowns {
  public:
   StirredTank() : NamedUnknowns({"u1", "u2"}, {"p1", "p2", "p3"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   bool is_equilibrium() const override { return true; }
 };
 

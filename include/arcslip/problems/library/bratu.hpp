@@ -24,8 +24,8 @@ class Bratu : public continuation::Problem {
   Index size() const override { return size_; }
   std::vector<std::string> parameter_names() const override { return {"lambda"}; }
   bool sparse() const override { return true; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,

@@ -20,8 +20,8 @@ class BratuSquare : public continuation::Problem {
   Index size() const override { return side_ * side_; }
   std::vector<std::string> parameter_names() const override { return {"lambda"}; }
   bool sparse() const override { return true; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   /// u_centre: at (1/2, 1/2), between points the mean of four, to O(h^2).
   std::vector<continuation::Observable> observables() const override { return {{"u_centre", true}}; }

@@ -16,8 +16,8 @@ class Cusp : public NamedUnknowns {
  public:
   Cusp() : NamedUnknowns({"x"}, {"mu", "lambda"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   bool is_equilibrium() const override { return true; }
 };
 

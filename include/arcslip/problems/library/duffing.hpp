@@ -26,8 +26,8 @@ class DuffingOscillator : public continuation::Problem {
 
   Index size() const override { return basis_.cols(); }
   std::vector<std::string> parameter_names() const override { return {"W", "force", "delta", "k3"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   /// The harmonics' amplitudes a1, a3, ..., whose gradients count as zero where they are zero, and the root
   /// mean square of q, rms.
@@ -40,8 +40,8 @@ class DuffingOscillator : public continuation::Problem {
   /// The rates (hill.hpp) of y'' + delta y' + (1 + 3 k3 q^2) y = 0 over half a period of q, in the same odd
   /// harmonics and in the even ones that go with them, so that one vanishes exactly at a fold. Where another
   /// multiplier passes 1 the motion loses its symmetry.
-  bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                   ComplexVector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                 ComplexVector& values) const override;
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
   /// Zero where it does.

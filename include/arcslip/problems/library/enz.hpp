@@ -20,8 +20,8 @@ class EnzymeCompartments : public NamedUnknowns {
   EnzymeCompartments() : NamedUnknowns({"s1", "s2"}, {"s0", "mu", "rho", "k"}) {}
 
   /// No value where 1 + s + k s^2 is not positive.
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   bool is_equilibrium() const override { return true; }
 };
 

@@ -19,8 +19,8 @@ class FreudensteinRoth : public NamedUnknowns {
  public:
   FreudensteinRoth() : NamedUnknowns({"x1", "x2"}, {"x3"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 };
 
 /// `freudenstein_roth`

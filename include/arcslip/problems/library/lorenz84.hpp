@@ -22,8 +22,8 @@ class Lorenz84 : public NamedUnknowns {
  public:
   Lorenz84() : NamedUnknowns({"X", "Y", "Z", "U"}, {"F", "T", "a", "b", "G", "d", "g"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   bool is_equilibrium() const override { return true; }
 };
 

@@ -25,8 +25,8 @@ class LureCycle : public continuation::Problem {
 
   Index size() const override { return basis_.cols() + 1; }
   std::vector<std::string> parameter_names() const override { return {"a", "b"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   /// The first harmonic's amplitude A1, whose gradient counts as zero where it is zero, and the period T.
   std::vector<continuation::Observable> observables() const override { return {{"A1", true}, {"T", true}}; }
@@ -36,8 +36,8 @@ class LureCycle : public continuation::Problem {
                  continuation::Gradient& gradient) const override;
 
   /// The rates (hill.hpp) of disturbances but for the shift in time, whose multiplier is 1.
-  bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                   ComplexVector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                 ComplexVector& values) const override;
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 
   /// Zero where a multiplier is -1.

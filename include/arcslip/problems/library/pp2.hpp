@@ -18,8 +18,8 @@ class PredatorPrey : public NamedUnknowns {
  public:
   PredatorPrey() : NamedUnknowns({"u", "v"}, {"p"}) {}
 
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   bool is_equilibrium() const override { return true; }
 };
 

@@ -23,8 +23,8 @@ class CubicResponse : public ContactProblem {
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 2; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;

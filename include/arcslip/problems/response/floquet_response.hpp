@@ -35,8 +35,8 @@ class FloquetResponse : public HarmonicResponse {
                   std::shared_ptr<const FloquetResponse> finer);
 
   /// sigma, lambda = 2 pi sigma, of all cells of waves in which something may grow.
-  bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                   ComplexVector& values) const override;
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                 ComplexVector& values) const override;
 
   continuation::PointType pair_crossing() const override { return continuation::PointType::neimark_sacker; }
 

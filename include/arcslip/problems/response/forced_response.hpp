@@ -24,8 +24,8 @@ class ForcedResponse : public ContactProblem {
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 1; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
   /// Those of every contact problem, then the amplitudes of the system's outputs. All but the phases have
   /// gradients.

@@ -15,8 +15,8 @@ namespace arcslip::problems {
 
 class FreeVibration : public HarmonicProblem {
  public:
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
 
  protected:
   using HarmonicProblem::HarmonicProblem;

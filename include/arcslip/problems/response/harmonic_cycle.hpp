@@ -24,8 +24,8 @@ class HarmonicCycle : public FreeVibration {
   explicit HarmonicCycle(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"zeta_B", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
   std::optional<continuation::Regime> regime_beyond(const continuation::Regime& regime,
                                                     int border) const override;

@@ -33,12 +33,12 @@ class HarmonicResponse : public HarmonicProblem {
   explicit HarmonicResponse(HarmonicSystem system);
 
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
   /// smooth and differentiated by differences.
-  bool second(const Vector& u, const Vector& p, const continuation::Regime& regime, const Vector& w,
-              const Vector& du, const Vector& dp, Vector& out) const override;
+  [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                            const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
@@ -68,8 +68,8 @@ class HarmonicResponse : public HarmonicProblem {
 
  private:
   class LoadPath;
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime, double share,
-                const continuation::Evaluation& out) const;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              double share, const continuation::Evaluation& out) const;
   continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
                               Index parameter, double to, const continuation::TraceOptions& limits) const;
   double linear_share(const continuation::Guess& stuck, double share) const;

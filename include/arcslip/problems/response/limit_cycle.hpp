@@ -40,8 +40,8 @@ class LimitCycle : public continuation::Problem {
 
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"zeta_B", "P"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   std::string describe(const continuation::Regime& /*regime*/) const override { return "slip"; }

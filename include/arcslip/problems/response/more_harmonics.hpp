@@ -14,7 +14,8 @@ continuation::Guess carried(const HarmonicResponse& from, const continuation::Gu
 
 /// The response of `to` at the same parameters to which Newton's method comes from there, in the regime in
 /// which it finds its contacts; none where it comes to none.
-std::optional<continuation::Guess> solved_in(const HarmonicResponse& to, const HarmonicResponse& from,
-                                             const continuation::Guess& at);
+[[nodiscard]] std::optional<continuation::Guess> solved_in(const HarmonicResponse& to,
+                                                           const HarmonicResponse& from,
+                                                           const continuation::Guess& at);
 
 }  // namespace arcslip::problems

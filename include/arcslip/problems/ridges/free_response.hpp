@@ -16,8 +16,8 @@ class FreeResponse : public continuation::Problem {
 
   Index size() const override { return 1; }
   std::vector<std::string> parameter_names() const override { return {"eta"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
   std::vector<continuation::Observable> observables() const override { return {{"Y", true}}; }
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,

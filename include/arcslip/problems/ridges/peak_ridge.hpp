@@ -42,8 +42,8 @@ class PeakRidge : public continuation::Problem {
 
   Index size() const override { return 2; }
   std::vector<std::string> parameter_names() const override { return {"P"}; }
-  bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   std::string describe(const continuation::Regime& /*regime*/) const override { return "slip"; }
@@ -65,6 +65,6 @@ class PeakRidge : public continuation::Problem {
 
 /// Newton's method for the point of the curve at a preload, from an estimate. False where it does not
 /// converge.
-bool solve_ridge(const FrictionSystem& system, double preload, double& w, double& eta);
+[[nodiscard]] bool solve_ridge(const FrictionSystem& system, double preload, double& w, double& eta);
 
 }  // namespace arcslip::problems
