@@ -1,11 +1,12 @@
 #include "arcslip/continuation/linear/hill.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
+
+#include "arcslip/continuation/linear/eigenvalues.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -59,9 +60,8 @@ void add_candidates(const std::vector<ComplexMatrix>& coefficients, double w, In
                     std::vector<Candidate>& candidates) {
   const Index n = coefficients.front().rows();
   const Matrix hill = hill_matrix(coefficients, w, twice_h);
-  const Eigen::EigenSolver<Matrix> solver(hill);
-  const ComplexVector& values = solver.eigenvalues();
-  const ComplexMatrix vectors = solver.eigenvectors();
+  ComplexMatrix vectors;
+  const ComplexVector values = eigenvalues(hill, &vectors);
   for (Index v = 0; v < values.size(); ++v) {
     if (values(v).imag() < 0) continue;
     Candidate candidate{values(v), twice_h % 2 != 0, 0, 0};

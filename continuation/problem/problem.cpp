@@ -2,10 +2,10 @@
 
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <stdexcept>
 
+#include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
@@ -27,7 +27,7 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime
   Evaluation out;
   out.jacobian = &jacobian;
   if (!continuation::evaluate(*this, u, p, regime, out) || !jacobian.allFinite()) return false;
-  values = Eigen::EigenSolver<Matrix>(jacobian, false).eigenvalues();
+  values = continuation::eigenvalues(jacobian);
   return values.allFinite();
 }
 

@@ -35,6 +35,8 @@ ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspac
   return deflate(matrix, subspace);
 }
 
+Vector least_squares(const Matrix& a, const Vector& b) { return a.householderQr().solve(b); }
+
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
   const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);
   const Eigen::PartialPivLU<ComplexMatrix> solver(

@@ -1,8 +1,9 @@
 #include "arcslip/time/ring_response.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "arcslip/structure/spectrum.hpp"
 
 namespace arcslip {
 namespace {
@@ -67,7 +68,7 @@ Vector newton_step(const RingMotion& motion, const Matrix& derivative, const Vec
   const Index coordinates = motion.ring().coordinates();
   equations.middleRows(coordinates, coordinates) /= motion.frequency();
   equations.middleCols(coordinates, coordinates) *= motion.frequency();
-  Vector step = equations.householderQr().solve(right);
+  Vector step = least_squares(equations, right);
   step.segment(coordinates, coordinates) *= motion.frequency();
   return step;
 }

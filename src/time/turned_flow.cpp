@@ -121,7 +121,8 @@ class Flow {
   void pass(const StickSchedule::Interval& interval, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
     if (others_.empty()) {
       const auto size = 2 * std::ssize(coordinates_);
-      state.topRows(size) = (rates.exp().topRows(size) * state).eval();
+      const Dense<Scalar> flow = rates.exp();
+      state.topRows(size) = (flow.topRows(size) * state).eval();
       return;
     }
     constexpr double longest = 4;  // step, of the fastest rate

@@ -13,6 +13,9 @@ ComplexVector spectrum(const ComplexMatrix& matrix);
 Matrix deflated(const Matrix& matrix, const Matrix& subspace);
 ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace);
 
+/// x of least |A x - b|, A of full rank with at least as many rows as columns.
+Vector least_squares(const Matrix& a, const Vector& b);
+
 /// The vector of an eigenvalue, of length 1.
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value);
 
