@@ -118,7 +118,7 @@ void check_frequencies(const Workshop& workshop, const std::string& deck, Index 
 }  // namespace
 
 TEST_CASE("The guide's commands lead from a mesh to a case whose modes are those that CalculiX finds",
-          "[export]") {
+          "[export][numbers]") {
   const std::string guide = read(exports + "/README.md");
   const std::vector<std::string> shown = indented(guide);
   REQUIRE(shown.size() >= 3);

@@ -339,7 +339,7 @@ TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sect
 TEST_CASE("All tasks compose with a sector of three contacts", "[composition]") {
   check_kind("three contacts");
 }
-TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition]") {
+TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition][numbers]") {
   check_kind("three contacts, five harmonics");
 }
 TEST_CASE("All tasks compose with the full path of a sector", "[composition]") {

@@ -62,7 +62,7 @@ struct Example {
 }  // namespace
 
 TEST_CASE("Quantiles without homogeneity are those of the samples' systems solved one by one",
-          "[uncertainty]") {
+          "[uncertainty][numbers]") {
   const Example example = GENERATE(Example{0.05, 0, true, false}, Example{0.05, 0, false, true},
                                    Example{0, 0.5, true, true}, Example{0.05, 0.5, true, true});
   SystemParameters system = damped_rods();

@@ -134,7 +134,8 @@ TEST_CASE("The polyline of a curve with few points is within a pixel of it") {
   }
 }
 
-TEST_CASE("Polylines of random responses are within a pixel of them, also where peaks are enlarged") {
+TEST_CASE("Polylines of random responses are within a pixel of them, also where peaks are enlarged",
+          "[numbers]") {
   RandomSystems random(5);
   for (int i = 0; i < 8; ++i) {
     const SystemParameters system = random.system();

@@ -164,7 +164,7 @@ TEST_CASE("Bratu's solutions on an interval converge to those in closed form on 
   }
 }
 
-TEST_CASE("Bratu's fold on a square converges with h^2 to its published value", "[library]") {
+TEST_CASE("Bratu's fold on a square converges with h^2 to its published value", "[library][numbers]") {
   const double limit = 6.808124423;  // Boyd, J. Sci. Comput. 1 (1986) 183
   std::vector<double> folds, heights;
   for (const double intervals : {16, 32, 64, 128}) {

@@ -156,7 +156,7 @@ TEST_CASE("Two free rings rub on each other by modes as by sparse solves", "[fre
   }
 }
 
-TEST_CASE("Free rings are damped by friction alone, and stay stable", "[free]") {
+TEST_CASE("Free rings are damped by friction alone, and stay stable", "[free][numbers]") {
   const auto [n, direction] =
       GENERATE(table<int, std::string>({{0, "tangential"}, {0, "axial"}, {3, "axial"}, {4, "tangential"}}));
   const TemporaryFolder folder;

@@ -102,7 +102,8 @@ TEST_CASE("Limit cycles in several harmonics are those of an independent balance
   CHECK_THAT(at.unknowns(HarmonicCycle::amplitude), WithinAbs(known.R, 1e-9));
 }
 
-TEST_CASE("In one harmonic of one contact limit cycles are those of the scalar equation", "[cycle][random]") {
+TEST_CASE("In one harmonic of one contact limit cycles are those of the scalar equation",
+          "[cycle][random][numbers]") {
   RandomSystems draw(7);
   int found = 0;
   for (int i = 0; i < 16; ++i) {

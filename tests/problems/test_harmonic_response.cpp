@@ -117,7 +117,7 @@ TEST_CASE("At the best preload of figure 8 nine harmonics give Y = 0.00843, many
 }
 
 TEST_CASE("The ring of figure 8 in time has the amplitude of many harmonics at the best preload",
-          "[harmonics]") {
+          "[harmonics][numbers]") {
   const HarmonicResponse problem = balanced(figure_8(1), 63);
   const Guess at = problem.guess(3.841, 1);
   RingMotion motion(build_ring(figure_8(1)), 3.841, 1);
@@ -256,7 +256,8 @@ TEST_CASE("All derivatives with several harmonics are exact", "[harmonics]") {
   }
 }
 
-TEST_CASE("A stiff contact with many harmonics approaches Den Hartog's Coulomb friction", "[harmonics]") {
+TEST_CASE("A stiff contact with many harmonics approaches Den Hartog's Coulomb friction",
+          "[harmonics][numbers]") {
   // X of x'' + x + f sgn x' = cos(r t), motion without stops [Den Hartog, Trans. ASME 53 (1931) 107]
   struct Case {
     double r;

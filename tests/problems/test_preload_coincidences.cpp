@@ -52,7 +52,7 @@ std::vector<std::string> complaints(const StudyRun& run, const std::vector<doubl
 
 }  // namespace
 
-TEST_CASE("Studies of resonances on the corner hold all peaks that the dense scan finds") {
+TEST_CASE("Studies of resonances on the corner hold all peaks that the dense scan finds", "[numbers]") {
   RandomSystems draw(11);
   double resonance = 0;
   double border = 0;
@@ -152,7 +152,8 @@ TEST_CASE("One mass with structural damping has its best preload in closed form,
   }
 }
 
-TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the middle of what sticks") {
+TEST_CASE("Where base and damper are tuned alike the optimum is flat, in the middle of what sticks",
+          "[numbers]") {
   RandomSystems draw(13);
   int flat = 0;
   for (int i = 0; i < 60; ++i) {

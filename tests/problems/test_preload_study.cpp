@@ -104,7 +104,7 @@ TEST_CASE("Studies of figures 11 and 12 hold all peaks that the dense scan finds
   CHECK(judge.complaints() == no_complaints);
 }
 
-TEST_CASE("The best preloads of figures 11 and 12 are those of the dense scan") {
+TEST_CASE("The best preloads of figures 11 and 12 are those of the dense scan", "[numbers]") {
   const PaperCurve curve = GENERATE(from_range(curves));
   const StudyRun run{beams(curve.mass_ratio, curve.frequency_ratio, curve.slenderness), whole};
   CAPTURE(describe(run));

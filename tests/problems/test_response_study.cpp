@@ -117,7 +117,8 @@ TEST_CASE("In one harmonic whole responses have the best preloads that closed sl
   }
 }
 
-TEST_CASE("The rods' best preload in nine harmonics is an exchange below which no dense scan comes") {
+TEST_CASE("The rods' best preload in nine harmonics is an exchange below which no dense scan comes",
+          "[numbers]") {
   const PreloadRange range = range_with();
   const PreloadStudy study = response_study_of(rods(9), range);
   const Optimum& optimum = *study.optimum;

@@ -6,7 +6,8 @@
 using namespace arcslip;
 using namespace arcslip::testing;
 
-TEST_CASE("Ten elements a sector, each with its contact, vibrate as the paper's rods and beams") {
+TEST_CASE("Ten elements a sector, each with its contact, vibrate as the paper's rods and beams",
+          "[numbers]") {
   const bool beams = GENERATE(false, true);
   const TemporaryFolder folder;
   const std::string branch =

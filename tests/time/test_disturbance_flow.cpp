@@ -118,7 +118,8 @@ TEST_CASE("A passive response is stable however many harmonics are kept", "[stab
   CHECK(unstable(sigma_of(exponents(c, GENERATE(1, 5)))) == 0);
 }
 
-TEST_CASE("The cost of exponents and their values do not depend on the number of nodes", "[stability]") {
+TEST_CASE("The cost of exponents and their values do not depend on the number of nodes",
+          "[stability][numbers]") {
   SystemParameters s = small_beams(1000);
   const ComplexVector thousand = sigma_of(exponents({s, 3.7, 0.03}, 3));
   s.elements = 1'000'000;
@@ -162,7 +163,7 @@ TEST_CASE("A contact that is cut in two has the exponents of the whole", "[stabi
   }
 }
 
-TEST_CASE("An exponent vanishes at each fold that the engine finds", "[stability]") {
+TEST_CASE("An exponent vanishes at each fold that the engine finds", "[stability][numbers]") {
   const Run run("negative_damping", {"branch.stability=true", "system.elements=5"});
   const continuation::Branch& branch = run.traced.front().branch;
   int folds = 0;

@@ -102,7 +102,7 @@ std::vector<double> errors(const RandomRing& ring, const std::vector<int>& highe
 }  // namespace
 
 TEST_CASE("The worst disturbance of random rings is that of all nodes in time as harmonics grow",
-          "[stability]") {
+          "[stability][numbers]") {
   const unsigned seed = GENERATE(1U, 3U, 6U, 13U, 18U, 22U, 143U, 144U);  // gcd(n, N) > 1 among them
   const RandomRing ring = random_ring(seed);
   CAPTURE(seed, ring.system.wave_number, ring.system.elements);

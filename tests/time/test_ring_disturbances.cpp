@@ -314,7 +314,7 @@ TEST_CASE("Disturbances on the full path of a sector are those on the reduced on
   }
 }
 
-TEST_CASE("Sectors of several elements and contacts grow as the rods that they are", "[stability]") {
+TEST_CASE("Sectors of several elements and contacts grow as the rods that they are", "[stability][numbers]") {
   const TemporaryFolder folder;
   const std::string branch = "[branch]\nstability = true\nparameter = \"eta\"\nfrom = 3.4\nto = 3.5\n";
   // Of 6 and 3 sectors; waves that are their own conjugates have modes of equal frequencies.
