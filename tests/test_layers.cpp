@@ -40,6 +40,7 @@ std::size_t layer(std::string_view folder) {
 
 /// The layer of one of our files, given below the top of the tree or as it is written in an include.
 std::size_t layer_of(const fs::path& file) {
+  if (file.filename() == "arcslip.hpp") return layer("app");  // of all layers, for other projects
   for (const fs::path& folder : file.parent_path()) {
     if (folder != "include" && folder != "arcslip" && folder != "src") return layer(folder.string());
   }

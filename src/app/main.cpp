@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "arcslip/cases/case_file.hpp"
+#include "arcslip/version.hpp"
 #include "results/output.hpp"
 
 namespace {
@@ -106,7 +107,7 @@ CLI::App* add_study_command(CLI::App& app, arcslip::StudyOptions& options) {
 int dispatch(int argc, char** argv) {
   using namespace arcslip;
   CLI::App app{about, "arcslip"};
-  app.set_version_flag("--version", "arcslip " ARCSLIP_VERSION);
+  app.set_version_flag("--version", std::string("arcslip ") + release);
   app.require_subcommand(1);
   app.footer(examples);
 

@@ -10,6 +10,7 @@
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
+#include "arcslip/version.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/stability_results.hpp"
@@ -110,7 +111,7 @@ ordered_json summarize(const Case& input, const std::vector<TracedBranch>& trace
   ordered_json branches = ordered_json::array();
   for (std::size_t number = 0; number < traced.size(); ++number)
     branches.push_back(summarize(number, traced[number]));
-  return {{"arcslip", ARCSLIP_VERSION},
+  return {{"arcslip", release},
           {"title", input.title},
           {"case", input.resolved},
           {"branches", branches},

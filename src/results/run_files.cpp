@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "arcslip/continuation/path/polyline.hpp"
+#include "arcslip/version.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json beginning(const CasePlan& plan) {
-  return {{"arcslip", ARCSLIP_VERSION}, {"title", plan.title}, {"case", plan.resolved}};
+  return {{"arcslip", release}, {"title", plan.title}, {"case", plan.resolved}};
 }
 
 constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points

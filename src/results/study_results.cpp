@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "arcslip/version.hpp"
 #include "results/atomic_file.hpp"
 #include "results/summary_file.hpp"
 
@@ -63,7 +64,7 @@ ordered_json summarize(const StudyCase& study, const StudyStore& store, const St
                       {"failure", design.failure}});
     return true;
   });
-  return {{"arcslip", ARCSLIP_VERSION},
+  return {{"arcslip", release},
           {"title", study.title},
           {"case", study.resolved},
           {"designs", study.count},

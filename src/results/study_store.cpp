@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "arcslip/version.hpp"
 #include "results/output.hpp"
 #include "results/summary_file.hpp"
 
@@ -98,7 +99,7 @@ void create(Database& database, const StudyCase& study) {
                   "CREATE TABLE sweep ({}, PRIMARY KEY (curve, peak_branch, point)) WITHOUT ROWID;{}",
                   columns, fmt::join(peak_columns, ", "), StudyExtras(study).tables()));
   database.prepare("INSERT INTO study VALUES (?, ?, ?, NULL)")
-      .bind(ARCSLIP_VERSION)
+      .bind(release)
       .bind(study.resolved.dump())
       .bind(static_cast<std::int64_t>(study.count))
       .run();
@@ -254,8 +255,8 @@ void StudyStore::check_same(const StudyCase& study) const {
     if (!row.step()) refuse("it holds no study");
     const std::string version = row.text(0);
     const bool is_version = version.find_first_not_of("0123456789.") == std::string::npos;
-    if (is_version && version != ARCSLIP_VERSION)
-      refuse(fmt::format("it was begun by arcslip {}, this is {}", version, ARCSLIP_VERSION));
+    if (is_version && version != release)
+      refuse(fmt::format("it was begun by arcslip {}, this is {}", version, release));
     if (!is_version || !has_whole_input(database)) refuse("its input is damaged");
     const std::string other = difference(ordered_json::parse(row.text(1)), study);
     if (!other.empty()) refuse(fmt::format("it was begun with another {}", other));

@@ -1,12 +1,7 @@
 // What can be done with branches beyond tracing one, on two problems of the library.
 
 #include <algorithm>
-#include <arcslip/continuation/curves/curve.hpp>
-#include <arcslip/continuation/path/interpolation.hpp>
-#include <arcslip/continuation/path/newton.hpp>
-#include <arcslip/continuation/path/switching.hpp>
-#include <arcslip/problems/library/cusp.hpp>
-#include <arcslip/problems/library/pp2.hpp>
+#include <arcslip/arcslip.hpp>
 #include <iostream>
 #include <sstream>
 

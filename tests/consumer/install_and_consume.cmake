@@ -25,6 +25,16 @@ set(plain ${work}/plain/bin)
 run(${plain}/friction)
 run(${plain}/further)
 
+# Without CMake
+find_program(PKG_CONFIG pkg-config REQUIRED)
+file(GLOB_RECURSE descriptions ${prefix}/*/arcslip.pc)
+cmake_path(GET descriptions PARENT_PATH folder)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder} ${PKG_CONFIG} --cflags --libs arcslip
+                OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${CXX_COMPILER} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/friction.cpp ${flags} -o ${work}/friction)
+run(${work}/friction)
+
 # At k = 1/5 the arch snaps at u = 1 -+ sqrt(1/5), d = 1 +- sqrt(1/5).
 execute_process(COMMAND ${plain}/own_problem OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
 message(STATUS "${output}")
