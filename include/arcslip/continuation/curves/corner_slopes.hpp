@@ -19,7 +19,7 @@ inline constexpr double on_border = 1e-8;
 /// The border that a point is nearest to among those of a regime but `except`, relative to the border's slope
 /// in the problem's scale; none where it has no others.
 struct NearestBorder {
-  int border;
+  int border;       ///< its number in the regime; `distance` is to it
   double distance;  ///< >= 0 inside
 };
 [[nodiscard]] std::optional<NearestBorder> nearest_border(const Problem& base, Index active,
@@ -29,10 +29,14 @@ struct NearestBorder {
 /// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
 inline double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
 
+/// The observable's slope over the active parameter on either side of a border, at points of it.
 class CornerSlopes {
  public:
+  /// The piece on which the branch comes to the border, and that on which it goes on.
   enum Side { arriving, leaving };
 
+  /// `active` is the parameter's position, `observable` that of an observable with a gradient. The base is
+  /// kept by reference.
   CornerSlopes(const Problem& base, Index active, Index observable);
 
   /// At a point on a border of its regime. False where nothing lies beyond the border or the branch has no
@@ -46,6 +50,7 @@ class CornerSlopes {
   /// Takes the tangents at a point next to the last.
   void follow(const BasePoint& point);
 
+  /// That of the piece, at the point last taken.
   const Regime& regime(Side side) const { return sides_[side].regime; }
 
   /// The slope a little way, in the base's scale, from a point on the border into the regime of a side.
@@ -56,9 +61,10 @@ class CornerSlopes {
 
   /// Where the slope times a sign is largest inside the regime of a side, up to a distance.
   struct Steepest {
-    BasePoint point;
-    double slope;  ///< times 1 or -1
+    BasePoint point;  ///< inside the regime
+    double slope;     ///< times 1 or -1
   };
+  /// None where nothing can be evaluated inside.
   [[nodiscard]] std::optional<Steepest> steepest_inside(const BasePoint& corner, Side side, double sign,
                                                         double farthest);
 

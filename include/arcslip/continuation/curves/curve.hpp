@@ -12,8 +12,8 @@ namespace arcslip::continuation {
 
 /// The extended problem whose solutions are special points of one kind, and one of them as a guess.
 struct CurveStart {
-  std::unique_ptr<ExtendedProblem> problem;
-  BasePoint point;
+  std::unique_ptr<ExtendedProblem> problem;  ///< keeps the base by reference
+  BasePoint point;                           ///< as the branch has it, not yet located anew
 };
 
 /// The curve through a special point of a branch: of folds, branch points, Hopf points, of extrema of

@@ -23,16 +23,18 @@ struct ExtremumPlace {
 
 /// A piece of the curve that leaves a place along a border as a corner.
 struct ExtremumLedge {
-  BasePoint from;
-  int border;
+  BasePoint from;    ///< in the regime of which `border` is one
+  int border;        ///< along which it runs
   Vector direction;  ///< as BranchPoint::tangent
   BasePoint beside;  ///< a little way on
-  bool peak;
+  bool peak;         ///< or a trough
 };
 
 /// Of one half of a curve.
 class ExtremumTracer {
  public:
+  /// `problem` is one of extrema; it, `options` and `observer` must outlive this. Throws
+  /// std::invalid_argument where the problem has no parameter of the name in the options.
   ExtremumTracer(ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window,
                  const Observer& observer)
       : problem_(problem),

@@ -11,14 +11,17 @@
 
 namespace arcslip::continuation {
 
+/// Searches along the branch through a point. The base is kept by reference.
 class ResponseExtremum {
  public:
+  /// `active` is the parameter's position, `observable` that of an observable with a gradient.
   ResponseExtremum(const Problem& base, Index active, Index observable);
 
+  /// The extremum next to a guess.
   struct Found {
-    BasePoint at;
-    double way;   ///< from the guess along the branch, in the base's scale
-    bool corner;  ///< whether the slope jumps there
+    BasePoint at;  ///< in the guess's regime
+    double way;    ///< from the guess along the branch, in the base's scale
+    bool corner;   ///< whether the slope jumps there
   };
 
   /// The peak or trough that is nearest to a guess within its regime, at the guess's other parameters; none

@@ -15,18 +15,20 @@ namespace arcslip::continuation {
 
 /// A function at one place; its slope may be nan, for unknown.
 struct Node {
-  double s;
-  double value;
-  double slope;
+  double s;      ///< the place
+  double value;  ///< there
+  double slope;  ///< by s
 };
 
 /// Where a function vanishes: nowhere, at s, or unknown for want of values.
 struct Zero {
+  /// Whether there is a zero, none, or no telling.
   enum class State { found, absent, failed };
-  State state = State::absent;
-  double s = 0;
+  State state = State::absent;  ///< only where it is `found` s counts
+  double s = 0;                 ///< where it vanishes
 };
 
+/// How many zeros there are, where the values tell.
 enum class Zeros { none, one, unclear };
 
 /// How many zeros the cubic has between two places that are none, by a margin of half the values there.
@@ -35,11 +37,13 @@ Zeros zeros_between(const Node& a, const Node& b);
 /// Where the cubic between two places with values of opposite sign has a zero.
 double zero_of_cubic(const Node& a, const Node& b);
 
+/// What `first_zero` finds.
 struct FirstZero {
+  /// `none` is surely none; for the others see `first_zero`.
   enum class Kind { none, change, touch, unclear, unknown };
-  Kind kind = Kind::none;
-  Node before{};  ///< the zero lies between these two: at a change of sign it is the only one,
-  Node behind{};  ///< at a touch there are two closer together than `least`
+  Kind kind = Kind::none;  ///< of the zero
+  Node before{};           ///< the zero lies between these two: at a change of sign it is the only one,
+  Node behind{};           ///< at a touch there are two closer together than `least`
 };
 
 /// The first zero between a and b. `at` evaluates the function in between, or returns nothing where that

@@ -10,9 +10,10 @@
 
 namespace arcslip::continuation {
 
+/// The zero, with the weights by which everything else is interpolated there.
 struct RemoteZero {
-  static constexpr std::size_t count = 6;
-  double s = 0;
+  static constexpr std::size_t count = 6;  ///< places of which the polynomial is made
+  double s = 0;                            ///< the zero
   bool agrees = false;  ///< with that of a polynomial of two degrees less, to 1e-9 of the range
   std::array<double, count> places{};   ///< rising
   std::array<double, count> weights{};  ///< of values there, in that at the zero
@@ -21,12 +22,12 @@ struct RemoteZero {
 
 /// What is known of where the zero lies.
 struct ZeroRange {
-  double low;  ///< between these two the function has no other,
-  double high;
-  double guess;
+  double low;    ///< between these two the function has no other,
+  double high;   ///< see `low`
+  double guess;  ///< of the zero
   bool touches;  ///< and this one is double
   double begin;  ///< the function is evaluated between these two only
-  double end;
+  double end;    ///< see `begin`
 };
 
 /// Evaluates `f` within `radius` of the guess or, at an end, beside it. Nothing where f has no value or the

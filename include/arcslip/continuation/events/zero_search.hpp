@@ -12,8 +12,10 @@ namespace arcslip::continuation {
 /// Of its change over the step: what a function is just behind a zero.
 inline constexpr double just_passed = 1e-7;
 
+/// Keeps references to both, which must outlive it.
 class ZeroSearch {
  public:
+  /// Of the step that the stepper has attempted.
   ZeroSearch(const Stepper& stepper, Readings& readings) : stepper_(stepper), readings_(readings) {}
 
   /// In (from, to]; `sign` is that before the zero, 0 if unknown. At `to` a value below `tolerance` of the

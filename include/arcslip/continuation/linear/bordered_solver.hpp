@@ -22,6 +22,7 @@ class BorderedSolver {
   BorderedSolver(const BorderedSolver&) = delete;
   BorderedSolver& operator=(const BorderedSolver&) = delete;
 
+  /// n, and how many columns and rows border J.
   Index size() const { return rows_.cols(); }
   Index borders() const { return rows_.rows(); }
 
@@ -47,6 +48,7 @@ class BorderedSolver {
   virtual void solve_transposed(Vector& right_hand_side) = 0;
 
  protected:
+  /// All blocks zero. Neither number may be negative.
   BorderedSolver(Index size, Index borders);
 
   /// Sign of the permutation i -> image[i] of as many numbers as `seen`, which is work space.

@@ -13,8 +13,10 @@ namespace arcslip::continuation {
 /// factorisation takes over. Nothing is allocated after construction.
 class DenseBorderedSolver final : public BorderedSolver {
  public:
+  /// For n = `size` unknowns; neither number may be negative.
   DenseBorderedSolver(Index size, Index borders);
 
+  /// The sparse one throws.
   using BorderedSolver::set_jacobian;
   void set_jacobian(const Matrix& jacobian, const Vector& column_scale) override;
   double factor() override;

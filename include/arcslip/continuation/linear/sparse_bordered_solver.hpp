@@ -18,9 +18,11 @@ namespace arcslip::continuation {
 /// time; then nothing is allocated.
 class SparseBorderedSolver final : public BorderedSolver {
  public:
+  /// For n = `size` unknowns; neither number may be negative.
   SparseBorderedSolver(Index size, Index borders);
   ~SparseBorderedSolver() override;
 
+  /// The dense one throws.
   using BorderedSolver::set_jacobian;
 
   /// `jacobian` compressed. Throws std::invalid_argument if it is not or has another size.

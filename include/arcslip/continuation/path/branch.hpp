@@ -13,24 +13,26 @@
 
 namespace arcslip::continuation {
 
+/// A solution with what is known of the branch there.
 struct BranchPoint {
-  PointType type = PointType::regular;
-  Regime regime;              ///< at a switch, the regime that the branch enters
-  Vector unknowns;            ///< n
-  Vector parameters;          ///< all of the problem's
-  double arclength = 0;       ///< from the start, in the problem's scale
-  int iterations = 0;         ///< Newton corrections spent on the point
-  double residual = 0;        ///< largest entry of F
-  Vector tangent;             ///< n + 1: d(u, p_a)/d arclength, of the piece that leaves
-  Vector arrival;             ///< the same of the piece that arrives, at a switch; else empty
-  ComplexVector eigenvalues;  ///< of an equilibrium; else empty
-  int unstable = -1;          ///< how many of them have a positive real part; -1 where there are none
-  std::string label;          ///< the name of a user's event
+  PointType type = PointType::regular;  ///< what is special about it
+  Regime regime;                        ///< at a switch, the regime that the branch enters
+  Vector unknowns;                      ///< n
+  Vector parameters;                    ///< all of the problem's
+  double arclength = 0;                 ///< from the start, in the problem's scale
+  int iterations = 0;                   ///< Newton corrections spent on the point
+  double residual = 0;                  ///< largest entry of F
+  Vector tangent;                       ///< n + 1: d(u, p_a)/d arclength, of the piece that leaves
+  Vector arrival;                       ///< the same of the piece that arrives, at a switch; else empty
+  ComplexVector eigenvalues;            ///< of an equilibrium; else empty
+  int unstable = -1;  ///< how many of them have a positive real part; -1 where there are none
+  std::string label;  ///< the name of a user's event
 };
 
+/// What a trace returns, whether it came to its end or not.
 struct [[nodiscard]] Branch {
   std::vector<BranchPoint> points;  ///< in the order traced
-  Stop stop = Stop::no_start;
+  Stop stop = Stop::no_start;       ///< why it ended
   std::string explanation;  ///< the reason of the stop, a sentence; the warning follows, if there is one
   /// What makes special points doubtful although all points solve the problem: a derivative that is not that
   /// of F, of an observable or of a border. Empty if none was found.

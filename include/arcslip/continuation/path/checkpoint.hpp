@@ -16,13 +16,14 @@
 
 namespace arcslip::continuation {
 
+/// What the correction of a step keeps: its length along the tangent, or the parameter.
 enum class Hold { tangent, parameter };
 
 /// Value of a function along the branch and its derivative in the step's coordinate s = normal . (z -
 /// z_here)/scale.
 struct Monitor {
-  double value = 0;
-  double slope = 0;
+  double value = 0;  ///< of the function
+  double slope = 0;  ///< by s
 };
 
 /// What changes its sign at branch points and at folds, at an earlier point.
@@ -53,13 +54,13 @@ struct Signs {
 
 /// One way along a branch, as far as it was gone.
 struct Progress {
-  CurvePoint here;
-  Vector bend;  ///< curvature of the last step
-  std::vector<Monitor> monitors;
-  Signs signs;
-  Hold hold = Hold::tangent;
-  double distance = 0;  ///< of the next step
-  double arclength = 0;
+  CurvePoint here;                    ///< the last one stored
+  Vector bend;                        ///< curvature of the last step
+  std::vector<Monitor> monitors;      ///< of the tracked observables, then of the borders
+  Signs signs;                        ///< here
+  Hold hold = Hold::tangent;          ///< of the next step
+  double distance = 0;                ///< of the next step
+  double arclength = 0;               ///< from the start to here
   CurvePoint start;                   ///< which a closed loop comes back to
   std::map<std::string, long> found;  ///< special points so far, by type
   double last_value = 0;              ///< of the parameter, where the last step began
@@ -77,16 +78,17 @@ struct BranchIdentity {
   std::vector<std::string> regimes;     ///< names of those in which at most one switch is not in state 0
   std::vector<std::string> tests;       ///< types of the points that the problem looks for
   std::string parameter;                ///< the one that is continued
-  std::vector<std::string> extrema_of;
-  std::vector<std::string> events;  ///< the user's, by name
+  std::vector<std::string> extrema_of;  ///< names of the observables that are tracked
+  std::vector<std::string> events;      ///< the user's, by name
 
+  /// Whether both are of one branch.
   bool operator==(const BranchIdentity&) const = default;
 };
 
 /// Where a curve of special points ends, beside the range of its parameter.
 struct CurveWindow {
   double low = -std::numeric_limits<double>::infinity();  ///< of the base's active parameter
-  double high = std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();  ///< the same
 };
 
 /// A branch that was left. Of one that is traced both ways either part may have further to go.

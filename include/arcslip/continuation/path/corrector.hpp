@@ -18,9 +18,9 @@ namespace arcslip::continuation {
 
 /// A point of a branch with what is needed to go on from it.
 struct CurvePoint {
-  Vector unknowns;
-  Vector parameters;
-  Regime regime;
+  Vector unknowns;    ///< n
+  Vector parameters;  ///< all of the problem's
+  Regime regime;      ///< whose piece of F is solved
   Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
   Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
   double orientation = 0;  ///< sign of det [J F_p; tangent^T], which changes at branch points alone
@@ -30,11 +30,13 @@ struct CurvePoint {
   int iterations = 0;   ///< Newton corrections spent on it
 };
 
+/// How a correction ended; but for the first the point is not on the branch.
 enum class [[nodiscard]] Correction{converged, cannot_evaluate, singular, diverging, too_many_iterations};
 
+/// What ends a correction.
 struct CorrectorOptions {
-  double tolerance = 1e-10;  ///< on the largest entry of F
-  int max_iterations = 10;
+  double tolerance = 1e-10;          ///< on the largest entry of F
+  int max_iterations = 10;           ///< before it is `too_many_iterations`
   std::function<void()> watch = {};  ///< called before each evaluation of F; what it throws ends the work
 };
 
@@ -43,17 +45,20 @@ struct Work {
   long evaluations = 0;     ///< of F with its derivatives; of a curve's base, for a curve
   long factorizations = 0;  ///< of the bordered Jacobian
   long iterations = 0;      ///< Newton corrections
-  long rejected_steps = 0;
-  long spectra = 0;  ///< times that eigenvalues were asked for
+  long rejected_steps = 0;  ///< attempts from which the branch did not go on
+  long spectra = 0;         ///< times that eigenvalues were asked for
 };
 
+/// The sums of all.
 Work operator+(const Work& a, const Work& b);
 
 /// Owns its work space: nothing is allocated after construction, but for what a sparse factorisation needs.
 class Corrector {
  public:
+  /// `parameter` is the position of the active one. The problem is kept by reference.
   Corrector(const Problem& problem, Index parameter, const CorrectorOptions& options);
 
+  /// n, the active parameter's position, the tolerance on F in force, and the options as they were given.
   Index size() const { return size_; }
   Index parameter() const { return parameter_; }
   double tolerance() const { return tolerance_; }
@@ -116,6 +121,7 @@ class Corrector {
   double orientation() const { return border_sign_; }
   double log_determinant() const;
 
+  /// What was spent so far.
   Work& work() { return work_; }
 
  private:

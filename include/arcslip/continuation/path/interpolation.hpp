@@ -21,8 +21,8 @@ struct Sample {
   Vector unknowns;       ///< n
   Vector parameters;     ///< all
   double arclength = 0;  ///< as in the branch
-  Regime regime;
-  Vector error;  ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece
+  Regime regime;         ///< of the piece
+  Vector error;          ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece
 };
 
 /// Keeps a reference to the branch, which must have two points at least.
@@ -31,6 +31,7 @@ class InterpolatedBranch {
   /// `parameter` is the position of the continuation parameter among the problem's.
   InterpolatedBranch(const Branch& branch, Index parameter);
 
+  /// The arclengths of the first point and of the last.
   double begin() const { return branch_.points.front().arclength; }
   double end() const { return branch_.points.back().arclength; }
 

@@ -10,29 +10,32 @@
 
 namespace arcslip::continuation {
 
+/// Where Newton's method ended.
 struct [[nodiscard]] Solution {
-  Correction outcome = Correction::cannot_evaluate;
-  Vector unknowns;
-  double residual = 0;  ///< largest entry of F
-  int iterations = 0;
+  Correction outcome = Correction::cannot_evaluate;  ///< the rest counts only where this is `converged`
+  Vector unknowns;                                   ///< n
+  double residual = 0;                               ///< largest entry of F
+  int iterations = 0;                                ///< taken
 };
 
+/// What ends the iteration.
 struct NewtonOptions {
-  double tolerance = 1e-10;  ///< on the largest entry of F; iterations go on to rounding
-  int max_iterations = 30;
+  double tolerance = 1e-10;   ///< on the largest entry of F; iterations go on to rounding
+  int max_iterations = 30;    ///< before it is given up
   double max_correction = 0;  ///< longest correction in the problem's scale, 0 for no limit
 };
 
 /// Newton's method from a guess, with the full exact Jacobian.
 Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& options = {});
 
+/// Where `solve_all` looks, and for what.
 struct SolveAllOptions {
-  double tolerance = 1e-10;
-  Vector lower;      ///< n, a box in which starts are taken beside the given guesses; empty: none
-  Vector upper;      ///< n
-  int starts = 100;  ///< how many are taken in the box, each in its regime
-  std::uint64_t seed = 1;
-  double distinct = 1e-6;            ///< solutions nearer than this, in the problem's scale, are the same
+  double tolerance = 1e-10;  ///< on the largest entry of F
+  Vector lower;              ///< n, a box in which starts are taken beside the given guesses; empty: none
+  Vector upper;              ///< n
+  int starts = 100;          ///< how many are taken in the box, each in its regime
+  std::uint64_t seed = 1;    ///< of the starts in the box
+  double distinct = 1e-6;    ///< solutions nearer than this, in the problem's scale, are the same
   std::function<bool()> go_on = {};  ///< asked before each start; false ends the search
 };
 

@@ -12,6 +12,7 @@
 
 namespace arcslip::continuation {
 
+/// Reads each place once. Keeps references to all that it is made of.
 class Readings {
  public:
   /// `functions` and `eigenvalues` are those at the end of the step.

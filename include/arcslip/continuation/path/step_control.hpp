@@ -7,6 +7,7 @@
 
 namespace arcslip::continuation {
 
+/// Of one attempt.
 struct StepSignals {
   double contraction = 0;       ///< |dz_2|/|dz_1| of Newton's method
   double turn = 0;              ///< angle between the tangents, radians
@@ -15,7 +16,9 @@ struct StepSignals {
       0;  ///< |step - (mean of the end slopes) x distance|: a branch in between that is not smooth
 };
 
+/// The signals that steps aim at, and those beyond which they are not kept.
 struct StepLimits {
+  /// Of Newton's method, and of the angle in radians.
   double contraction_aim = 0.2;
   double contraction_limit = 0.6;
   double turn_aim = 0.25;

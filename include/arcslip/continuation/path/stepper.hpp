@@ -18,6 +18,8 @@
 
 namespace arcslip::continuation {
 
+/// Attempts steps along the branch: predicts, corrects, and says whether what lies between was seen. The
+/// problem and the corrector are kept by reference.
 class Stepper {
  public:
   /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
@@ -25,6 +27,7 @@ class Stepper {
   Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
           bool pairs = true);
 
+  /// Where the step begins, and its end once it is kept.
   const CurvePoint& here() const { return here_; }
   const CurvePoint& there() const { return there_; }
 
@@ -38,6 +41,8 @@ class Stepper {
 
   /// Puts back what a checkpoint holds.
   void restore(const Progress& progress);
+  /// What a checkpoint takes: the curvature of the last step, and the points before `here`, the last one
+  /// first.
   const Vector& bend() const { return bend_; }
   const std::vector<PastPoint>& past() const { return past_; }
 
@@ -64,6 +69,8 @@ class Stepper {
   /// Tries to land on a value of the parameter ahead.
   [[nodiscard]] bool attempt_landing(double value);
 
+  /// Of the last attempt: its signals, the tolerance on F, the step's length along the tangent, and the
+  /// chord's in the scale.
   const StepSignals& signals() const { return signals_; }
   double tolerance() const { return corrector_.options().tolerance; }
   double distance() const { return distance_; }
@@ -94,6 +101,7 @@ class Stepper {
   /// The branch at 0 <= s <= distance within the step, solved to rounding; its ends and the branch point in
   /// it are known already. False if that fails.
   [[nodiscard]] bool probe(double s);
+  /// What was found at the place last probed.
   const std::vector<Monitor>& probed() const { return probed_; }
   const CurvePoint& probed_point() const { return probe_; }
   double probed_parameter_rate() const { return probe_slope_(probe_slope_.size() - 1); }
@@ -101,6 +109,7 @@ class Stepper {
   /// Goes a little way along the tangent from the point last probed, within the step: returns how far in s,
   /// or 0 if nothing can be evaluated there.
   double look_beside();
+  /// What was found at the place beside it.
   const CurvePoint& beside_point() const { return beside_; }
   const std::vector<Monitor>& beside_monitors() const { return at_beside_; }
   double beside_parameter_rate() const { return beside_rate_; }
@@ -120,11 +129,12 @@ class Stepper {
 
   /// The first branch point within the step, if the step passes one.
   struct Crossing {
-    double s = 0;
-    CurvePoint point;
+    double s = 0;            ///< where in the step
+    CurvePoint point;        ///< located to rounding
     Vector slope;            ///< n + 1, of the branch in s
     double rate_behind = 0;  ///< of the parameter
   };
+  /// Of the step last attempted; none where no branch point was passed.
   const std::optional<Crossing>& crossing() const { return crossing_; }
 
   /// Whether a point of the branch's past lies within the step, passed in the same direction; the step then

@@ -6,6 +6,7 @@
 
 namespace arcslip::continuation {
 
+/// The reason, which Branch::explanation says in a sentence.
 enum class Stop {
   reached_end,     ///< the last value was reached
   closed_loop,     ///< the branch came back to its start

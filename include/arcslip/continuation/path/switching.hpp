@@ -13,6 +13,7 @@ namespace arcslip::continuation {
 /// as `trace` takes them; none where nothing leaves.
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point);
 
+/// What bounds the search.
 struct FollowOptions {
   std::size_t max_branches = 50;  ///< all of them together
 };

@@ -9,12 +9,15 @@
 
 namespace arcslip::continuation {
 
+/// One of them.
 struct Target {
+  /// A landmark of the problem, a listed value, the last value, the first one.
   enum class Kind { landmark, user, end, bound };
-  double value;
-  Kind kind;
+  double value;  ///< of the parameter
+  Kind kind;     ///< where it comes from
 };
 
+/// Those of one trace, of which some are taken while the branch stands on them.
 class Targets {
  public:
   /// Throws std::invalid_argument for listed values outside the range.
@@ -33,6 +36,7 @@ class Targets {
   /// last.
   std::vector<const Target*> around(double value, double tolerance) const;
 
+  /// Where a branch has put a point on a target, this is taken as long as the branch stays there.
   /// Where a branch has put a point on a target, this is taken as long as the branch stays there.
   void take(const Target& target) { taken_.push_back(&target); }
   void keep_taken(double value, double tolerance);

@@ -20,17 +20,20 @@ Guess restart(const BranchPoint& point, bool forward = true);
 
 /// A function whose zeros along the branch become `event` points.
 struct UserEvent {
-  std::string name;
+  std::string name;  ///< the label of its points
+  /// must be continuous along the branch
   std::function<double(const Vector& u, const Vector& p, const Regime& regime)> function;
 };
 
 /// Ends the branch at the count-th special point of a type; of an `event`, of those with this label.
 struct StopAfter {
-  PointType type;
-  long count = 1;
-  std::string label;
+  PointType type;     ///< of the points that are counted
+  long count = 1;     ///< the one that ends the branch
+  std::string label;  ///< of events; else empty
 };
 
+/// What is traced, what is looked for, and when it is enough. Only `parameter`, `from` and `to` have to be
+/// set.
 struct TraceOptions {
   std::string parameter;                ///< the continuation parameter, by name
   double from = 0;                      ///< its first value; the guess's is replaced by it
@@ -61,17 +64,20 @@ struct TraceOptions {
 /// Thrown where a search ended before it had found what it looked for, for want of time or by an interrupt.
 class Unfinished : public std::runtime_error {
  public:
+  /// `explanation` is what the exception says.
   Unfinished(Stop reason, const std::string& explanation) : std::runtime_error(explanation), stop(reason) {}
-  Stop stop;
+  Stop stop;  ///< time_limit or interrupted
 };
 
 /// The time that several branches may take together, from now on.
 class TimeBudget {
  public:
+  /// Of `max_seconds`, which begin now.
   explicit TimeBudget(const TraceOptions& options) : options_(options) {}
 
   /// The options with the time that is left.
   TraceOptions rest() const;
+  /// Whether no time is left.
   bool is_spent() const { return !(seconds_left() > 0); }
   /// Whether there is time left and go_on of the options, if there is one, says so.
   bool goes_on() const { return !is_spent() && (!options_.go_on || options_.go_on()); }

@@ -20,8 +20,10 @@ constexpr double same_value =
 /// Half a sentence that says why a correction ended.
 std::string_view reason(Correction correction);
 
+/// Traces one way; serves one branch. Keeps references to its arguments.
 class Tracer {
  public:
+  /// Throws std::invalid_argument for options that do not fit the problem.
   Tracer(const Problem& problem, const TraceOptions& options, const Observer& observer);
 
   /// `forward` is the wanted sign of the parameter's change.

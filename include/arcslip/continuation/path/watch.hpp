@@ -11,6 +11,7 @@
 
 namespace arcslip::continuation {
 
+/// 1, 0 or -1.
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
 
 /// Sign of an observable's derivative, 0 below rounding of the observable; `monitor` is its own.
@@ -20,6 +21,7 @@ int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor&
 /// the eigenvalues.
 class Watch {
  public:
+  /// Both are kept by reference.
   Watch(const Problem& problem, const std::vector<UserEvent>& events);
 
   /// Evaluates all of them at a point.
@@ -31,9 +33,12 @@ class Watch {
 
   long spectra() const { return spectra_; }  ///< times that eigenvalues were asked for
 
+  /// Whether there is nothing to look at.
   bool empty() const { return tests_.empty() && events_.empty() && !spectral_; }
+  /// What the problem calls zeros of these.
   PointType pair_crossing() const { return problem_.pair_crossing(); }
   PointType real_crossing() const { return problem_.real_crossing(); }
+  /// Of the points where a function vanishes, and the user's name of it, empty for the problem's tests.
   PointType type(std::size_t function) const;
   const std::string& label(std::size_t function) const;
 

@@ -9,8 +9,10 @@ namespace arcslip::continuation {
 /// Points on a border of a regime; its turning points are the folds of this curve.
 class BorderProblem : public ExtendedProblem {
  public:
+  /// `active` becomes an unknown; `border` is one of the regime in which points are given.
   BorderProblem(const Problem& base, Index active, int border);
 
+  /// Without that on which the points lie.
   int border_count(const Regime& regime) const override { return base().border_count(regime) - 1; }
   double border(const Vector& u, const Vector& p, const Regime& regime, int border,
                 Gradient* gradient) const override;

@@ -16,6 +16,7 @@ namespace arcslip::continuation {
 /// branches that symmetry or an invariant subspace keeps; elsewhere the curve is that of a perturbed problem.
 class BranchPointProblem : public ExtendedProblem {
  public:
+  /// `active` becomes an unknown. The base is kept by reference.
   BranchPointProblem(const Problem& base, Index active);
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;
@@ -23,6 +24,7 @@ class BranchPointProblem : public ExtendedProblem {
   /// Basis of the null space of [dF/du dF/dp_a] at the point last evaluated: (n + 1) x 2, in the problem's
   /// units, orthonormal in its scale where the borders were chosen.
   Matrix null_space() const;
+  /// psi, n.
   Vector left_null() const { return left_.head(base().size()); }
   /// n + 1, the scale in which these are measured.
   Vector null_scale() const;

@@ -24,8 +24,8 @@ namespace arcslip::continuation {
 struct BasePoint {
   Vector unknowns;    ///< n
   Vector parameters;  ///< all of the base problem's
-  Regime regime;
-  Vector extras;  ///< m - 1
+  Regime regime;      ///< of the base
+  Vector extras;      ///< m - 1
 };
 
 /// Conditions on the Jacobian are taken in bordered form [Griewank & Reddien 1984, Govaerts 2000]: the
@@ -35,9 +35,11 @@ class ExtendedProblem : public Problem {
   /// `active` is the base's parameter that becomes an unknown. The base is kept by reference.
   ExtendedProblem(const Problem& base, Index active, Index conditions);
 
+  /// The problem that is extended, and the position of the parameter that became an unknown.
   const Problem& base() const { return base_; }
   Index active() const { return active_; }
 
+  /// A point of the extended problem as one of the base.
   BasePoint split(const Vector& unknowns, const Vector& parameters, const Regime& regime) const;
   /// The inverse: unknowns and parameters of the extended problem.
   void join(const BasePoint& point, Vector& unknowns, Vector& parameters) const;
@@ -87,8 +89,8 @@ class ExtendedProblem : public Problem {
   /// not null their gradients, m x (n + number of base parameters + extras).
   [[nodiscard]] virtual bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const = 0;
 
-  /// Calls `use` with each list of numbers that `adapt` chooses.
-  virtual void each_border(const std::function<void(double* numbers, Index count)>& use);
+  /// Calls `use` with each list of numbers that `adapt` chooses: where it begins, and how many they are.
+  virtual void each_border(const std::function<void(double*, Index)>& use);
 
   /// By how much the null vectors last found are longer than with the best borders, times 1 or more.
   virtual double strain() const { return 1; }
@@ -101,9 +103,9 @@ class ExtendedProblem : public Problem {
   double steepness(const BasePoint& point);
   double last_steepness(const BasePoint& point) const;
 
-  mutable Linearization at_;
-  Vector scale_;      ///< n, of the base's unknowns where the borders were chosen
-  Vector unfolding_;  ///< the column b of e_0, or empty
+  mutable Linearization at_;  ///< of the base, at the point last evaluated
+  Vector scale_;              ///< n, of the base's unknowns where the borders were chosen
+  Vector unfolding_;          ///< the column b of e_0, or empty
 
  private:
   void fill_dense(const Matrix& gradients, Matrix& out) const;

@@ -13,6 +13,7 @@ namespace arcslip::continuation {
 ///   [c^T          ] t = [1],    g = grad Y . t / |Y| = 0.
 class ExtremumProblem : public ExtendedProblem {
  public:
+  /// `active` becomes an unknown; `observable` is the position of one with a gradient.
   ExtremumProblem(const Problem& base, Index active, Index observable);
 
   std::optional<Index> extremum_of() const override { return observable_; }

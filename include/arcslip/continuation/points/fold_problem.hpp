@@ -15,6 +15,7 @@ namespace arcslip::continuation {
 /// Along a curve of folds cusps are found, and of equilibria Bogdanov-Takens and zero-Hopf points.
 class FoldProblem : public ExtendedProblem {
  public:
+  /// `active` becomes an unknown. The base is kept by reference.
   FoldProblem(const Problem& base, Index active);
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;

@@ -18,6 +18,7 @@ namespace arcslip::continuation {
 /// too.
 class HopfProblem : public ExtendedProblem {
  public:
+  /// `active` becomes an unknown. Throws std::invalid_argument for a sparse base.
   HopfProblem(const Problem& base, Index active);
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;

@@ -7,10 +7,11 @@
 
 namespace arcslip::continuation {
 
+/// All but the first three are special points, which the engine locates.
 enum class PointType {
-  regular,
-  start,
-  end,
+  regular,           ///< a step's end
+  start,             ///< the first point
+  end,               ///< the point on the last value
   regime_switch,     ///< on a border, where the branch goes on in another regime
   fold,              ///< the parameter turns back smoothly
   corner_fold,       ///< it turns back at a corner, by a jump of the tangent

@@ -8,6 +8,7 @@
 
 namespace arcslip::continuation {
 
+/// The derivative that is furthest off.
 struct [[nodiscard]] DerivativeReport {
   double worst = 0;   ///< largest |exact - difference|/(1 + |exact|), in the problem's scale
   std::string where;  ///< the entry it belongs to, as "dF0/du1", "dF0/dP", "d Y/du0" or "d border 0/d P"

@@ -11,6 +11,7 @@ namespace arcslip::continuation {
 /// The problem must outlive it.
 class Linearization {
  public:
+  /// Nothing is evaluated yet.
   explicit Linearization(const Problem& problem);
 
   /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.

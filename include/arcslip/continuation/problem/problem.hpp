@@ -42,9 +42,9 @@ inline double rate(const Gradient& gradient, Index parameter, const Vector& scal
 
 /// An observable of which the tracer may find the extrema.
 struct Observable {
-  std::string name;
-  bool has_gradient = false;
-  double scale = 0;  ///< changes are measured in its value, or in this where that is smaller
+  std::string name;           ///< as TraceOptions::extrema_of and tables have it
+  bool has_gradient = false;  ///< without it its extrema are not looked for
+  double scale = 0;           ///< changes are measured in its value, or in this where that is smaller
 };
 
 /// Only the first three have to be written. All are called from several threads and must not change the
@@ -56,6 +56,7 @@ class Problem {
   /// n, the number of unknowns and of equations.
   virtual Index size() const = 0;
 
+  /// One for each parameter, in the order in which `p` holds them.
   virtual std::vector<std::string> parameter_names() const = 0;
 
   /// Fills what is asked for, with exact derivatives. False where the problem has no value, which shortens
@@ -94,9 +95,9 @@ class Problem {
   /// branch points, which are found without eigenvalues.
   virtual PointType real_crossing() const { return PointType::regular; }
 
-  /// Functions along a branch whose zeros are special points: the types of these points, and the functions'
-  /// values, in the same order.
+  /// Functions along a branch whose zeros are special points: the types of these points.
   virtual std::vector<PointType> test_types() const { return {}; }
+  /// Fills the values of these functions, one for each type.
   virtual void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
   /// Typical magnitudes at (u, p), all positive, in which steps and errors are measured: a parameter that
@@ -110,6 +111,7 @@ class Problem {
   /// What a regime is called.
   virtual std::string describe(const Regime& regime) const;
 
+  /// How many borders a regime has; the others are numbered from 0 to one less.
   virtual int border_count(const Regime& regime) const;
 
   /// Value of a border function, negative inside `regime`, and its gradient where that is not null.

@@ -18,7 +18,7 @@ class Regime {
  public:
   static constexpr int states = 16;  ///< of a switch, at most
 
-  Regime() = default;
+  Regime() = default;  ///< every switch in state 0
 
   /// Of a problem with one switch. Throws std::invalid_argument unless 0 <= state < states.
   Regime(int state) : Regime(Regime().with(0, state)) {}  // NOLINT(google-explicit-constructor)
@@ -35,6 +35,7 @@ class Regime {
   /// Switches up to the last that is not in state 0.
   Index size() const;
 
+  /// Whether every switch is in the same state.
   bool operator==(const Regime& other) const;
 
   /// As numbers whose digits are the states, the first switch being the last digit.

@@ -14,6 +14,7 @@
 
 namespace arcslip::continuation {
 
+/// How good a derivative by differences is.
 struct Difference {
   double error = 0;     ///< estimated, of the largest entry; infinity if no difference could be formed
   bool agrees = false;  ///< whether differences have come to agree
@@ -25,8 +26,10 @@ struct Difference {
 Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
                          int level = 0);
 
+/// Serves one thread. The problem is kept by reference.
 class SecondDerivative {
  public:
+  /// Nothing is evaluated yet.
   explicit SecondDerivative(const Problem& problem);
 
   /// n entries for the unknowns, then one for each parameter. False where F cannot be evaluated around (u,

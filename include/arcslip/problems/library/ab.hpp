@@ -15,6 +15,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class StirredTank : public NamedUnknowns {
  public:
   StirredTank() : NamedUnknowns({"u1", "u2"}, {"p1", "p2", "p3"}) {}

@@ -13,6 +13,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above, sparse.
 class Bratu : public continuation::Problem {
  public:
   /// u(1/2), between two points their mean, and u'(0), both to O(h^2).

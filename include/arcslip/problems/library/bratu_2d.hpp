@@ -12,6 +12,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above, sparse.
 class BratuSquare : public continuation::Problem {
  public:
   /// `intervals` m >= 2 along each side.

@@ -12,6 +12,7 @@
 
 namespace arcslip::problems {
 
+/// The equation above.
 class Cusp : public NamedUnknowns {
  public:
   Cusp() : NamedUnknowns({"x"}, {"mu", "lambda"}) {}

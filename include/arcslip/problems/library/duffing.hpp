@@ -17,8 +17,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above, with the stability of the motion.
 class DuffingOscillator : public continuation::Problem {
  public:
+  /// Positions of W, force, delta and k3.
   enum Parameter : Index { frequency, force, damping, cubic };
 
   /// `harmonics` H >= 1; an even number counts as the odd one below.

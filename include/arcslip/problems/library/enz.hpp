@@ -15,6 +15,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class EnzymeCompartments : public NamedUnknowns {
  public:
   EnzymeCompartments() : NamedUnknowns({"s1", "s2"}, {"s0", "mu", "rho", "k"}) {}

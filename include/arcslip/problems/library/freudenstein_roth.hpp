@@ -15,6 +15,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class FreudensteinRoth : public NamedUnknowns {
  public:
   FreudensteinRoth() : NamedUnknowns({"x1", "x2"}, {"x3"}) {}

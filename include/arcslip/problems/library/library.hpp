@@ -14,20 +14,21 @@ namespace arcslip::problems {
 
 /// A key of [system] that a model understands: a parameter of the problem, or a size.
 struct Setting {
-  std::string name;
-  double value;  ///< the default
-  double low;    ///< smallest value allowed
-  double high;   ///< largest
-  bool is_integer = false;
-  std::string meaning;
+  std::string name;         ///< the key
+  double value;             ///< the default
+  double low;               ///< smallest value allowed
+  double high;              ///< largest
+  bool is_integer = false;  ///< whether it must be whole
+  std::string meaning;      ///< as `arcslip help` tells it
 };
 
 /// A problem that can be built by name. Every parameter of the problem is a setting of the same name.
 struct LibraryModel {
   using Values = std::vector<double>;  ///< one for each setting, in their order
-  std::string name;
-  std::string title;  ///< one line
-  std::vector<Setting> settings;
+  std::string name;                    ///< the value of `model`
+  std::string title;                   ///< one line
+  std::vector<Setting> settings;       ///< those that are parameters first
+  /// the problem with these sizes
   std::function<std::unique_ptr<continuation::Problem>(const Values&)> build;
   /// A guess of a solution at the values' parameters, good where the case file's branch is meant to start.
   std::function<continuation::Guess(const continuation::Problem&, const Values&)> guess;

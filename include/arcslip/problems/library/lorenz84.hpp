@@ -18,6 +18,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class Lorenz84 : public NamedUnknowns {
  public:
   Lorenz84() : NamedUnknowns({"X", "Y", "Z", "U"}, {"F", "T", "a", "b", "G", "d", "g"}) {}

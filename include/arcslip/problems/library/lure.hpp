@@ -16,8 +16,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above, with the stability of the cycle.
 class LureCycle : public continuation::Problem {
  public:
+  /// Positions of the parameters.
   enum Parameter : Index { a, b };
 
   /// `harmonics` H >= 1.

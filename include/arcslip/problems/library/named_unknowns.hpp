@@ -9,6 +9,7 @@
 
 namespace arcslip::problems {
 
+/// Derive from it and write `evaluate`.
 class NamedUnknowns : public continuation::Problem {
  public:
   Index size() const override { return static_cast<Index>(unknowns_.size()); }
@@ -21,6 +22,7 @@ class NamedUnknowns : public continuation::Problem {
                  continuation::Gradient& gradient) const override;
 
  protected:
+  /// The names, in the order of u and p.
   NamedUnknowns(std::vector<std::string> unknowns, std::vector<std::string> parameters)
       : unknowns_(std::move(unknowns)), parameters_(std::move(parameters)) {}
 

@@ -14,6 +14,7 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class PredatorPrey : public NamedUnknowns {
  public:
   PredatorPrey() : NamedUnknowns({"u", "v"}, {"p"}) {}

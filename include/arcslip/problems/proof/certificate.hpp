@@ -29,6 +29,7 @@
 
 namespace arcslip::problems {
 
+/// How the branch was traced, which says where its points may be missing.
 struct CertificateOptions {
   /// Of the branch's points: |g| may be twice this.
   double tolerance = 1e-10;
@@ -39,17 +40,18 @@ struct CertificateOptions {
 
 /// A range of the parameter in which the branch may fold.
 struct Turn {
-  double low;
-  double high;
+  double low;    ///< of the parameter, as is `high`
+  double high;   ///< > low
   bool certain;  ///< the branch leaves it the other way than it came: there is a fold, or an odd number of
                  ///< them
 };
 
+/// What has been proven of a branch.
 struct Certificate {
   /// A segment that is not proven, from this point of the branch to the next.
   struct Gap {
-    std::size_t point;
-    std::string reason;
+    std::size_t point;   ///< its position in the branch
+    std::string reason;  ///< a sentence
   };
 
   double from = 0;             ///< the parameter's value at the branch's first point
@@ -59,8 +61,9 @@ struct Certificate {
   std::vector<Turn> turns;     ///< in the branch's order; there is no fold elsewhere
   std::optional<Gap> gap;      ///< the first one
   bool single_valued = false;  ///< Im c < 0 over the whole range of eta: one response at every (eta, P)
-  double seconds = 0;
+  double seconds = 0;          ///< wall clock
 
+  /// Whether every segment is.
   bool proven() const { return !gap; }
 };
 

@@ -20,9 +20,10 @@
 
 namespace arcslip::problems {
 
+/// A point of the plane.
 struct PlanePoint {
   double parameter;  ///< q
-  double rho;
+  double rho;        ///< ln R
 };
 
 /// The coordinate that is proven to be a function of the other one.
@@ -30,19 +31,20 @@ enum class Axis { rho, parameter };
 
 /// A box in which for every a there is one b with g = 0, and no other.
 struct TiltedBox {
-  PlanePoint from;
-  PlanePoint to;
-  Axis axis;
+  PlanePoint from;    ///< p_0
+  PlanePoint to;      ///< p_1
+  Axis axis;          ///< the direction e
   double half_width;  ///< w
   double slope;       ///< |g_b| is at least this, > 0
 };
 
 /// Derivatives of g by q and rho.
 struct EnclosedGradient {
-  Interval parameter;
-  Interval rho;
+  Interval parameter;  ///< by q
+  Interval rho;        ///< by rho
 };
 
+/// Encloses g and its derivatives in the plane of one parameter.
 class EnclosedEquation {
  public:
   /// `fixed` is the value of the parameter that stands still. The system must outlive the equation.
@@ -52,6 +54,7 @@ class EnclosedEquation {
   /// g at a point. This and all below throw NoEnclosure where there is none.
   Interval residual(const PlanePoint& point) const;
 
+  /// Ranges over the rectangle of the two.
   EnclosedGradient gradient(const Interval& q, const Interval& rho) const;
 
   /// The box about a piece, wide enough for the proof: g_b has one sign in it, and the interval Newton

@@ -13,8 +13,9 @@
 
 namespace arcslip::problems {
 
+/// A place along the border, at P_border(eta).
 struct BorderPlace {
-  double eta;
+  double eta;               ///< where it is
   bool is_mark = false;     ///< given as one, or a zero of a slope
   bool is_peak = false;     ///< of the stuck Y
   bool is_meeting = false;  ///< of the border with a ridge in slip

@@ -13,19 +13,21 @@ namespace arcslip::problems {
 
 /// ln Y_max at x = ln P, with d ln Y_max/d ln P on the side of the piece that it belongs to.
 struct EnvelopeNode {
-  double x;
-  double value;
-  double slope;
+  double x;      ///< ln P
+  double value;  ///< ln Y_max
+  double slope;  ///< by x
 };
 
 /// Both ends of a cubic.
 struct EnvelopePiece {
-  EnvelopeNode from;
-  EnvelopeNode to;
+  EnvelopeNode from;  ///< that of lower x
+  EnvelopeNode to;    ///< that of higher x
 
+  /// Its value at x between its ends.
   double at(double x) const;
 };
 
+/// Immutable; may be shared by threads.
 class EnvelopeCurve {
  public:
   /// Of pieces that overlap the higher one counts. Throws std::runtime_error where they leave a gap.
@@ -35,7 +37,7 @@ class EnvelopeCurve {
   explicit EnvelopeCurve(const PreloadStudy& study);
 
   double from() const { return spans_.front().from; }  ///< in x
-  double to() const { return spans_.back().to; }
+  double to() const { return spans_.back().to; }       ///< the same
 
   /// ln Y_max at x, which must lie within from() .. to() but for rounding: O(log of the number of pieces).
   double at(double x) const;
@@ -43,7 +45,10 @@ class EnvelopeCurve {
   /// The same at rising x, each from where the last one was: for passes over many values.
   class Walk {
    public:
+    /// Refers to the curve.
     explicit Walk(const EnvelopeCurve& curve) : curve_(curve) {}
+
+    /// ln Y_max at x, which must not be below the last one.
     double at(double x);
 
    private:

@@ -16,30 +16,33 @@ namespace arcslip::problems {
 
 /// Logarithms of the factors on P_2 and F.
 struct DesignFactors {
-  double log_growth = 0;
-  double log_force = 0;
+  double log_growth = 0;  ///< of that on P_2
+  double log_force = 0;   ///< of that on F
 };
 
 /// `count` values of a factor's logarithm in equal steps from low to high, or low alone.
 struct FactorAxis {
-  double low = 0;
-  double high = 0;
-  std::size_t count = 1;
+  double low = 0;         ///< the first value
+  double high = 0;        ///< the last one
+  std::size_t count = 1;  ///< 1: `high` does not count
 
+  /// The i-th, counted from 0.
   double value(std::size_t i) const;
 
   /// Where a value lies: that far, 0 to 1, from value(i) to the next one.
   struct Place {
-    std::size_t i;
-    double share;
+    std::size_t i;  ///< below `count` - 1 where there are several
+    double share;   ///< 0 where there is one
   };
+  /// Beyond the ends the share is below 0 or above 1.
   Place place(double value) const;
 };
 
+/// Immutable; may be shared by threads.
 class EnvelopeFamily {
  public:
-  using Curve = std::shared_ptr<const EnvelopeCurve>;
-  using Make = std::function<Curve(const DesignFactors&)>;
+  using Curve = std::shared_ptr<const EnvelopeCurve>;       ///< shared where several designs have the same
+  using Make = std::function<Curve(const DesignFactors&)>;  ///< the envelope of a design
 
   /// The same for all factors; refers to the curve.
   EnvelopeFamily(const EnvelopeCurve& curve);  // NOLINT(google-explicit-constructor): one is a family
@@ -56,6 +59,7 @@ class EnvelopeFamily {
   /// ln Y_max at rising z = ln P - log_growth.
   class Walk {
    public:
+    /// Refers to the family.
     explicit Walk(const EnvelopeFamily& family);
 
     /// Of the design with these factors, `which` of those that were given each by itself.

@@ -12,6 +12,7 @@ namespace arcslip::problems {
 /// one unknown u = ln Y and the parameter eta.
 class FreeResponse : public continuation::Problem {
  public:
+  /// The base with its load.
   explicit FreeResponse(ContactModes base) : base_(std::move(base)) {}
 
   Index size() const override { return 1; }
@@ -26,6 +27,7 @@ class FreeResponse : public continuation::Problem {
                  continuation::Gradient& gradient) const override;
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
+  /// The solution.
   continuation::Guess guess(double eta) const;
 
  private:

@@ -13,6 +13,7 @@
 
 namespace arcslip::problems {
 
+/// Keeps the samples, and refers to the responses of which they are taken. To be used from one thread.
 class HighestPeak {
  public:
   /// Samples b = from .. to, both > 0, and the values `wanted` between them. Throws std::runtime_error where
@@ -21,6 +22,7 @@ class HighestPeak {
 
   /// Where M is lowest.
   struct Lowest {
+    /// What makes M lowest there.
     OptimumKind kind = OptimumKind::smooth;
     double x = 0;                      ///< of a sample
     std::size_t peak = 0;              ///< its highest, or that which is so just below x
@@ -28,6 +30,7 @@ class HighestPeak {
     double low = 0;                    ///< M <= M(x) + ln 2 from here, in x, ...
     double high = 0;                   ///< ... to here; an end of the range where it holds beyond it
   };
+  /// Takes further samples as it needs them. Throws std::runtime_error where a response cannot be traced.
   Lowest lowest();
 
   /// Takes samples where two peaks change places as the highest.

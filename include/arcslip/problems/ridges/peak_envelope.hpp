@@ -9,25 +9,27 @@
 
 namespace arcslip::problems {
 
+/// Of pieces that together cover the range.
 class PeakEnvelope {
  public:
   /// From one preload to the next one piece is the highest.
   struct Span {
-    double from;
-    double to;
+    double from;        ///< in P
+    double to;          ///< in P
     std::size_t piece;  ///< its position
   };
 
   /// A place on the envelope. Between two neighbouring ones it is monotone in P.
   struct Knot {
-    double preload;
-    double log_Y;
-    std::size_t span;
+    double preload;    ///< P
+    double log_Y;      ///< of the highest peak
+    std::size_t span;  ///< the position of the span that holds it
   };
 
   /// Keeps a reference. Throws std::runtime_error where no peak is known at some preload.
   PeakEnvelope(const std::vector<PeakPiece>& pieces, double from, double to);
 
+  /// From end to end of the range, P rising.
   const std::vector<Span>& spans() const { return spans_; }
 
   /// Nodes of the pieces, ends of the spans and the extrema between them, P rising.

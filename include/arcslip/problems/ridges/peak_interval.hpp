@@ -28,12 +28,13 @@ inline EnvelopePiece line(const EnvelopeNode& node, double from, double to) {
 
 /// What is known between two neighbouring samples.
 struct PeakInterval {
-  const PeakSample& from;
-  const PeakSample& to;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  std::vector<EnvelopePiece> pieces;
-  double error = 0;  ///< of the pieces at its middle
+  const PeakSample& from;                                  ///< that of lower x
+  const PeakSample& to;                                    ///< that of higher x
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< of joined_peaks
+  std::vector<EnvelopePiece> pieces;                       ///< cubics of the pairs, lines of the others
+  double error = 0;                                        ///< of the pieces at its middle
 
+  /// In x.
   double length() const { return to.x - from.x; }
 
   /// The highest of the pieces; -infinity without any.
@@ -49,6 +50,7 @@ struct PeakInterval {
     return 16 * error * t * t * (1 - t) * (1 - t);
   }
 
+  /// What a peak of `from` becomes in `to`; none where it dies.
   std::optional<std::size_t> partner_of_from(std::size_t peak) const {
     for (const auto& [i, k] : pairs) {
       if (i == peak) return k;
@@ -56,6 +58,7 @@ struct PeakInterval {
     return std::nullopt;
   }
 
+  /// What a peak of `to` was in `from`; none where it is born between.
   std::optional<std::size_t> partner_of_to(std::size_t peak) const {
     for (const auto& [i, k] : pairs) {
       if (k == peak) return i;
@@ -66,12 +69,14 @@ struct PeakInterval {
   /// Whether the highest peaks at both ends go on.
   bool is_clear() const { return partner_of_from(from.top) && partner_of_to(to.top); }
 
+  /// The ridge of a peak of `from`, up to `to`.
   EnvelopePiece ahead(std::size_t peak) const {
     const auto partner = partner_of_from(peak);
     const EnvelopeNode node = node_of(from, peak);
     return partner ? EnvelopePiece{node, node_of(to, *partner)} : line(node, from.x, to.x);
   }
 
+  /// The ridge of a peak of `to`, down to `from`.
   EnvelopePiece back(std::size_t peak) const {
     const auto partner = partner_of_to(peak);
     const EnvelopeNode node = node_of(to, peak);

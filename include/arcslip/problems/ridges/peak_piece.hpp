@@ -18,13 +18,13 @@ namespace arcslip::problems {
 
 /// A point that a peak was followed through.
 struct PeakNode {
-  double preload;
-  double eta;
-  double log_R;
-  double log_Y = 0;
+  double preload;    ///< P
+  double eta;        ///< of the peak
+  double log_R;      ///< ln R
+  double log_Y = 0;  ///< ln Y
   double slope = 0;  ///< d ln Y/d ln P along the peak
 
-  // Of a peak in slip: w of the ridge, where it lies on the curve it was traced as, and d/d arclength.
+  /// Of a peak in slip: w of the ridge, where it lies on the curve it was traced as, and d/d arclength.
   double w = 0;
   double arclength = 0;
   double d_eta = 0;
@@ -35,11 +35,13 @@ struct PeakNode {
 /// Of P: ends of curves that are as near to each other are one, for R/S and eta are known to 1e-10 each.
 inline constexpr double same_preload = 1e-9;
 
+/// One peak from its birth, or a change of its site, to the next such event.
 class PeakPiece {
  public:
   /// Nodes with P rising, two at least; log_Y and slope are filled in. The problem is kept by reference.
   PeakPiece(const ForcedResponse& problem, PeakSite site, std::vector<PeakNode> nodes);
 
+  /// Where it sits, the preloads between which it does so, and what it was followed through.
   PeakSite site() const { return site_; }
   double from() const { return nodes_.front().preload; }
   double to() const { return nodes_.back().preload; }

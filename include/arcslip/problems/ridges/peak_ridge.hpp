@@ -16,11 +16,11 @@ namespace arcslip::problems {
 
 /// A point of the curve, both residuals with all their derivatives.
 struct RidgePoint {
-  double log_R;
-  double log_Y;
-  Eigen::Vector2d values;    ///< g, h
-  Eigen::Matrix2d by_place;  ///< d(g, h)/d(w, eta)
-  Eigen::Vector2d by_preload;
+  double log_R;                ///< ln R
+  double log_Y;                ///< ln Y
+  Eigen::Vector2d values;      ///< g, h
+  Eigen::Matrix2d by_place;    ///< d(g, h)/d(w, eta)
+  Eigen::Vector2d by_preload;  ///< d(g, h)/dP
 
   /// Of a point of the curve, negative where it is a maximum of Y over eta: d h/d eta along the response, in
   /// [-1, 1] and next to 0 where maxima and minima meet.
@@ -30,11 +30,13 @@ struct RidgePoint {
   }
 };
 
+/// Anywhere in slip, w > 0; of a point that is not on the curve the values tell by how much.
 RidgePoint ridge_point(const FrictionSystem& system, double w, double eta, double preload);
 
 /// `adapt` sets the problem's only state, the unit of h: one instance serves one thread.
 class PeakRidge : public continuation::Problem {
  public:
+  /// Positions of w and eta.
   enum Unknown : Index { root_of_log_ratio, eta };
 
   /// The system is kept by reference.

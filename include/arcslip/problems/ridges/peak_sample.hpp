@@ -11,11 +11,12 @@ namespace arcslip::problems {
 
 /// The peaks of one response.
 struct PeakSample {
-  double x = 0;      ///< ln b
-  double value = 0;  ///< b
-  std::vector<ResponsePeak> peaks;
-  std::size_t top = 0;  ///< the highest
+  double x = 0;                     ///< ln b
+  double value = 0;                 ///< b
+  std::vector<ResponsePeak> peaks;  ///< in the order of the response, one at least
+  std::size_t top = 0;              ///< the highest
 
+  /// The peak at `top`.
   const ResponsePeak& highest() const { return peaks[top]; }
 };
 

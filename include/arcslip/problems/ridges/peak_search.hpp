@@ -19,6 +19,7 @@ namespace arcslip::problems {
 /// A preload at which everything sticks.
 inline constexpr double out_of_reach = 1e200;
 
+/// To be used from one thread.
 class PeakSearch {
  public:
   /// Finds the peaks in stick, on the border and on the window's ends. Keeps references.
@@ -33,6 +34,7 @@ class PeakSearch {
   /// What is left to be found by `look_at` are ridges that are born and die in slip.
   void follow_from_meetings();
 
+  /// All that were followed so far, in no order.
   const std::vector<PeakPiece>& pieces() const { return pieces_; }
 
   /// What could not be traced, or empty.

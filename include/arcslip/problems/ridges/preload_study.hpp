@@ -54,20 +54,21 @@ enum class PeakType {
   user       ///< a value of `stop_at`
 };
 
+/// As written to files: their names.
 std::string_view to_string(PeakSite site);
 std::string_view to_string(PeakType type);
 
 /// One local peak of Y over eta at one preload.
 struct Peak {
-  PeakType type = PeakType::regular;
-  PeakSite site = PeakSite::slip;
-  double preload = 0;
-  double eta = 0;
-  double Y = 0;
-  double R_over_S = 0;
-  double dissipated = 0;  ///< energy lost to friction per cycle and contact over k S^2, 4 (R/S - 1)
-  PeakSensitivity sensitivity;
-  bool is_global = false;  ///< the highest of all at this preload
+  PeakType type = PeakType::regular;  ///< what is special about it
+  PeakSite site = PeakSite::slip;     ///< where it sits
+  double preload = 0;                 ///< P
+  double eta = 0;                     ///< of the peak
+  double Y = 0;                       ///< its height
+  double R_over_S = 0;                ///< above 1 in slip
+  double dissipated = 0;        ///< energy lost to friction per cycle and contact over k S^2, 4 (R/S - 1)
+  PeakSensitivity sensitivity;  ///< of Y
+  bool is_global = false;       ///< the highest of all at this preload
 };
 
 /// One local peak followed in P, P rising from point to point.
@@ -82,11 +83,12 @@ enum class OptimumKind {
   end        ///< Y_max is lowest at an end of the range
 };
 
+/// As written to files: its name.
 std::string_view to_string(OptimumKind kind);
 
 /// The preload at which Y_max is lowest.
 struct Optimum {
-  OptimumKind kind = OptimumKind::smooth;
+  OptimumKind kind = OptimumKind::smooth;  ///< which of them
   Peak peak;                  ///< the highest there, of two the one that is highest just below P_opt
   std::optional<Peak> other;  ///< of an exchange: the one that takes over
   double low = 0;             ///< Y_max <= 2 Y_opt from here ...
@@ -99,10 +101,10 @@ struct Optimum {
 struct PreloadStudy {
   double free_eta = 0;  ///< where the base without damper has its highest amplitude in the window
   double free_Y = 0;    ///< Y_nd_max
-  std::vector<PeakBranch> branches;
-  std::optional<Optimum> optimum;
-  std::string failure;              ///< why the study is not whole, or empty
-  std::vector<int> harmonics = {};  ///< those that were added as the best preload asked for; else empty
+  std::vector<PeakBranch> branches;  ///< all local peaks of the range
+  std::optional<Optimum> optimum;    ///< none where the study failed
+  std::string failure;               ///< why the study is not whole, or empty
+  std::vector<int> harmonics = {};   ///< those that were added as the best preload asked for; else empty
 };
 
 /// Studies a linear, passive system (cubic_stiffness = 0, damping > 0); its `preload` is not used. Of

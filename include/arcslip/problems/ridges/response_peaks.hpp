@@ -23,24 +23,26 @@ namespace arcslip::problems {
 
 /// What is traced, over `along` from one value to another, and whose peaks are followed over `across`.
 struct PeakedResponse {
-  std::shared_ptr<const continuation::Problem> problem;
-  std::string along;
-  std::string across;
-  double from = 0;                     ///< of `along`, > 0
-  double to = 0;                       ///< > from
-  std::string objective;               ///< an observable > 0 with a gradient
+  std::shared_ptr<const continuation::Problem> problem;  ///< may be shared by threads
+  std::string along;                                     ///< a parameter, a above
+  std::string across;                                    ///< another one, b above
+  double from = 0;                                       ///< of `along`, > 0
+  double to = 0;                                         ///< > from
+  std::string objective;                                 ///< an observable > 0 with a gradient
   continuation::Guess start;           ///< a solution at `from`, for some value > 0 of `across`
   continuation::TraceOptions options;  ///< tolerance and limits of steps
 };
 
+/// What makes a peak.
 enum class ResponsePeakSite {
   smooth,  ///< dL/da = 0
   corner,  ///< dL/da changes its sign by a jump
   edge     ///< on an end of the window, towards which L rises
 };
 
+/// A peak of L over a, at one b.
 struct ResponsePeak {
-  ResponsePeakSite site = ResponsePeakSite::smooth;
+  ResponsePeakSite site = ResponsePeakSite::smooth;  ///< what makes it
   continuation::Guess at;  ///< the solution there; at a corner in the regime before it
   double place = 0;        ///< a
   double log_height = 0;   ///< L
@@ -66,6 +68,7 @@ class ResponsePeaks {
   /// How many responses were traced.
   long traced() const { return traced_; }
 
+  /// What was asked for.
   const PeakedResponse& response() const { return response_; }
 
  private:

@@ -13,14 +13,15 @@ namespace arcslip::problems {
 
 /// Derivatives of the logarithms of both amplitudes and of R/S.
 struct AmplitudeSlopes {
-  double log_R;
-  double log_Y;
-  double log_ratio;
+  double log_R;      ///< ln R
+  double log_Y;      ///< ln Y
+  double log_ratio;  ///< ln(R/S)
 };
 
 /// The response at one point (eta, P), where R is known.
 class ResponseSlopes {
  public:
+  /// `slip` tells on which side of the border the law is taken. Keeps nothing of the system.
   ResponseSlopes(const FrictionSystem& system, double eta, double preload, double log_R, bool slip);
 
   /// Stuck, with that preload at which R = S: below 0 where P_2 eta^2 alone would hold the contact.
@@ -29,6 +30,7 @@ class ResponseSlopes {
   /// On the border the same place on the side of slip.
   ResponseSlopes slipping() const;
 
+  /// P, ln R, ln Y and ln(R/S) of the point.
   double preload() const { return preload_; }
   double log_R() const { return log_R_; }
   double log_Y() const { return log_Y_; }

@@ -33,6 +33,7 @@ namespace arcslip::problems {
 
 /// Distribution of a factor on a nominal value.
 struct Scatter {
+  /// The distribution.
   enum class Kind { none, lognormal, uniform };
 
   Kind kind = Kind::none;  ///< none: the factor is 1
@@ -46,11 +47,11 @@ struct Scatter {
 
 /// What scatters, and how it is sampled. The same seed gives the same samples everywhere.
 struct Uncertainty {
-  Scatter friction;
-  Scatter preload;
-  Scatter force;
-  std::size_t samples = 4000;
-  std::uint64_t seed = 1;
+  Scatter friction;                                   ///< m, on mu
+  Scatter preload;                                    ///< q, on P
+  Scatter force;                                      ///< f, on F
+  std::size_t samples = 4000;                         ///< N
+  std::uint64_t seed = 1;                             ///< of the samples
   std::vector<double> quantiles = {0.05, 0.5, 0.95};  ///< each > 0 and < 1
 };
 
@@ -85,9 +86,10 @@ class PeakDistribution {
   /// one factor scatters, of which each stratum has a sample. At a cliff of the envelope, where few samples
   /// lie, these are far apart.
   struct Quantile {
-    double log_value;
-    double error;  ///< of log_value
+    double log_value;  ///< ln Y
+    double error;      ///< of log_value
   };
+  /// One for each probability, in their order.
   std::vector<Quantile> quantiles(const EnvelopeFamily& envelope, double x,
                                   const std::vector<double>& probabilities) const;
 
@@ -111,8 +113,8 @@ class PeakDistribution {
 
 /// Quantiles of the highest peak at one nominal preload, in the order of Uncertainty::quantiles.
 struct QuantileRow {
-  double preload;
-  std::vector<double> Y;
+  double preload;                   ///< P
+  std::vector<double> Y;            ///< one for each quantile
   std::vector<double> errors = {};  ///< standard errors of sampling, relative
 };
 

@@ -43,6 +43,7 @@ struct Verification {
   double growth;       ///< of the worst disturbance in a period, |mu|: stable below 1; by time integration
 };
 
+/// Which points are solved anew, and by what means.
 struct VerifyOptions {
   std::size_t samples = 10;       ///< regular points, spread over the branch, besides the special ones
   std::size_t most_special = 30;  ///< special points, the first ones; only these are integrated in time
