@@ -34,9 +34,9 @@ enum class Response { forced, one_way, limit_cycle, nonlinear_mode };
 struct ProblemRequest {
   const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
   problems::LibraryModel::Values settings;        ///< the library model's
-  SystemParameters system;
-  std::optional<Geometry> geometry;  ///< where the system is given in SI units
-  Response response = Response::forced;
+  SystemParameters system;                        ///< unless it is one of the library's
+  std::optional<Geometry> geometry;               ///< where the system is given in SI units
+  Response response = Response::forced;           ///< what is asked of it
   double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
 
   /// Where harmonics are added while tracing: the largest one left out, relative to R.
@@ -44,6 +44,7 @@ struct ProblemRequest {
 
   bool stability = false;  ///< whether its points come with their Floquet exponents
 
+  /// Which response it is.
   bool is_limit_cycle() const { return response == Response::limit_cycle; }
   bool is_mode() const { return response == Response::nonlinear_mode; }
   bool is_free() const { return is_limit_cycle() || is_mode(); }  ///< whether eta is an unknown
@@ -51,27 +52,28 @@ struct ProblemRequest {
 
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.
 struct CaseBranch {
-  nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
-  ProblemRequest problem;
-  continuation::TraceOptions options;
-  std::optional<double> start;  ///< value of the parameter from which the branch is traced both ways
-  bool all_solutions = false;   ///< one for each solution at `start` that deflated Newton finds
-  bool switching = false;       ///< follow the branches that branch points and corners lead to
-  std::optional<CurveRequest> curve;
+  nlohmann::ordered_json values;       ///< what `for_each` sets on it, by key
+  ProblemRequest problem;              ///< that is traced, or extended by the curve
+  continuation::TraceOptions options;  ///< of [branch] and [continuation]
+  std::optional<double> start;         ///< value of the parameter from which the branch is traced both ways
+  bool all_solutions = false;          ///< one for each solution at `start` that deflated Newton finds
+  bool switching = false;              ///< follow the branches that branch points and corners lead to
+  std::optional<CurveRequest> curve;   ///< none of a branch
 };
 
 /// What a case file asks for, branch by branch.
 struct CasePlan {
-  std::string title;
-  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
-  std::size_t count = 0;            ///< of branches
-  std::function<CaseBranch(std::size_t)> branch;
+  std::string title;                              ///< of the file, or empty
+  nlohmann::ordered_json resolved;                ///< the input with its defaults filled in
+  std::size_t count = 0;                          ///< of branches
+  std::function<CaseBranch(std::size_t)> branch;  ///< the i-th, made when asked for
 };
 
+/// The same with all branches made.
 struct Case {
-  std::string title;
-  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
-  std::vector<CaseBranch> branches;
+  std::string title;                 ///< of the file, or empty
+  nlohmann::ordered_json resolved;   ///< the input with its defaults filled in
+  std::vector<CaseBranch> branches;  ///< in the order of their numbers
 };
 
 class TomlDocument;
@@ -82,12 +84,14 @@ class CaseFile {
   /// Throws InputError.
   explicit CaseFile(const std::string& path, const std::vector<std::string>& settings = {});
 
+  /// As it was given, and whether the file has a section of this name.
   const std::string& path() const;
   bool has(const std::string& section) const;
 
   /// Does what a section asks for; what that throws becomes an InputError that names file and section.
   void named(const std::string& section, const std::function<void()>& work) const;
 
+  /// What was read; may be shared.
   const std::shared_ptr<const TomlDocument>& document() const { return document_; }
 
  private:

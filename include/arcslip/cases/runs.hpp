@@ -16,8 +16,8 @@ namespace arcslip {
 
 /// A problem with a guess of one of its solutions.
 struct Subject {
-  std::shared_ptr<const continuation::Problem> problem;
-  continuation::Guess guess;
+  std::shared_ptr<const continuation::Problem> problem;    ///< may be shared by threads
+  continuation::Guess guess;                               ///< only where `failure` is empty
   std::string failure;                                     ///< why there is no guess, or empty
   continuation::Stop stop = continuation::Stop::no_start;  ///< what ended the search for it
 };
@@ -45,13 +45,14 @@ Subject build(const ProblemRequest& request, const std::string& parameter, doubl
 
 /// A branch, or a curve of special points, with the problem that it solves.
 struct TracedBranch {
-  std::shared_ptr<const CaseBranch> request;
-  std::shared_ptr<const continuation::Problem> base;
+  std::shared_ptr<const CaseBranch> request;                   ///< what was asked for
+  std::shared_ptr<const continuation::Problem> base;           ///< the problem that was built
   std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
-  continuation::Branch branch;
-  double seconds = 0;
-  std::optional<problems::Certificate> certificate = {};  ///< where one was asked for
+  continuation::Branch branch;                                 ///< of the curve, if it is one
+  double seconds = 0;                                          ///< wall clock
+  std::optional<problems::Certificate> certificate = {};       ///< where one was asked for
 
+  /// That of which the branch holds solutions.
   const continuation::Problem& problem() const {
     return curve ? static_cast<const continuation::Problem&>(*curve) : *base;
   }

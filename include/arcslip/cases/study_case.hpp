@@ -14,8 +14,8 @@ namespace arcslip {
 
 /// One system of a study.
 struct StudyDesign {
-  nlohmann::ordered_json values;  ///< what `for_each` sets on it, by key
-  SystemParameters system;
+  nlohmann::ordered_json values;                   ///< what `for_each` sets on it, by key
+  SystemParameters system;                         ///< with its values set
   std::optional<Geometry> geometry;                ///< where the system is given in SI units
   std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
 
@@ -25,17 +25,17 @@ struct StudyDesign {
 
 /// A study of `count` designs, which are made when asked for, from several threads: there may be millions.
 struct StudyCase {
-  std::string title;
-  nlohmann::ordered_json resolved;  ///< the input with its defaults filled in
-  std::vector<std::string> keys;    ///< of for_each, in the order of the columns of optimum.csv
-  problems::PreloadRange range;
-  std::string objective = "Y";  ///< the observable whose peaks are to be low
-  continuation::TraceOptions options;
-  bool sweep = true;                               ///< whether sweep.csv is wanted beside optimum.csv
+  std::string title;                   ///< of the file, or empty
+  nlohmann::ordered_json resolved;     ///< the input with its defaults filled in
+  std::vector<std::string> keys;       ///< of for_each, in the order of the columns of optimum.csv
+  problems::PreloadRange range;        ///< of every design
+  std::string objective = "Y";         ///< the observable whose peaks are to be low
+  continuation::TraceOptions options;  ///< tolerance and limits
+  bool sweep = true;                   ///< whether sweep.csv is wanted beside optimum.csv
   std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does
   bool is_physical = false;                        ///< whether its designs are given in SI units
-  std::size_t count = 1;
-  std::function<StudyDesign(std::size_t)> design;
+  std::size_t count = 1;                           ///< of designs
+  std::function<StudyDesign(std::size_t)> design;  ///< the i-th
 };
 
 /// Checks the whole file, with all of its designs. Throws InputError.

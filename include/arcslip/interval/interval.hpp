@@ -26,6 +26,7 @@ class NoEnclosure : public std::runtime_error {
 class OutwardRounding {
  public:
   template <class Number>
+  /// Numbers that a double holds.
   double conv_down(const Number& x) const {
     return static_cast<double>(x);
   }
@@ -33,6 +34,7 @@ class OutwardRounding {
   double conv_up(const Number& x) const {
     return static_cast<double>(x);
   }
+  /// Bounds of the results of real arithmetic, from below and from above.
   double add_down(double x, double y) const { return below(x + y); }
   double add_up(double x, double y) const { return above(x + y); }
   double sub_down(double x, double y) const { return below(x - y); }
@@ -43,6 +45,7 @@ class OutwardRounding {
   double div_up(double x, double y) const { return above(x / y); }
   double sqrt_down(double x) const { return below(std::sqrt(x)); }
   double sqrt_up(double x) const { return above(std::sqrt(x)); }
+  /// Somewhere near the middle.
   double median(double x, double y) const { return 0.5 * x + 0.5 * y; }
 
  private:
@@ -53,6 +56,7 @@ class OutwardRounding {
   static double above(double x) { return x + margin(x); }
 };
 
+/// Of doubles, closed, both bounds finite where nothing has overflowed.
 using Interval = boost::numeric::interval<
     double,
     boost::numeric::interval_lib::policies<boost::numeric::interval_lib::save_state_nothing<OutwardRounding>,
@@ -60,10 +64,11 @@ using Interval = boost::numeric::interval<
 
 /// A rectangle of complex numbers.
 struct ComplexInterval {
-  Interval real = 0;
-  Interval imaginary = 0;
+  Interval real = 0;       ///< Re z
+  Interval imaginary = 0;  ///< Im z
 };
 
+/// All sums and products of values in the two.
 inline ComplexInterval operator+(const ComplexInterval& a, const ComplexInterval& b) {
   return {a.real + b.real, a.imaginary + b.imaginary};
 }

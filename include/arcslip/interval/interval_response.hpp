@@ -11,8 +11,9 @@
 
 namespace arcslip {
 
+/// The contact law over an interval of S/R.
 struct EnclosedCoefficient {
-  ComplexInterval phi;
+  ComplexInterval phi;      ///< as in contact.hpp
   ComplexInterval phi_log;  ///< d phi/d ln(R/S)
   ComplexInterval slope;    ///< d(R phi)/dR = phi + phi_log, in which most of both cancels where R/S is large
 };
@@ -22,6 +23,7 @@ struct EnclosedCoefficient {
 /// value theorem allows.
 EnclosedCoefficient enclose_coefficient(const Interval& x);
 
+/// The response over an interval of eta, as ContactResponse has it at one.
 struct EnclosedResponse {
   ComplexInterval compliance;      ///< c
   ComplexInterval compliance_eta;  ///< dc/deta

@@ -13,13 +13,15 @@ namespace arcslip {
 
 /// The highest harmonic is at most 2 most_harmonics - 1; vectors of harmonics live on the stack.
 inline constexpr int most_harmonics = 128;
+/// One coefficient for each harmonic.
 using HarmonicVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_harmonics, 1>;
 
 /// Angles in ascending order.
 struct Angles {
-  std::array<double, std::size_t{2} * most_harmonics> values;
-  int count = 0;
+  std::array<double, std::size_t{2} * most_harmonics> values;  ///< the first `count` of them count
+  int count = 0;                                               ///< how many there are
 
+  /// The i-th of `count`.
   double operator[](int i) const { return values[static_cast<std::size_t>(i)]; }
   /// More than fit in are zeros of rounding, where all but three of them meet.
   void push(double angle) {
@@ -27,21 +29,25 @@ struct Angles {
   }
 };
 
+/// Looks at coefficients that somebody else owns.
 class OddMotion {
  public:
   /// `orders` are the h, odd and ascending, with one coefficient each. Both must outlive the motion.
   OddMotion(std::span<const int> orders, const HarmonicVector& coefficients);
 
+  /// What it was made of.
   std::span<const int> orders() const { return orders_; }
   const HarmonicVector& coefficients() const { return coefficients_; }
 
+  /// r(theta).
   double value(double theta) const;
 
+  /// Derivatives at one theta.
   struct Slopes {
     double first;   ///< dr/dtheta
     double second;  ///< d2r/dtheta2
   };
-  Slopes slopes(double theta) const;
+  Slopes slopes(double theta) const;  ///< of r at theta
 
   /// r(theta + step) - r(theta) to the rounding of the difference, however small the step is.
   double change(double theta, double step) const;
@@ -50,9 +56,10 @@ class OddMotion {
   /// 1e-8. Bounds on derivatives, not samples, tell that none is left. None of a motion that is zero.
   Angles turning_points() const;
 
+  /// Where r is largest, and how large.
   struct Maximum {
-    double angle;
-    double value;
+    double angle;  ///< theta, 0 <= theta < 2 pi
+    double value;  ///< r
   };
   /// max r, which is max |r|; 0 of a motion that is zero.
   Maximum maximum() const;

@@ -28,6 +28,7 @@ class BranchTable {
   /// The columns of a branch are added to those of the branches before it.
   void widen(const TracedBranch& traced);
 
+  /// The names of the columns, with commas between and a newline.
   std::string header() const;
 
   /// The rows of a branch whose columns are known, with nan in those that it does not have.
@@ -36,6 +37,7 @@ class BranchTable {
   /// A row that was made when `before` had fewer columns, with those that were added since.
   std::string widened(std::string_view row, const BranchTable& before) const;
 
+  /// Whether both have the same columns.
   bool operator==(const BranchTable&) const = default;
 
  private:

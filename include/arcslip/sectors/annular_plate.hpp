@@ -15,10 +15,13 @@
 
 namespace arcslip {
 
+/// What an edge is held by: nothing, w = 0, or w = w_r = 0.
 enum class EdgeSupport { free, supported, clamped };
 
 /// In any consistent units.
 struct AnnularPlate {
+  /// Radii, thickness h, Young's modulus E, Poisson's ratio nu and density rho; what holds the edges; how
+  /// many sectors the plate has, and how many elements one of them.
   double inner_radius = 0;
   double outer_radius = 0;
   double thickness = 0;

@@ -10,6 +10,7 @@ namespace arcslip {
 
 /// Reduced matrices in double precision, J x J each; the load has J entries.
 struct DynamicStiffness {
+  /// M, C, K and F.
   ComplexMatrix mass;
   ComplexMatrix damping;
   ComplexMatrix stiffness;

@@ -23,8 +23,8 @@ class SectorError : public std::invalid_argument {
 
 /// Matrices n x n; every dof is in one of `left`, `right`, `interior`.
 struct FiniteSector {
-  SparseMatrix mass;
-  SparseMatrix stiffness;
+  SparseMatrix mass;            ///< M
+  SparseMatrix stiffness;       ///< K
   SparseMatrix damping;         ///< 0 x 0: none
   std::vector<Index> left;      ///< boundary to the sector before
   std::vector<Index> right;     ///< boundary to the next sector, paired with `left` in order

@@ -23,8 +23,8 @@ namespace arcslip {
 
 /// A travelling wave of n waves around N sectors: a = 2 pi n/N.
 struct SectorWave {
-  Index wave_number = 0;
-  Index sectors = 1;
+  Index wave_number = 0;  ///< n
+  Index sectors = 1;      ///< N
 
   Complex forward() const;  ///< e^{-ja}
 };

@@ -13,8 +13,10 @@
 
 namespace arcslip {
 
+/// Compressed by columns.
 using ComplexSparseMatrix = Eigen::SparseMatrix<Complex>;
 
+/// Owns all that it needs of the sector.
 class SectorReduction {
  public:
   /// `sector` is checked. Reduces for a = 0.
@@ -29,6 +31,7 @@ class SectorReduction {
   const ComplexSparseMatrix& damping() const { return damping_.reduced; }  ///< 0 x 0: none
   const ComplexVector& load() const { return load_; }
 
+  /// Of reduced dofs.
   Index size() const { return map_.size; }
   /// Reduced dof of a dof of the sector.
   Index reduced_dof(Index dof) const { return map_.reduced[static_cast<std::size_t>(dof)]; }

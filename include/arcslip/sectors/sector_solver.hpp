@@ -30,6 +30,7 @@ struct SectorResponse {
   ComplexVector load_motion;  ///< m+1: X^T F*, the motion F^H d that the load does work on
 };
 
+/// Serves one thread. Owns all that it needs of the sector.
 class SectorSolver {
  public:
   /// `sector` is checked, `forward` is e^{-ja}. `loss` is that of damping proportional to stiffness and mass,
@@ -43,8 +44,10 @@ class SectorSolver {
   /// The response at eta, valid until the next call. Throws std::domain_error where Z is singular.
   const SectorResponse& at(double eta);
 
+  /// The matrices that Z is made of.
   const SectorReduction& reduction() const { return reduction_; }
 
+  /// m, p, and how many factorisations there were.
   Index contacts() const { return std::ssize(contacts_); }
   Index outputs() const { return std::ssize(outputs_); }
   int factorisations() const;  ///< since the start, all with one symbolic analysis

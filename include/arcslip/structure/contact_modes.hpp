@@ -17,6 +17,7 @@ namespace arcslip {
 
 /// Of a sector, one of them perhaps an output; vectors and matrices of contacts live on the stack.
 inline constexpr int most_contacts = 13;
+/// One entry for each contact, and one row and column.
 using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
 using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
 
@@ -30,22 +31,23 @@ struct ContactReceptance {
   ContactVector free;            ///< y_0, m: the response without contact
   ContactVector free_eta;        ///< dy_0/deta
 
+  /// Gives all of them this size, filled with zeros.
   void set_zero(Index contacts);
 };
 
 /// Compliance of m contacts under another damping, with its derivatives.
 struct DampedReceptance {
-  ContactMatrix compliance;
-  ContactMatrix compliance_eta;
+  ContactMatrix compliance;       ///< C, m x m
+  ContactMatrix compliance_eta;   ///< dC/deta
   ContactMatrix compliance_loss;  ///< as the loss changes
 };
 
 /// Work of a cycle at eta: of the load, what the damping takes, and that of load and contact forces whatever
 /// the phase between them and the motions they act on.
 struct CycleWork {
-  double load = 0;
-  double damping = 0;  ///< negative where it feeds energy in
-  double magnitude = 0;
+  double load = 0;       ///< of the load
+  double damping = 0;    ///< negative where it feeds energy in
+  double magnitude = 0;  ///< without regard to phase
 };
 
 /// A structure's response at eta, and its work under given forces on its contacts, found in whatever way; may
@@ -53,12 +55,14 @@ struct CycleWork {
 using Receptance = std::function<ContactReceptance(double eta)>;
 using ReceptanceWork = std::function<CycleWork(double eta, const ContactVector& forces)>;
 
+/// One mode v_k as contacts and load see it.
 struct ContactMode {
   double frequency;     ///< eta_k
   ContactVector shape;  ///< s_k, m
   Complex load;         ///< l_k
 };
 
+/// Immutable; may be used from several threads.
 class ContactModes {
  public:
   /// All shapes have `contacts` entries. Throws std::invalid_argument where they do not, or for more contacts
@@ -86,6 +90,7 @@ class ContactModes {
   /// The compliance of the modes with this loss, and how it changes with the loss by `rate`.
   DampedReceptance damped(double eta, const Loss& loss, const Loss& rate) const;
 
+  /// What it was made of.
   Index contacts() const { return contacts_; }
   const std::vector<ContactMode>& modes() const { return modes_; }
   const Loss& loss() const { return loss_; }
@@ -110,9 +115,9 @@ struct SectorContact {
 /// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
 /// others.
 struct ContactOutput {
-  std::string name;
-  ContactModes modes;
-  bool on_base;
+  std::string name;    ///< the column's
+  ContactModes modes;  ///< of its structure, the output as its last contact
+  bool on_base;        ///< or on the damper
 
   /// Under the load and the forces on the contact dofs of its structure.
   double amplitude(double eta, const ContactVector& forces) const;
@@ -120,12 +125,13 @@ struct ContactOutput {
 
 /// Base, damper and the interface between their contacts.
 struct ContactSystem {
-  ContactModes base;    ///< with the travelling load
-  ContactModes damper;  ///< without load
-  std::vector<SectorContact> contacts;
-  std::vector<ContactOutput> outputs = {};
+  ContactModes base;                        ///< with the travelling load
+  ContactModes damper;                      ///< without load
+  std::vector<SectorContact> contacts;      ///< in the order of the structures' own
+  std::vector<ContactOutput> outputs = {};  ///< further amplitudes that are wanted
 };
 
+/// A mode of several structures on springs.
 struct JoinedMode {
   double frequency;        ///< eta_k
   double damping;          ///< damping ratio, to the first order in the losses

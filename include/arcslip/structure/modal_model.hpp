@@ -56,6 +56,7 @@ struct Loss {
     return viscous * frequency * frequency + modal * frequency + mass;
   }
 
+  /// Of both together, and of so many times one.
   friend Loss operator+(const Loss& a, const Loss& b) {
     return {a.viscous + b.viscous, a.structural + b.structural, a.modal + b.modal, a.mass + b.mass};
   }
@@ -67,24 +68,26 @@ struct Loss {
 /// Z(eta) = k K + m M of a structure with this damping but for its modal part, which no matrix has.
 template <class Real>
 struct MatrixFactors {
+  /// At eta.
   MatrixFactors(double eta, const Loss& loss) {
     const Real w = 2 * std::numbers::pi_v<Real> * eta;
     k = {1, loss.at(eta)};
     m = {-w * w, 2 * std::numbers::pi_v<Real> * loss.mass * w};
   }
 
-  std::complex<Real> k;
-  std::complex<Real> m;
+  std::complex<Real> k;  ///< of K
+  std::complex<Real> m;  ///< of M
 };
 
 /// d_k of a mode of frequency eta_k, with its derivative in eta.
 struct ModalDenominator {
+  /// At eta.
   ModalDenominator(double eta, double frequency, const Loss& loss)
       : value((frequency - eta) * (frequency + eta), loss.part(eta, frequency)),
         by_eta(-2 * eta, loss.part_eta(frequency)) {}
 
-  Complex value;
-  Complex by_eta;
+  Complex value;   ///< d_k
+  Complex by_eta;  ///< dd_k/deta
 };
 
 /// Compliance c for a loss fixed + zeta * per_zeta, with its derivatives.
@@ -126,11 +129,13 @@ class ModalModel {
   /// Compliance and free response at eta, O(J) operations.
   ContactResponse at(double eta) const;
 
+  /// Their second derivatives, O(J) operations.
   ContactCurvature curvature(double eta) const;
 
   /// Compliance of the same modes where the loss is fixed + zeta * per_zeta.
   DampedCompliance compliance(double eta, double zeta, const Loss& per_zeta, const Loss& fixed = {}) const;
 
+  /// What the sums are over.
   const std::vector<Mode>& modes() const { return modes_; }
   const Loss& loss() const { return loss_; }
 

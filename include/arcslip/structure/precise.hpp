@@ -12,6 +12,7 @@
 
 namespace arcslip {
 
+/// Real and complex numbers of fifty digits, and matrices of these.
 using PreciseReal =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 using PreciseComplex = boost::multiprecision::number<
@@ -25,13 +26,17 @@ using PreciseComplexVector = Eigen::Matrix<PreciseComplex, Eigen::Dynamic, 1>;
 
 namespace Eigen {
 
+/// What Eigen asks of these numbers.
 template <>
 struct NumTraits<arcslip::PreciseReal> : GenericNumTraits<arcslip::PreciseReal> {
+  /// Decimals that are sure.
   static int digits10() { return std::numeric_limits<arcslip::PreciseReal>::digits10; }
 };
 
+/// The same of complex ones.
 template <>
 struct NumTraits<arcslip::PreciseComplex> : GenericNumTraits<arcslip::PreciseComplex> {
+  /// Related types, costs and limits.
   using Real = arcslip::PreciseReal;
   using NonInteger = arcslip::PreciseComplex;
   using Literal = arcslip::PreciseComplex;

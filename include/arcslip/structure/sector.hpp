@@ -46,6 +46,7 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> reduce_load(const Eigen::MatrixBase<Der
 
 /// A structure as one travelling wave sees it. Both matrices are Hermitian, J x J; `load` has J entries.
 struct ReducedStructure {
+  /// M, K and F under the wave.
   PreciseComplexMatrix mass;
   PreciseComplexMatrix stiffness;
   PreciseComplexVector load;

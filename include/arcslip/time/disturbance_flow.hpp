@@ -31,6 +31,7 @@
 
 namespace arcslip {
 
+/// Of one response's system; may be asked at any eta and pattern of stick.
 class DisturbanceFlow {
  public:
   /// Of disturbances in the harmonics of `system`, all odd or all even, of a response with harmonics up to

@@ -11,12 +11,12 @@ namespace arcslip {
 /// Where one oscillator stands in an eigenvector: its displacement at `position`, its velocity over `scale`
 /// at `velocity`; of a real motion their imaginary parts behind, which also are those of the conjugate wave.
 struct WavePlace {
-  Index wave;
-  double frequency;
-  double scale;
-  Index position;
-  Index velocity;
-  bool is_real;
+  Index wave;        ///< of 0 .. N - 1
+  double frequency;  ///< of the oscillator, in units of eta
+  double scale;      ///< > 0
+  Index position;    ///< in the vector
+  Index velocity;    ///< in the vector
+  bool is_real;      ///< whether imaginary parts stand behind
 };
 
 /// The wave that has most of the energy of `vector`, of 0 .. N - 1: that is, e^{j(wt - 2 pi wave i/N)} with

@@ -30,13 +30,14 @@ struct Ring {
   Matrix relative;     ///< N x D: B = damper - base
   Matrix turn;         ///< D x D, orthogonal: the motion in which each node does what the next one did
 
-  Index wave_number;
+  Index wave_number;         ///< n
   double contact_stiffness;  ///< k = K_FD/N
   double slip_per_preload;   ///< S/P
   double preload_growth;     ///< P_2
   double cubic_stiffness;    ///< k_3
   bool drifts;               ///< whether the first coordinate is a rigid motion that contacts alone resist
 
+  /// N and D.
   Index nodes() const { return relative.rows(); }
   Index coordinates() const { return relative.cols(); }
 

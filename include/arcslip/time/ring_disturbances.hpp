@@ -20,6 +20,7 @@
 
 namespace arcslip {
 
+/// Of one response's system; may be asked at any eta and pattern of stick.
 class RingDisturbances {
  public:
   /// Of a response in the harmonics of `system`. Throws as oscillators() and the waves do.
@@ -35,8 +36,9 @@ class RingDisturbances {
     Complex in_cell;   ///< sigma as the cell has it
   };
 
+  /// What is found at one response.
   struct Disturbances {
-    std::vector<Disturbance> all;
+    std::vector<Disturbance> all;  ///< cell by cell
     /// For each symmetry that a response with a real exponent 0 would break a function that changes its sign
     /// with this exponent.
     std::vector<double> symmetries;

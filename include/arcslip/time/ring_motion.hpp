@@ -20,7 +20,7 @@ namespace arcslip {
 
 /// All that the future depends on.
 struct RingState {
-  double time = 0;
+  double time = 0;        ///< t, of which a period is 1/eta
   Vector position;        ///< D
   Vector velocity;        ///< D
   Vector slider;          ///< N: x, which is r -+ S in slip
@@ -29,11 +29,11 @@ struct RingState {
 
 /// One step: coefficients in powers of (t - start)/scale, valid for start <= t <= start + length.
 struct RingSegment {
-  double start = 0;
-  double scale = 1;
-  double length = 0;
-  Matrix position;  ///< D x (order + 1)
-  Matrix relative;  ///< N x (order + 1): r
+  double start = 0;   ///< t
+  double scale = 1;   ///< of time, in the powers
+  double length = 0;  ///< of the step, in time
+  Matrix position;    ///< D x (order + 1)
+  Matrix relative;    ///< N x (order + 1): r
 
   /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
   static Vector value(const Matrix& series, double ratio);
@@ -61,7 +61,7 @@ struct RingCount {
 
 /// One harmonic of the relative displacement and the friction force of node 1, phasors.
 struct ContactHarmonic {
-  int order;
+  int order;           ///< h
   Complex relative;    ///< r_h
   Complex force;       ///< of the friction force on the base, k phi r for one harmonic
   Complex ground = 0;  ///< of the force of cubic springs against the base's motion
@@ -85,10 +85,12 @@ class RingMotion {
   /// Elastic energy, also of the contacts, and kinetic energy.
   double energy(const RingState& state) const;
 
+  /// What moves, and at what frequency and threshold.
   const Ring& ring() const { return ring_; }
   double frequency() const { return frequency_; }  ///< w* = 2 pi eta
   double period() const { return period_; }
   double slip_threshold() const { return threshold_; }  ///< S
+  /// Of all that was advanced so far.
   const RingCount& count() const { return count_; }
 
  private:

@@ -12,10 +12,11 @@ namespace arcslip {
 /// 64 are resolved to rounding.
 class HarmonicRecord : public RingObserver {
  public:
+  /// `orders` are the h, in the order of the results.
   HarmonicRecord(const RingMotion& motion, std::vector<int> orders);
   void follow(const RingSegment& segment, const RingState& state) override;
 
-  const std::vector<int>& orders() const { return orders_; }
+  const std::vector<int>& orders() const { return orders_; }             ///< h
   ComplexVector base() const { return sums_.col(0) * (2 / time_); }      ///< y_h
   ComplexVector damper() const { return sums_.col(1) * (2 / time_); }    ///< u_h
   ComplexVector relative() const { return sums_.col(2) * (2 / time_); }  ///< r_h
@@ -33,6 +34,7 @@ class HarmonicRecord : public RingObserver {
 /// Work done over what is followed.
 class EnergyRecord : public RingObserver {
  public:
+  /// Nothing yet.
   explicit EnergyRecord(const RingMotion& motion)
       : ring_(motion.ring()), frequency_(motion.frequency()), threshold_(motion.slip_threshold()) {}
   void follow(const RingSegment& segment, const RingState& state) override;

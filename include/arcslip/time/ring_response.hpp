@@ -46,8 +46,8 @@ RingState next_state(RingMotion& motion, const RingState& state, RingObserver* o
 
 /// dG/ds, (2D + N) x (2D + N), with G(s).
 struct StateDerivative {
-  RingState next;
-  Matrix derivative;
+  RingState next;     ///< G(s)
+  Matrix derivative;  ///< dG/ds
 };
 StateDerivative next_derivative(RingMotion& motion, const RingState& state);
 
@@ -59,10 +59,10 @@ double state_distance(const RingMotion& motion, const RingState& a, const RingSt
 
 /// A response that repeats itself.
 struct [[nodiscard]] SettledMotion {
-  RingState state;
-  double error;  ///< |G(s) - s| over |s|, this without its part along the drift
-  int rounds;    ///< of the march, each nT/N long, or of Newton's method
-  bool settled;  ///< whether the tolerance is met
+  RingState state;  ///< s
+  double error;     ///< |G(s) - s| over |s|, this without its part along the drift
+  int rounds;       ///< of the march, each nT/N long, or of Newton's method
+  bool settled;     ///< whether the tolerance is met
 };
 
 /// Marches until the state repeats within `tolerance`, for at most `rounds` of nT/N. Where contacts come to

@@ -17,7 +17,9 @@
 
 namespace arcslip {
 
+/// Of u and v, or of w and p.
 enum class SolidRingMotion { in_plane, out_of_plane };
+/// That of u, of v or of w.
 enum class RingDirection { radial, tangential, axial };
 
 /// In any consistent units.
@@ -25,6 +27,7 @@ struct SolidRing {
   double radius = 0;  ///< of the centre line
   double width = 0;   ///< of the section, along the axis
   double height = 0;  ///< of the section, along the radius
+  /// E, nu and rho; the direction in which the contact rubs; N.
   double youngs_modulus = 0;
   double poisson_ratio = 0;
   double density = 0;

@@ -17,9 +17,10 @@ namespace arcslip {
 
 struct SystemParameters;
 
+/// One mode of base or damper under a wave.
 struct Oscillator {
-  double frequency;
-  double damping;
+  double frequency;     ///< in units of eta
+  double damping;       ///< in the same units
   ContactVector shape;  ///< of the contacts, then of further coordinates
 };
 
@@ -37,18 +38,21 @@ std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes
 /// The lowest frequency but 0 of both; infinite without any.
 double slowest_rate(const ContactModes& base, const ContactModes& damper);
 
+/// The structures under every wave. Builds them anew at each call.
 class RingWaves {
  public:
+  /// Both under one wave.
   struct Structures {
-    ContactModes base;
-    ContactModes damper;
+    ContactModes base;    ///< its load does not count
+    ContactModes damper;  ///< the same
   };
-  using Build = std::function<Structures(Index wave)>;
+  using Build = std::function<Structures(Index wave)>;  ///< under so many waves, 0 .. N/2
 
   /// Of a response that travels with n = `wave_number` waves round N = `nodes` nodes; `build` gives the
   /// structures under 0, ..., N/2 waves.
   RingWaves(Index wave_number, Index nodes, Build build);
 
+  /// n and N.
   Index wave_number() const { return wave_number_; }
   Index nodes() const { return nodes_; }
 

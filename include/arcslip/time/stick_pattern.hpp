@@ -11,6 +11,7 @@
 
 namespace arcslip {
 
+/// Of one element, over half a period.
 struct StickPattern {
   bool slips = false;  ///< else it sticks all the time
   /// Of stick, in half a period; one at least where it slips. Between two there is slip: a gap of 1e-9 at

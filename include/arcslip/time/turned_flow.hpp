@@ -34,14 +34,17 @@
 
 namespace arcslip {
 
+/// Of one class of waves.
 class TurnedFlow {
  public:
+  /// One of them, with the oscillators that it meets.
   struct Wave {
-    Index wave;  ///< l + f n
-    int order;   ///< f
-    std::vector<Oscillator> modes;
+    Index wave;                     ///< l + f n
+    int order;                      ///< f
+    std::vector<Oscillator> modes;  ///< of both structures
   };
 
+  /// How the class stands to its conjugate.
   enum class Kind {
     general,        ///< of complex amplitudes
     self_conjugate  ///< l = -l modulo N: f and -f are conjugates, real motions need one of them
@@ -51,6 +54,7 @@ class TurnedFlow {
   /// `springs`: k of each contact; what is left of the waves' shapes is of further coordinates.
   TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs);
 
+  /// How the class stands to its conjugate, and M.
   Kind kind() const { return kind_; }
   Index nodes() const { return nodes_; }
 
@@ -71,6 +75,7 @@ class TurnedFlow {
   /// A coordinate of the motion: of a wave, or of two conjugate ones, which move by (a + jb)/sqrt 2 and its
   /// conjugate, the real part a or the imaginary part b behind it.
   struct Coordinate {
+    /// Which part of its wave's amplitude it is, the wave l + f n, the f, and the oscillator.
     enum class Part { whole, real, imaginary } part;
     Index wave;
     int order;
