@@ -18,23 +18,26 @@ namespace arcslip {
 
 struct HarmonicSystem;
 
+/// A row of L with the element that acts in it.
 struct Coordinate {
-  double base = 0;    ///< entry of L for the base's dof
-  double damper = 0;  ///< and for the damper's
-  Index dof = 0;      ///< which of their contact dofs
-  std::shared_ptr<const Element> element;
-  bool spares_base = false;  ///< no force on the base
+  double base = 0;                         ///< entry of L for the base's dof
+  double damper = 0;                       ///< and for the damper's
+  Index dof = 0;                           ///< which of their contact dofs
+  std::shared_ptr<const Element> element;  ///< may be shared
+  bool spares_base = false;                ///< no force on the base
 
   /// Entry of L for a structure, and of G.
   double move(bool is_base) const { return is_base ? base : damper; }
   double push(bool is_base) const { return is_base && spares_base ? 0 : move(is_base); }
 };
 
+/// All of a system, and what its structures do in them.
 class Coordinates {
  public:
   /// First the relative motions of the contacts, then the system's further coordinates.
   explicit Coordinates(const HarmonicSystem& system);
 
+  /// All of them, those of contacts, and what acts in the i-th.
   Index size() const { return std::ssize(all_); }
   Index contacts() const { return contacts_; }
   const Element& element(Index i) const { return *all_[static_cast<std::size_t>(i)].element; }

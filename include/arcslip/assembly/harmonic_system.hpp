@@ -15,11 +15,12 @@ namespace arcslip {
 
 struct SystemParameters;
 
+/// All that a response in several harmonics needs to know.
 struct HarmonicSystem {
-  std::vector<int> orders;           ///< h, ascending: of a response odd and from 1
-  std::vector<ContactModes> base;    ///< of each order, the first with the travelling load
-  std::vector<ContactModes> damper;  ///< of each order, without load
-  std::vector<SectorContact> contacts;
+  std::vector<int> orders;                  ///< h, ascending: of a response odd and from 1
+  std::vector<ContactModes> base;           ///< of each order, the first with the travelling load
+  std::vector<ContactModes> damper;         ///< of each order, without load
+  std::vector<SectorContact> contacts;      ///< in the order of the structures' own
   double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
   std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
   std::vector<Coordinate> others = {};      ///< in which elements act beside the contacts

@@ -33,8 +33,8 @@ struct RectangularRing {
 
 /// Base, damper and what acts on them, in SI units.
 struct Geometry {
-  RectangularRing base;
-  RectangularRing damper;
+  RectangularRing base;             ///< pressed against the damper
+  RectangularRing damper;           ///< of the same circumference
   double circumference = 0;         ///< L > 0 of both, m
   double friction_coefficient = 0;  ///< mu > 0
   double preload_per_length = 0;    ///< p_0 >= 0, N/m

@@ -9,10 +9,11 @@ namespace arcslip {
 
 /// Reduced base and damper of `parameters`, before they are turned into modes.
 struct ReducedPair {
-  ReducedStructure base;
-  ReducedStructure damper;
+  ReducedStructure base;    ///< with the load
+  ReducedStructure damper;  ///< without load
 };
 
+/// Of rods and beams.
 ReducedPair reduce(const SystemParameters& parameters);
 
 }  // namespace arcslip

@@ -23,15 +23,16 @@ class FullReceptance;
 /// for, or by sparse solves at each eta.
 enum class SectorPath { reduced, full };
 
+/// As case files have it: its name.
 std::string to_string(SectorPath path);
 
 /// One of the two with its damping: zeta times that of a kind, and what is there besides.
 struct SectorPart {
   FiniteSector sector;  ///< checked, with a contact; with damping on the full path only
-  DampingKind damping_kind = DampingKind::structural;
-  double reference_frequency = 1;  ///< eta at which viscous damping has the loss 2 zeta
-  Loss fixed;
-  std::uint64_t fingerprint = 0;  ///< of the files it was read from
+  DampingKind damping_kind = DampingKind::structural;  ///< of the part by zeta
+  double reference_frequency = 1;                      ///< eta at which viscous damping has the loss 2 zeta
+  Loss fixed;                                          ///< what is there besides
+  std::uint64_t fingerprint = 0;                       ///< of the files it was read from
 
   /// Whether it is damped where zeta is 0.
   bool is_damped() const { return sector.damping.size() != 0 || fixed.viscous != 0 || fixed.mass != 0; }
@@ -44,16 +45,19 @@ struct SectorPart {
 
 /// What modes depend on.
 struct SectorUse {
-  SectorWave wave;
-  double eta_low = 0;
-  double eta_high = 0;
+  SectorWave wave;      ///< under which
+  double eta_low = 0;   ///< the window in which they give the response
+  double eta_high = 0;  ///< >= eta_low
 };
 
+/// Keeps what it has found. May be used from several threads.
 class SectorPair {
  public:
+  /// Without damper the base rubs on what is held. `tolerance` is that of the modes' response, relative.
   SectorPair(SectorPart base, std::optional<SectorPart> damper, double tolerance,
              SectorPath path = SectorPath::reduced);
 
+  /// What it was made of.
   double tolerance() const { return tolerance_; }
   SectorPath path() const { return path_; }
   const SectorPart& base() const { return base_.part; }

@@ -14,8 +14,10 @@ namespace arcslip {
 
 class SectorPair;
 
+/// What base and damper are made of.
 enum class StructureModel { rods, beams, sector };
 
+/// As case files have it: its name.
 std::string to_string(StructureModel model);
 
 /// How a structure dissipates: viscous, C_B = (2 zeta_B/gamma)/(2 pi) K_B [paper, footnote 3], or structural
@@ -23,22 +25,23 @@ std::string to_string(StructureModel model);
 /// Modal, of sectors only: every mode has the damping ratio zeta.
 enum class DampingKind { viscous, structural, modal };
 
+/// As case files have it: its name.
 std::string to_string(DampingKind kind);
 
 /// [system] of a case file, nondimensional throughout.
 struct SystemParameters {
-  StructureModel model = StructureModel::beams;
-  Index wave_number = 1;           ///< n >= 1
-  Index elements = 30;             ///< N > 2n
-  double mass_ratio = 1;           ///< M* = m_B/m_D > 0
-  double frequency_ratio = 1;      ///< gamma = sqrt(K*/M*) > 0
-  double interface_stiffness = 1;  ///< K_FD = k_F/k_D > 0
-  double base_damping = 1e-4;      ///< zeta_B, negative where the base is excited by its own motion
-  double damper_damping = 1e-4;    ///< zeta_D
-  double force = 1;                ///< F = f_0/k_B > 0
-  double preload = 1;              ///< P = mu p_0/k_B > 0
+  StructureModel model = StructureModel::beams;  ///< of both
+  Index wave_number = 1;                         ///< n >= 1
+  Index elements = 30;                           ///< N > 2n
+  double mass_ratio = 1;                         ///< M* = m_B/m_D > 0
+  double frequency_ratio = 1;                    ///< gamma = sqrt(K*/M*) > 0
+  double interface_stiffness = 1;                ///< K_FD = k_F/k_D > 0
+  double base_damping = 1e-4;    ///< zeta_B, negative where the base is excited by its own motion
+  double damper_damping = 1e-4;  ///< zeta_D
+  double force = 1;              ///< F = f_0/k_B > 0
+  double preload = 1;            ///< P = mu p_0/k_B > 0
 
-  DampingKind base_damping_kind = DampingKind::viscous;
+  DampingKind base_damping_kind = DampingKind::viscous;  ///< of rods and beams
   bool fixed_damper = false;   ///< the damper is held: c_D = 0, an interface to ground
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
@@ -79,11 +82,11 @@ struct FrictionSystem {
   double contact_stiffness;  ///< k = K_FD/N [paper (7)]
   double slip_per_preload;   ///< S/P = K*/K_FD [paper (13)]
 
-  Loss base_loss_per_zeta = {};  ///< the base's loss over zeta_B
-  double cubic_stiffness = 0;    ///< k_3: force k_3 y^3 on each contact dof of the base
-  double preload_growth = 0;     ///< P_2
-  Loss base_loss_fixed = {};     ///< the rest of the base's loss
-  std::vector<ContactOutput> outputs = {};
+  Loss base_loss_per_zeta = {};             ///< the base's loss over zeta_B
+  double cubic_stiffness = 0;               ///< k_3: force k_3 y^3 on each contact dof of the base
+  double preload_growth = 0;                ///< P_2
+  Loss base_loss_fixed = {};                ///< the rest of the base's loss
+  std::vector<ContactOutput> outputs = {};  ///< further amplitudes that are wanted
 
   /// Whether the contact is closed: P > 0 and P + P_2 eta^2 > 0, by so much that a double holds S^2, of which
   /// energies are multiples.

@@ -14,7 +14,7 @@ namespace arcslip {
 
 /// The contact law's first-harmonic coefficient and its derivative.
 struct HarmonicCoefficient {
-  Complex phi;
+  Complex phi;      ///< 1 in stick
   Complex phi_log;  ///< d phi/d ln(R/S)
 };
 

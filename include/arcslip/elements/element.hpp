@@ -31,7 +31,7 @@ struct ElementForce {
 struct StateBorder {
   double value;              ///< negative inside
   HarmonicVector by_motion;  ///< derivatives by Re x_h and Im x_h as real and imaginary part
-  double by_log_load;
+  double by_log_load;        ///< by ln(load)
 };
 
 /// Immutable, and used from all threads.

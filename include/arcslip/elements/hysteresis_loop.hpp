@@ -31,6 +31,7 @@
 
 namespace arcslip {
 
+/// The settled loop of one motion.
 class HysteresisLoop {
  public:
   /// The loop settles within half a period from the motion's maximum, where the force is S. Just below the
@@ -57,8 +58,8 @@ class HysteresisLoop {
 
   /// An arc of stick, in theta.
   struct Arc {
-    double begin;
-    double width;
+    double begin;       ///< theta
+    double width;       ///< of theta
     double before = 1;  ///< force over S where it begins
     double behind = 0;  ///< the same where it ends in slip; 0 where it goes on as the next half period begins
   };

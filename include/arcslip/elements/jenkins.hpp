@@ -8,6 +8,7 @@
 
 namespace arcslip {
 
+/// A spring in series with a slider.
 class Jenkins final : public Element {
  public:
   /// Throws std::invalid_argument where stiffness or S/load is not positive.

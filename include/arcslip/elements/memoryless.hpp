@@ -6,6 +6,7 @@
 
 namespace arcslip {
 
+/// Derive from it and say the force.
 class MemorylessElement : public Element {
  public:
   bool is_linear(bool /*slips*/) const final { return false; }

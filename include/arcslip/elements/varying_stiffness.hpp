@@ -12,9 +12,11 @@
 
 namespace arcslip {
 
+/// k(theta) by its Fourier coefficients.
 struct VaryingStiffness {
   std::vector<Complex> harmonics;  ///< k_m; the first is real
 
+  /// k(theta).
   double at(double theta) const;
 
   /// t_m of k(theta + width s) = sum_m t_m s^m.
@@ -23,6 +25,7 @@ struct VaryingStiffness {
   /// c_n of k = sum_n c_n e^{jn theta}, for any n.
   Complex coefficient(int n) const;
 
+  /// Whether nothing but c_0 is there.
   bool is_constant() const { return harmonics.size() <= 1; }
 };
 

@@ -21,12 +21,13 @@ namespace arcslip::problems {
 
 /// Y/R = |q| and the derivatives of ln Y as a function of (ln R, eta, P).
 struct BaseAmplitude {
-  double over_R;
-  double by_log_R;
-  double by_eta;
-  double by_preload;
+  double over_R;      ///< Y/R
+  double by_log_R;    ///< d ln Y/d ln R
+  double by_eta;      ///< d ln Y/d eta
+  double by_preload;  ///< d ln Y/dP
 };
 
+/// Of one contact's law and threshold; the base itself does not count.
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
                              const HarmonicCoefficient& law, const LogThreshold& threshold);
 
@@ -40,8 +41,8 @@ inline double log_free_by_eta(const ContactResponse& base) {
 
 /// Value and slope of a function of one variable.
 struct ValueAndSlope {
-  double value;
-  double slope;
+  double value;  ///< of the function
+  double slope;  ///< its derivative
 };
 
 /// The first root from `from` to `to` of a function that is negative below it, to rounding. It is searched in
@@ -53,11 +54,14 @@ std::optional<double> first_root(const std::function<ValueAndSlope(double)>& fun
 /// The first of the unknowns is rho = ln R.
 class ContactProblem : public continuation::Problem {
  public:
+  /// Positions of eta and P.
   enum Parameter : Index { eta, preload };
+  /// States of the one switch.
   enum ContactState : int { stick, slip };
   /// Observables in this order; amplitudes and phases as in the columns of branches.csv.
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
 
+  /// The system is kept whole.
   explicit ContactProblem(FrictionSystem system) : system_(std::move(system)) {}
 
   std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
@@ -85,26 +89,30 @@ class ContactProblem : public continuation::Problem {
   virtual ComplexVector motions(const Vector& u, const Vector& p,
                                 const continuation::Regime& regime) const = 0;
 
+  /// What it was made of.
   const FrictionSystem& system() const { return system_; }
 
  protected:
+  /// Of the parameters: ln S, and whether there is a response.
   LogThreshold log_threshold(const Vector& p) const { return system_.log_threshold(p(eta), p(preload)); }
   bool has_value(const Vector& p) const { return p(eta) > 0 && system_.is_loaded(p(eta), p(preload)); }
 
+  /// phi in a regime.
   static HarmonicCoefficient coefficient(double log_ratio, const continuation::Regime& regime) {
     return regime[0] == stick ? HarmonicCoefficient{{1, 0}, {0, 0}} : slip_coefficient(log_ratio);
   }
 
   /// What the response equations consist of, at one point.
   struct State {
-    ContactResponse base;
-    ContactResponse damper;
-    LogThreshold threshold;
+    ContactResponse base;     ///< c_B, y_0
+    ContactResponse damper;   ///< c_D
+    LogThreshold threshold;   ///< ln S
     double log_ratio;         ///< ln(R/S)
     HarmonicCoefficient law;  ///< phi
     Complex force;            ///< k phi
   };
 
+  /// Evaluates all of them.
   State state(double log_R, const Vector& p, const continuation::Regime& regime) const {
     const LogThreshold threshold = log_threshold(p);
     const double log_ratio = log_R - threshold.value;
@@ -121,7 +129,7 @@ class ContactProblem : public continuation::Problem {
   void observe_motion(const State& at, double log_R, Complex r, const Vector& p,
                       const continuation::Regime& regime, Vector& values) const;
 
-  FrictionSystem system_;
+  FrictionSystem system_;  ///< as it was given
 };
 
 }  // namespace arcslip::problems

@@ -18,8 +18,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class CubicResponse : public ContactProblem {
  public:
+  /// Of a system with cubic_stiffness >= 0.
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 2; }

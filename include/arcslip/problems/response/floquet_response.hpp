@@ -19,6 +19,7 @@
 
 namespace arcslip::problems {
 
+/// A response in harmonics with the exponents of its disturbances.
 class FloquetResponse : public HarmonicResponse {
  public:
   /// Observables beside those of HarmonicResponse, at their end: `growth`, the largest |mu| of a period;
@@ -55,9 +56,10 @@ class FloquetResponse : public HarmonicResponse {
 
   /// The largest |mu| of a period, and the wave that this disturbance mostly is.
   struct Worst {
-    double growth;
-    Index wave;
+    double growth;  ///< |mu|
+    Index wave;     ///< of 0 .. N - 1
   };
+  /// Of all cells.
   Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 
   /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has

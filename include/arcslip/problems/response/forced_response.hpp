@@ -19,8 +19,10 @@
 
 namespace arcslip::problems {
 
+/// The equation above.
 class ForcedResponse : public ContactProblem {
  public:
+  /// Of a system without cubic springs.
   using ContactProblem::ContactProblem;
 
   Index size() const override { return 1; }

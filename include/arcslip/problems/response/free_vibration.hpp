@@ -13,6 +13,7 @@
 
 namespace arcslip::problems {
 
+/// What cycles and modes share.
 class FreeVibration : public HarmonicProblem {
  public:
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -21,6 +22,7 @@ class FreeVibration : public HarmonicProblem {
  protected:
   using HarmonicProblem::HarmonicProblem;
 
+  /// Re x_1 of the first coordinate.
   double amplitude(const Vector& u, const Vector& p) const { return value(layout_.real, u, p); }
 
   /// |x|.

@@ -14,9 +14,12 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class HarmonicCycle : public FreeVibration {
  public:
+  /// Positions of zeta_B and P.
   enum Parameter : Index { zeta, preload };
+  /// Positions of the first two.
   enum Unknown : Index { eta, amplitude };
 
   /// The base's damping in `system` is replaced by the parameter zeta_B; its kind is kept. Throws

@@ -13,6 +13,7 @@
 
 namespace arcslip::problems {
 
+/// Derive from it with a layout, and write what is to vanish.
 class HarmonicProblem : public continuation::Problem {
  public:
   Index size() const override { return 2 * coordinates_.size() * harmonics(); }
@@ -41,6 +42,7 @@ class HarmonicProblem : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// How many contacts, coordinates and harmonics there are, and the system.
   Index contacts() const { return coordinates_.contacts(); }
   Index coordinates() const { return coordinates_.size(); }
   Index harmonics() const { return std::ssize(system_.orders); }
@@ -57,15 +59,16 @@ class HarmonicProblem : public continuation::Problem {
  protected:
   /// Where one of the values that the motion depends on stands; one that stands nowhere does not vary.
   struct Place {
+    /// Among which it is.
     enum Of { nowhere, unknowns, parameters } of = nowhere;
-    Index index = 0;
+    Index index = 0;  ///< its position there
   };
 
   /// Re and Im of all harmonics of all coordinates are unknown, in the order of HarmonicResponse, but for
   /// the first two of them, in whose stead others may be.
   struct Layout {
-    Place eta;
-    Place preload;
+    Place eta;             ///< the frequency
+    Place preload;         ///< P
     Place real;            ///< Re x_1 of the first coordinate
     Place imaginary = {};  ///< and Im x_1, 0 where it stands nowhere
     Place damping = {};    ///< zeta of a damping -2 zeta w* M of both structures,
@@ -76,11 +79,11 @@ class HarmonicProblem : public continuation::Problem {
   enum class Measure { frequency, damping, threshold, ratio, amplitude, lag, dissipated, greatest, force };
   enum class Body { contact, base, damper, output };
   struct Quantity {
-    std::string name;
-    Measure measure;
-    Body of = Body::contact;
-    Index which = 0;  ///< contact or output
-    Index order = 0;
+    std::string name;         ///< the observable's
+    Measure measure;          ///< what is told
+    Body of = Body::contact;  ///< of what
+    Index which = 0;          ///< contact or output
+    Index order = 0;          ///< the position of the harmonic
   };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
@@ -90,9 +93,11 @@ class HarmonicProblem : public continuation::Problem {
   void add_further_contacts();
   void add_higher_harmonics();
 
+  /// What stands there; 0 of what stands nowhere.
   double value(const Place& place, const Vector& u, const Vector& p) const {
     return place.of == Place::unknowns ? u(place.index) : place.of == Place::parameters ? p(place.index) : 0;
   }
+  /// eta.
   double frequency(const Vector& u, const Vector& p) const { return value(layout_.eta, u, p); }
 
   /// P + P_2 eta^2.
@@ -107,8 +112,9 @@ class HarmonicProblem : public continuation::Problem {
 
   /// A structure in one harmonic, with derivatives by eta itself and by the damping of the layout.
   struct Response : ContactReceptance {
-    ContactMatrix by_damping;
+    ContactMatrix by_damping;  ///< dC/dzeta
   };
+  /// `order` is the position of the harmonic.
   void respond(const ContactModes& structure, bool is_base, Index order, const Vector& u, const Vector& p,
                Response& response) const;
 
@@ -116,10 +122,10 @@ class HarmonicProblem : public continuation::Problem {
   virtual double synthesised_force(const Vector& u, const Vector& p,
                                    const continuation::Regime& regime) const;
 
-  HarmonicSystem system_;
-  Coordinates coordinates_;
-  Layout layout_;
-  std::vector<Quantity> quantities_;
+  HarmonicSystem system_;             ///< as it was given
+  Coordinates coordinates_;           ///< of the system
+  Layout layout_;                     ///< as it was given
+  std::vector<Quantity> quantities_;  ///< the observables
 
  private:
   struct Forces;

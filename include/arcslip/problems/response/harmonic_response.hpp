@@ -20,8 +20,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class HarmonicResponse : public HarmonicProblem {
  public:
+  /// Positions of eta and P.
   enum Parameter : Index { eta, preload };
   /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
   /// is the energy of all, over k S^2; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
@@ -64,6 +66,7 @@ class HarmonicResponse : public HarmonicProblem {
     std::vector<ContactVector> damper;  ///< the same
     double energy;                      ///< lost per cycle in all elements
   };
+  /// At a solution.
   ElementForces element_forces(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 
  private:

@@ -27,12 +27,15 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class LimitCycle : public continuation::Problem {
  public:
+  /// Positions of the unknowns, and of zeta_B and P.
   enum Unknown : Index { eta, log_R };
   enum Parameter : Index { zeta, preload };
   /// Observables in this order, `dissipated` over k S^2 as in ForcedResponse. The phase is arbitrary.
   enum Quantity : Index { frequency, R, S, R_over_S, Y, U, dissipated };
+  /// Which cycle is wanted of those at one zeta_B.
   enum class Size { any, small, large };
 
   /// The base's damping in `system` is replaced by the parameter zeta_B; its kind is kept.
@@ -65,6 +68,7 @@ class LimitCycle : public continuation::Problem {
   /// found, which may be next to a fold, where two are about to meet.
   continuation::Guess guess(double zeta_value, double preload_value, Size size = Size::any) const;
 
+  /// What it was made of.
   const FrictionSystem& system() const { return system_; }
 
  private:

@@ -13,8 +13,9 @@
 
 namespace arcslip::problems {
 
+/// A cycle, whatever the preload is.
 struct CycleAtZeta {
-  double eta;
+  double eta;        ///< its frequency
   double log_ratio;  ///< ln(R/S)
   bool is_small;     ///< -zeta_B rises with R along its family
 };

@@ -25,8 +25,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class NonlinearMode : public FreeVibration {
  public:
+  /// Positions of R and P, and of the first two unknowns.
   enum Parameter : Index { amplitude, preload };
   enum Unknown : Index { frequency, damping };
   /// Observables in this order; `force` is that whose response, synthesised from the mode, peaks here, in

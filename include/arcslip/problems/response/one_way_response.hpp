@@ -13,8 +13,10 @@
 
 namespace arcslip::problems {
 
+/// The equations above.
 class OneWayResponse : public ForcedResponse {
  public:
+  /// The system with both sides; its base becomes unyielding.
   explicit OneWayResponse(FrictionSystem system);
 };
 

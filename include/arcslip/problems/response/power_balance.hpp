@@ -12,6 +12,7 @@
 
 namespace arcslip::problems {
 
+/// Energies of a cycle of one sector.
 struct PowerBalance {
   double input;     ///< work of the excitation
   double base;      ///< lost in the base's damping, negative where that feeds energy in
@@ -27,6 +28,7 @@ struct PowerBalance {
   double cancellation() const;
 };
 
+/// At a solution.
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p,
                            const continuation::Regime& regime);
 
