@@ -44,15 +44,10 @@ double kappa_of(const ComplexVector& eigenvalues) {
   return kappa;
 }
 
-/// Hopf curves end where their pair of eigenvalues meets at 0.
-bool ends_at_bogdanov_takens(const ExtendedProblem& problem) {
-  return dynamic_cast<const HopfProblem*>(&problem) != nullptr;
-}
-
 /// With the events that end a curve.
 TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
   TraceOptions all = within_window(options, window, problem.base().size());
-  if (ends_at_bogdanov_takens(problem)) all.stop_after.push_back({PointType::bogdanov_takens, 1, {}});
+  if (const auto last = problem.last_of_curve()) all.stop_after.push_back({*last, 1, {}});
   return all;
 }
 
@@ -60,17 +55,28 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
 Branch follow_half(ExtendedProblem& problem, const Observer& observer,
                    const std::function<Branch(const Observer& follow)>& trace) {
   Branch half = follow_curve(problem, observer, trace);
-  if (half.stop == Stop::requested && ends_at_bogdanov_takens(problem) &&
-      half.points.back().type == PointType::bogdanov_takens)
+  if (half.stop == Stop::requested && half.points.back().type == problem.last_of_curve())
     half.checkpoint.reset();
   return half;
 }
 
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
                   const Observer& observer) {
-  if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
-  return follow_half(problem, observer, [&](const Observer& follow) {
-    return trace_one_way(problem, start, towards_to, options, follow);
+  const TraceOptions own = without_journal(options);
+  const auto begin = [&]() -> Branch {
+    if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
+    return follow_half(problem, observer, [&](const Observer& follow) {
+      return trace_one_way(problem, start, towards_to, own, follow);
+    });
+  };
+  return kept_half(problem, options.journal, begin, [&](Branch begun) {
+    problem.set_borders(begun.checkpoint->ahead->borders);
+    const long before = begun.work.evaluations;
+    Branch half = follow_half(problem, observer, [&](const Observer& follow) {
+      return go_on_with(problem, std::move(begun), own, follow);
+    });
+    half.work.evaluations += before;
+    return half;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "arcslip/continuation/curves/extremum_tracer.hpp"
+#include "arcslip/continuation/curves/half_curve.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
@@ -31,7 +32,12 @@ Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const Tra
   problem.join(located->point, guess.unknowns, guess.parameters);
   guess.regime = start.regime;
   const auto half = [&](bool towards_to, const TraceOptions& rest) {
-    return ExtremumTracer(problem, rest, window, observer).half(located->point, corner, towards_to);
+    const auto begin = [&] {
+      return ExtremumTracer(problem, without_journal(rest), window, observer)
+          .half(located->point, corner, towards_to);
+    };
+    // One that was interrupted is short, and made of many pieces: it is traced anew.
+    return kept_half(problem, rest.journal, begin, [&](const Branch&) { return begin(); });
   };
   Branch curve = trace_parts([&] { return half(true, options); },
                              [&] {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "arcslip/continuation/path/journal.hpp"
+
 namespace arcslip::continuation {
 
 TraceOptions within_window(const TraceOptions& options, const CurveWindow& window, Index n) {
@@ -39,6 +41,23 @@ Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
   }
   if (part.checkpoint) part.checkpoint->ahead->borders = problem.borders();
   return part;
+}
+
+TraceOptions without_journal(const TraceOptions& options) {
+  TraceOptions own = options;
+  own.journal = nullptr;
+  return own;
+}
+
+Branch kept_half(ExtendedProblem& problem, Journal* journal, const std::function<Branch()>& begin,
+                 const std::function<Branch(Branch begun)>& go_on) {
+  if (journal == nullptr) return begin();
+  const auto with_borders = [&](Branch half) { return JournalEntry{std::move(half), problem.borders()}; };
+  JournalEntry entry =
+      journal->next([&] { return with_borders(begin()); },
+                    [&](JournalEntry begun) { return with_borders(go_on(std::move(begun.branch))); });
+  problem.set_borders(entry.borders);
+  return std::move(entry.branch);
 }
 
 Branch most_telling(Branch curve, const std::string& why_first_ended) {

@@ -1,5 +1,7 @@
 #include "arcslip/continuation/path/checkpoint.hpp"
 
+#include "arcslip/continuation/path/journal.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -243,7 +245,67 @@ void all(Archive& archive, State& state) {
   });
 }
 
+template <class Archive, class Point>
+void branch_point(Archive& archive, Point& point) {
+  const auto number = [&](auto& value) { archive(value); };
+  std::string type(to_string(point.type));
+  archive(type);
+  if constexpr (Archive::reads) {
+    const auto known = point_type(type);
+    if (!known) throw std::runtime_error(fmt::format("read_checkpoint: '{}' is no type of points", type));
+    point.type = *known;
+  }
+  regime(archive, point.regime);
+  list(archive, point.unknowns, number);
+  list(archive, point.parameters, number);
+  archive(point.arclength);
+  archive(point.iterations);
+  archive(point.residual);
+  list(archive, point.tangent, number);
+  list(archive, point.arrival, number);
+  list(archive, point.eigenvalues, [&](auto& value) {
+    auto [real, imaginary] = std::pair(value.real(), value.imag());
+    archive(real);
+    archive(imaginary);
+    if constexpr (Archive::reads) value = {real, imaginary};
+  });
+  archive(point.unstable);
+  archive(point.label);
+}
+
+template <class Archive, class Entry>
+void journal_entry(Archive& archive, Entry& entry) {
+  auto& branch = entry.branch;
+  list(archive, branch.points, [&](auto& point) { branch_point(archive, point); });
+  std::string stop(to_string(branch.stop));
+  archive(stop);
+  if constexpr (Archive::reads) branch.stop = stop_named(stop);
+  archive(branch.explanation);
+  archive(branch.warning);
+  auto& work = branch.work;
+  for (auto* count :
+       {&work.evaluations, &work.factorizations, &work.iterations, &work.rejected_steps, &work.spectra})
+    archive(*count);
+  maybe(archive, branch.checkpoint, [&](auto& checkpoint) { all(archive, checkpoint); });
+  list(archive, entry.borders, [&](auto& value) { archive(value); });
+}
+
 }  // namespace
+
+void Journal::write(std::ostream& out) const {
+  const std::scoped_lock lock(mutex_);
+  Writer writer(out);
+  list(writer, entries_, [&](const JournalEntry& entry) { journal_entry(writer, entry); });
+}
+
+void Journal::read(std::istream& in) {
+  Reader reader(in);
+  std::vector<JournalEntry> entries;
+  list(reader, entries, [&](JournalEntry& entry) { journal_entry(reader, entry); });
+  const std::scoped_lock lock(mutex_);
+  entries_ = std::move(entries);
+  next_ = 0;
+}
 
 void write(std::ostream& out, const Checkpoint& checkpoint) {
   Writer writer(out);

@@ -1,5 +1,7 @@
 #include "arcslip/continuation/path/trace.hpp"
 
+#include "arcslip/continuation/path/journal.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,14 +61,34 @@ Guess restart(const BranchPoint& point, bool forward) {
   return {point.unknowns, point.parameters, point.regime, forward ? point.tangent : Vector(-point.tangent)};
 }
 
+Branch go_on_with(const Problem& problem, Branch begun, const TraceOptions& options,
+                  const Observer& observer) {
+  check(problem, options);
+  return Tracer(problem, options, observer).go_on_with(std::move(begun));
+}
+
+namespace {
+
+Branch trace_way(const Problem& problem, const Guess& guess, double forward, const TraceOptions& options,
+                 const Observer& observer) {
+  const auto begin = [&] { return Tracer(problem, options, observer).run(guess, forward); };
+  if (options.journal == nullptr) return begin();
+  const auto go_on = [&](JournalEntry begun) {
+    return JournalEntry{go_on_with(problem, std::move(begun.branch), options, observer), {}};
+  };
+  return options.journal->next([&] { return JournalEntry{begin(), {}}; }, go_on).branch;
+}
+
+}  // namespace
+
 Branch trace(const Problem& problem, const Guess& guess, const TraceOptions& options,
              const Observer& observer) {
   check(problem, options);
   check(problem, guess);
-  if (guess.direction.size() > 0) return Tracer(problem, options, observer).run(guess, 1);
+  if (guess.direction.size() > 0) return trace_way(problem, guess, 1, options, observer);
   Guess start = guess;
   start.parameters(index_of(problem.parameter_names(), options.parameter)) = options.from;
-  return Tracer(problem, options, observer).run(start, sense(options));
+  return trace_way(problem, start, sense(options), options, observer);
 }
 
 Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to, const TraceOptions& options,
@@ -74,7 +96,7 @@ Branch trace_one_way(const Problem& problem, const Guess& guess, bool towards_to
   check(problem, options);
   check(problem, guess);
   const double forward = guess.direction.size() > 0 ? 1 : sense(options);
-  return Tracer(problem, options, observer).run(guess, towards_to ? forward : -forward);
+  return trace_way(problem, guess, towards_to ? forward : -forward, options, observer);
 }
 
 Branch trace_both(const Problem& problem, const Guess& guess, const TraceOptions& options,

@@ -54,6 +54,7 @@ Branch Tracer::run(const Guess& guess, double forward) {
 Branch Tracer::run(const Progress& progress) {
   require_same(progress);
   return finished([&] {
+    storing_ = true;
     state_ = progress;
     stepper_.restore(progress);
     targets_.restore(progress.taken);
@@ -81,20 +82,21 @@ Branch Tracer::finished(const Begin& begin) {
     begin();
     go_on();
   } catch (const Halt& ended) {
+    if (!branch_.points.empty()) forget_tries();
     halt(ended.reason);
   }
   if (!branch_.points.empty() && branch_.stop != Stop::interrupted && branch_.stop != Stop::time_limit)
     look_at_derivatives(stepper_.here().unknowns, stepper_.here().parameters, stepper_.here().regime);
   if (!branch_.warning.empty()) branch_.explanation += "; " + branch_.warning;
   branch_.work = corrector_.work();
-  branch_.work.spectra = watch_.spectra();
+  branch_.work.spectra = spectra_before_ + watch_.spectra();
   const bool further = branch_.stop == Stop::max_points || branch_.stop == Stop::time_limit ||
                        branch_.stop == Stop::interrupted || branch_.stop == Stop::requested;
   if (further && !branch_.points.empty()) {
+    state_.taken = targets_.taken();
     state_.here = stepper_.here();
     state_.bend = stepper_.bend();
     state_.monitors = stepper_.at_here();
-    state_.taken = targets_.taken();
     state_.past = stepper_.past();
     state_.looks = watch_.kept();
     state_.residual_size = corrector_.residual_size();
@@ -142,7 +144,18 @@ void Tracer::check_limits() {
   }
 }
 
+/// Of a step that was not brought to its end, so that it is tried again in the same way.
+void Tracer::forget_tries() {
+  state_.hold = first_hold_;
+  state_.distance = first_distance_;
+  targets_.keep_taken(value(), -1);
+  targets_.restore(first_taken_);
+}
+
 void Tracer::step() {
+  first_hold_ = state_.hold;
+  first_distance_ = state_.distance;
+  first_taken_ = targets_.taken();
   while (!try_step()) {
     ++corrector_.work().rejected_steps;
     if (stopped_) return;

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "arcslip/continuation/path/tracer.hpp"
-#include "arcslip/continuation/points/extended_problem.hpp"
-#include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
@@ -47,20 +45,26 @@ bool Tracer::is_time_to_look(PointType type) {
   return is_singular(type) && !std::exchange(singular_seen_, true);
 }
 
-/// Of an extended problem those of its base count: its own are made of them.
 void Tracer::look_at_derivatives(const Vector& u, const Vector& p, const Regime& regime) {
   if (!branch_.warning.empty()) return;
   ++corrector_.work().evaluations;
-  std::optional<std::string> wrong;
-  if (const auto* curve = dynamic_cast<const ExtendedProblem*>(&problem_)) {
-    const BasePoint at = curve->split(u, p, regime);
-    const Index second = parameter_ < curve->active() ? parameter_ : parameter_ + 1;
-    wrong = find_wrong_derivative(curve->base(), at.unknowns, at.parameters, regime,
-                                  {curve->active(), second}, {});
-  } else {
-    wrong = find_wrong_derivative(problem_, u, p, regime, {parameter_}, stepper_.tracked());
-  }
+  const auto wrong = problem_.wrong_derivative(u, p, regime, parameter_, stepper_.tracked());
   if (wrong) branch_.warning = fmt::format("{}, at {} = {:.10g}", *wrong, options_.parameter, p(parameter_));
+}
+
+Branch Tracer::go_on_with(Branch begun) {
+  if (!begun.checkpoint || !begun.checkpoint->ahead)
+    throw std::invalid_argument("go_on_with: the branch has no checkpoint");
+  if (begun.checkpoint->of) require_same(*begun.checkpoint->of);
+  branch_.points = std::move(begun.points);
+  branch_.warning = std::move(begun.warning);
+  corrector_.work() = begun.work;
+  spectra_before_ = begun.work.spectra;
+  for (const BranchPoint& point : branch_.points) {
+    if (point.type == PointType::regular) ++seen_in_regime_[point.regime];
+    singular_seen_ = singular_seen_ || is_singular(point.type);
+  }
+  return run(*begun.checkpoint->ahead);
 }
 
 BranchIdentity Tracer::identity() const {

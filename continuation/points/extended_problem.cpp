@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/continuation/problem/directional_check.hpp"
+
 namespace arcslip::continuation {
 
 ExtendedProblem::ExtendedProblem(const Problem& base, Index active, Index conditions)
@@ -199,6 +201,14 @@ void ExtendedProblem::take_gradient(Gradient& out) const {
   out.unknowns(base_.size()) = of_base_.parameters(active_);
   out.parameters.head(active_) = of_base_.parameters.head(active_);
   out.parameters.tail(rest) = of_base_.parameters.tail(rest);
+}
+
+std::optional<std::string> ExtendedProblem::wrong_derivative(const Vector& u, const Vector& p,
+                                                             const Regime& regime, Index parameter,
+                                                             const std::vector<Index>& /*tracked*/) const {
+  const BasePoint at = split(u, p, regime);
+  const Index second = parameter < active_ ? parameter : parameter + 1;
+  return find_wrong_derivative(base_, at.unknowns, at.parameters, regime, {active_, second}, {});
 }
 
 std::vector<Observable> ExtendedProblem::observables() const {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 
 namespace arcslip::continuation {
@@ -58,6 +59,12 @@ void Problem::observe(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*
 double Problem::observe(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, Index /*which*/,
                         Gradient& /*gradient*/) const {
   throw std::logic_error("Problem::observe: this problem has no observable with a gradient");
+}
+
+std::optional<std::string> Problem::wrong_derivative(const Vector& u, const Vector& p, const Regime& regime,
+                                                     Index parameter,
+                                                     const std::vector<Index>& tracked) const {
+  return find_wrong_derivative(*this, u, p, regime, {parameter}, tracked);
 }
 
 std::vector<double> Problem::landmarks(Index /*parameter*/, double /*from*/, double /*to*/) const {

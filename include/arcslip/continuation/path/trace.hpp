@@ -32,6 +32,8 @@ struct StopAfter {
   std::string label;  ///< of events; else empty
 };
 
+class Journal;
+
 /// What is traced, what is looked for, and when it is enough. Only `parameter`, `from` and `to` have to be
 /// set.
 struct TraceOptions {
@@ -59,6 +61,8 @@ struct TraceOptions {
   double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
   /// Asked before each evaluation of F; false ends the branch as `interrupted`.
   std::function<bool()> go_on = {};
+  /// Where the branches are kept, to be had again by the same work done anew; null: nowhere.
+  Journal* journal = nullptr;
 };
 
 /// Thrown where a search ended before it had found what it looked for, for want of time or by an interrupt.
@@ -91,6 +95,11 @@ class TimeBudget {
 
 /// Called at each point stored; false ends the branch as `interrupted`.
 using Observer = std::function<bool(const BranchPoint&)>;
+
+/// Goes on with a branch that was interrupted and holds its checkpoint; gives the whole branch, as if it had
+/// never been left. Throws std::invalid_argument where it is another problem's.
+Branch go_on_with(const Problem& problem, Branch begun, const TraceOptions& options,
+                  const Observer& observer = {});
 
 /// Traces the branch from `options.from` to `options.to`, or from a guess with a direction until it reaches
 /// one of the two. A branch that cannot be traced to its end holds what was traced and says why. Throws

@@ -35,6 +35,9 @@ class Tracer {
   /// Goes on from where another tracer was, of the same problem with the same options.
   Branch run(const Progress& progress);
 
+  /// The whole of a branch that was interrupted.
+  Branch go_on_with(Branch begun);
+
  private:
   template <class Begin>
   Branch finished(const Begin& begin);
@@ -49,6 +52,7 @@ class Tracer {
   bool out_of_time() const;
   void watch_clock() const;
   void halt(Stop reason);
+  void forget_tries();
   void check_limits();
   void step();
   bool try_step();
@@ -90,7 +94,10 @@ class Tracer {
   Targets targets_;
   Progress state_;  // what changes along the branch, except for the point itself
   const Target* landing_ = nullptr;
-  bool landing_failed_ = false;  // from here
+  bool landing_failed_ = false;      // from here
+  Hold first_hold_ = Hold::tangent;  // how the step under way was first tried
+  double first_distance_ = 0;
+  std::vector<double> first_taken_;
   std::optional<double> closing_;
   std::vector<Event> events_;
   std::map<Regime, int> seen_in_regime_;  // regular points so far
@@ -100,6 +107,7 @@ class Tracer {
   bool satisfied_ = false;
   bool storing_ = false;  // when the state is not one to go on from
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  long spectra_before_ = 0;  // of an interrupted branch
   Branch branch_;
 };
 

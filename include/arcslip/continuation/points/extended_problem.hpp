@@ -55,6 +55,9 @@ class ExtendedProblem : public Problem {
   /// The observable of the base whose extrema the solutions are, if they are extrema.
   virtual std::optional<Index> extremum_of() const { return std::nullopt; }
 
+  /// The type of points at which a curve of these ends, if there is one.
+  virtual std::optional<PointType> last_of_curve() const { return std::nullopt; }
+
   /// Of the base so far, with its derivatives.
   long evaluations() const { return at_.evaluations() + own_evaluations(); }
 
@@ -77,6 +80,11 @@ class ExtendedProblem : public Problem {
   double border(const Vector& u, const Vector& p, const Regime& regime, int border,
                 Gradient* gradient) const override;
   std::optional<Regime> regime_beyond(const Regime& /*regime*/, int /*border*/) const override { return {}; }
+
+  /// Of the base: the others are made of these.
+  [[nodiscard]] std::optional<std::string> wrong_derivative(const Vector& u, const Vector& p,
+                                                            const Regime& regime, Index parameter,
+                                                            const std::vector<Index>& tracked) const override;
 
   /// The active parameter, then the base's observables, each with its gradient if it has one there.
   std::vector<Observable> observables() const override;

@@ -22,6 +22,8 @@ class HopfProblem : public ExtendedProblem {
   HopfProblem(const Problem& base, Index active);
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;
+  /// There the pair of eigenvalues meets at 0.
+  std::optional<PointType> last_of_curve() const override { return PointType::bogdanov_takens; }
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   std::vector<PointType> test_types() const override { return {PointType::bogdanov_takens}; }

@@ -131,6 +131,12 @@ class Problem {
   virtual double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                          Gradient& gradient) const;
 
+  /// What derivative a branch over this parameter relies on that is not that of its function, in words; none
+  /// if none was found at this point. `tracked` are the observables whose extrema are looked for.
+  [[nodiscard]] virtual std::optional<std::string> wrong_derivative(const Vector& u, const Vector& p,
+                                                                    const Regime& regime, Index parameter,
+                                                                    const std::vector<Index>& tracked) const;
+
   /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any
   /// step. The tracer puts a point on each and refines towards it.
   virtual std::vector<double> landmarks(Index parameter, double from, double to) const;
