@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 #include <utility>
 
 #include "app/commands.hpp"
@@ -11,11 +12,13 @@
 #include "app/progress.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/certification.hpp"
+#include "arcslip/continuation/path/journal.hpp"
 #include "arcslip/results/results.hpp"
 #include "keys/printable.hpp"
 #include "results/certificate_results.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
+#include "results/run_checkpoint.hpp"
 #include "results/run_files.hpp"
 #include "results/stability_results.hpp"
 #include "results/verification_results.hpp"
@@ -71,6 +74,8 @@ class Run {
   void verify_branch(const TracedBranch& traced, RunFiles& files);
   void show(const std::string& text);
   void say_interrupted() const;
+  void note(const RunFiles& files, std::size_t requests, bool has_several);
+  void settle(const std::string& folder, bool is_whole);
 
   const RunOptions& options_;
   CaseFile file_;
@@ -82,27 +87,39 @@ class Run {
   std::size_t points_ = 0;
   bool complete_ = true;
   std::string unprinted_;  ///< why standard output cannot be written
+  std::mutex mutex_;
+  RunCheckpoint reached_;          ///< before the request under way
+  continuation::Journal journal_;  ///< of the request under way
 };
 
 int Run::execute() {
   require_provable(plan_, options_);
   file_.named("system", [&] { try_to_build(plan_.branch(0).problem); });
-  const OutputFolder folder(results_folder(options_.folder, options_.case_path));
+  const bool resumes = !options_.resume.empty();
+  if (resumes) reached_ = read_checkpoint(options_.resume, plan_, journal_);
+  const OutputFolder folder(resumes ? options_.resume : results_folder(options_.folder, options_.case_path));
   RunFiles files(folder.path(), plan_, options_.verify);
+  files.take_over(reached_.branches, reached_.header);
+  points_ = reached_.points;
+  complete_ = reached_.complete;
+  begun_ = ended_ = reached_.requests;
   const BeforeTheEnd finish_by_itself({});
   {
     const BeforeTheEnd write_what_there_is([&] {
       files.finish(seconds_since(start_), true);
+      settle(folder.path(), false);
       say_interrupted();
     });
     try {
-      for (std::size_t i = 0; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
+      for (std::size_t i = reached_.requests; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
     } catch (const InputError&) {
       files.finish(seconds_since(start_), true);
       throw;
     }
   }
-  files.finish(seconds_since(start_), interrupted() && (ended_ < plan_.count || !complete_));
+  const bool is_whole = !interrupted() || (ended_ == plan_.count && complete_);
+  files.finish(seconds_since(start_), !is_whole);
+  settle(folder.path(), is_whole);
   show(fmt::format("\n{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
                    plural(files.count(), "branch", "es"), points_, seconds_since(start_), folder.path()));
   if (ended_ < plan_.count) say_interrupted();
@@ -113,6 +130,10 @@ int Run::execute() {
 void Run::trace_request(std::size_t i, RunFiles& files) {
   CaseBranch request = plan_.branch(i);
   require_provable(request, options_);
+  const bool has_several = request.curve || request.switching || request.all_solutions || request.start ||
+                           request.problem.harmonics_tolerance || options_.verify || options_.certify;
+  if (i != reached_.requests || options_.resume.empty()) note(files, i, has_several);
+  request.options.journal = &journal_;
   request.options.go_on = [] { return !interrupted(); };
   begun_ = i + 1;
   ProgressLine line(!options_.quiet);
@@ -146,6 +167,20 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
     if (options_.verify) verify_branch(one, files);
   }
   ended_ = i + 1;
+}
+
+/// Where the run stands before a request.
+void Run::note(const RunFiles& files, std::size_t requests, bool has_several) {
+  const std::scoped_lock lock(mutex_);
+  reached_ = {requests, files.count(), points_, complete_, files.header()};
+  journal_.begin(has_several);
+}
+
+/// Leaves a checkpoint of what is not done.
+void Run::settle(const std::string& folder, bool is_whole) {
+  if (is_whole) return remove_checkpoint(folder);
+  const std::scoped_lock lock(mutex_);
+  write_checkpoint(folder, plan_, reached_, journal_);
 }
 
 void Run::report(const TracedBranch& traced, std::size_t number) {

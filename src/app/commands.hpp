@@ -23,6 +23,7 @@ struct RunOptions {
   bool quiet = false;
   bool verify = false;   ///< solve points of each branch anew, by other means
   bool certify = false;  ///< prove each branch by interval arithmetic
+  std::string resume;    ///< folder of the interrupted run to go on with; empty: none
 };
 
 /// Traces the branches, writes branches.csv, curves.csv and summary.json, prints the special points.

@@ -37,7 +37,7 @@ Exit status
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/curves.csv (more rows in between, for pictures), DIR/summary.json
 (special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
-as interrupted.
+as interrupted, with DIR/run.checkpoint, from which --resume DIR goes on to the same tables.
 
 A curve of peaks in two parameters: curve = "peak", parameters = ["eta", "P"], window = [0.5, 120.0] of eta, from = 0.1 and
 to = 100.0 of P. A case file has these keys, of which `arcslip help KEY` tells more; problems/figure_8.toml is one:
@@ -69,8 +69,12 @@ void add_settings(CLI::App* command, std::vector<std::string>& settings) {
 CLI::App* add_run_command(CLI::App& app, arcslip::RunOptions& options) {
   CLI::App* run = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
   run->add_option("CASE", options.case_path, "Case file (TOML)")->required();
-  run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
-      ->type_name("DIR");
+  CLI::Option* output =
+      run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
+          ->type_name("DIR");
+  run->add_option("--resume", options.resume, "Go on with the interrupted run of this case in DIR")
+      ->type_name("DIR")
+      ->excludes(output);
   add_settings(run, options.settings);
   run->add_flag("--quiet", options.quiet, "Print neither progress nor the table");
   run->add_flag(

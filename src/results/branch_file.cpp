@@ -1,6 +1,10 @@
 #include "results/branch_file.hpp"
 
+#include <cstdlib>
+#include <fstream>
 #include <utility>
+
+#include "results/output.hpp"
 
 namespace arcslip {
 
@@ -20,6 +24,25 @@ void BranchFile::add(Rows rows) {
   file_->write(rows.text);
   rows_ += rows.count;
   table_ = std::move(rows.table);
+}
+
+std::size_t BranchFile::take_over(std::size_t branches, const std::string& header) {
+  std::ifstream before(file_->path(), std::ios::binary);
+  std::string line;
+  std::getline(before, line);
+  try {
+    const BranchTable wide(line);
+    table_ = BranchTable(header);
+    widths_.emplace_back(0, table_);
+    file_->write(table_.header());
+    while (std::getline(before, line) && std::strtoul(line.c_str(), nullptr, 10) < branches) {
+      file_->write(wide.narrowed(line, table_) + "\n");
+      ++rows_;
+    }
+  } catch (const std::invalid_argument&) {
+    throw OutputError(file_->path() + ": the rows of the interrupted run are not there any more");
+  }
+  return rows_;
 }
 
 /// Branches with more harmonics have more columns: the rows before them get these as well.

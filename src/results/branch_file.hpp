@@ -24,6 +24,12 @@ class BranchFile {
 
   void add(Rows rows);
 
+  /// Adds the rows of the first so many branches from the file that stands there, whose table had the columns
+  /// of `header` when it had no others; gives their number. Throws OutputError where they are not there.
+  std::size_t take_over(std::size_t branches, const std::string& header);
+
+  std::string header() const { return table_.header(); }
+
   /// Gives all rows the same columns and brings them to the disk.
   void finish();
   void commit() { file_->commit(); }

@@ -18,8 +18,21 @@ bool tells_stability(const TracedBranch& traced) {
   return !traced.curve && !points.empty() && points.front().unstable >= 0;
 }
 
-constexpr std::size_t leading = 4;  // columns: branch, point, type, regime
+constexpr std::size_t leading = 4;      // columns: branch, point, type, regime
+constexpr std::ptrdiff_t trailing = 3;  // arclength, iterations, residual
 constexpr const char* no_stability = ",-1";
+
+std::vector<std::string> fields(std::string_view row) {
+  std::vector<std::string> all(1);
+  for (const char c : row) {
+    if (c == ',') {
+      all.emplace_back();
+    } else if (c != '\n') {
+      all.back() += c;
+    }
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -78,6 +91,28 @@ std::string BranchTable::widened(std::string_view row, const BranchTable& before
   for (std::size_t i = before.names_.size(); i < names_.size(); ++i) text += ",nan";
   if (stability_ && !before.stability_) text += no_stability;
   return text.append(row.substr(known));
+}
+
+BranchTable::BranchTable(std::string_view header) {
+  const std::vector<std::string> all = fields(header);
+  const auto arclength = std::find(all.begin(), all.end(), "arclength");
+  if (arclength - all.begin() < static_cast<std::ptrdiff_t>(leading) || all.end() - arclength < trailing)
+    throw std::invalid_argument("BranchTable: this is not the header of a table of branches");
+  stability_ = *std::prev(arclength) == "unstable";
+  names_.assign(all.begin() + leading, arclength - (stability_ ? 1 : 0));
+  physical_.assign(arclength + trailing, all.end());
+}
+
+std::string BranchTable::narrowed(std::string_view row, const BranchTable& before) const {
+  std::string text;
+  const std::vector<std::string> all = fields(row);
+  const std::size_t known = leading + before.names_.size();
+  const std::size_t unknown =
+      names_.size() - before.names_.size() + (stability_ && !before.stability_ ? 1 : 0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i < known || i >= known + unknown) text += (text.empty() ? "" : ",") + all[i];
+  }
+  return text;
 }
 
 void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink) {

@@ -32,7 +32,8 @@ pid_t owner_of(std::string_view name) {
     if (dot == std::string_view::npos) return 0;
     const std::string_view digits = name.substr(dot + 1);
     const fs::path of_result = name.substr(0, dot);
-    constexpr std::array endings = {".csv", ".json", ".sqlite", ".png", ".svg", ".mtx", ".txt", ".toml"};
+    constexpr std::array endings = {".csv", ".json", ".sqlite", ".png",       ".svg",
+                                    ".mtx", ".txt",  ".toml",   ".checkpoint"};
     if (std::find(endings.begin(), endings.end(), of_result.extension()) == endings.end()) return 0;
     pid_t process = 0;
     const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);

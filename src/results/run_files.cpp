@@ -1,12 +1,15 @@
 #include "results/run_files.hpp"
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "arcslip/continuation/path/polyline.hpp"
 #include "arcslip/version.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
+#include "results/output.hpp"
 
 namespace arcslip {
 namespace {
@@ -42,6 +45,23 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
+}
+
+void RunFiles::take_over(std::size_t branches, const std::string& header) {
+  if (branches == 0) return;
+  const ordered_json summary = run_summary(folder_).value_or(ordered_json::object());
+  if (!summary.contains("branches") || summary["branches"].size() < branches)
+    throw OutputError(folder_ + "/summary.json: the branches of the interrupted run are not there any more");
+  branches_.take_over(branches, header);
+  curve_rows_ = curves_.take_over(branches, header);
+  for (std::size_t i = 0; i < branches; ++i) summary_.add(summary["branches"][i]);
+  count_ = branches;
+  if (!verification_) return;
+  std::ifstream before(folder_ + "/verify.csv", std::ios::binary);
+  std::string line;
+  std::getline(before, line);
+  while (std::getline(before, line) && std::strtoul(line.c_str(), nullptr, 10) < branches)
+    verification_->write(line + "\n");
 }
 
 void RunFiles::add(const TracedBranch& traced) {

@@ -19,6 +19,12 @@ class RunFiles {
   /// The folder is there. Throws OutputError, as all that follows.
   RunFiles(const std::string& folder, const CasePlan& plan, bool verified);
 
+  /// Begins with the results that stand in the folder, of the first so many branches of an interrupted run.
+  /// The header is that of its table by then.
+  void take_over(std::size_t branches, const std::string& header);
+
+  std::string header() const { return branches_.header(); }
+
   /// The next branch. What is told of it afterwards is added to its summary.
   void add(const TracedBranch& traced);
 

@@ -40,7 +40,8 @@ TEST_CASE("A verification that is interrupted has status 3, and what is there of
     const Outcome outcome = run.wait();
     CHECK(outcome.status == 3);
     CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
-    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json", "verify.csv"});
+    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "curves.csv", "run.checkpoint", "summary.json",
+                                               "verify.csv"});
     const auto rows = read_csv(r + "/verify.csv");
     CHECK(rows.back().at(2) == "interrupted");
     CHECK(rows.back().size() == rows.front().size());
@@ -63,7 +64,8 @@ TEST_CASE("A terminal that is closed leaves what was traced, and no temporary fi
   REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
   run.signal(SIGHUP);
   CHECK(run.wait().status == 3);
-  CHECK(names_in(folder.path("r")) == run_results);
+  CHECK(names_in(folder.path("r")) ==
+        std::set<std::string>{"branches.csv", "curves.csv", "run.checkpoint", "summary.json"});
   const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
   CHECK(summary["interrupted"] == true);
   CHECK(summary["branches"].size() == 1);
@@ -148,4 +150,75 @@ TEST_CASE("gnuplot ends with the program that wants its pictures, whatever ends 
     }
     CHECK(names_in(folder.path("r")) == run_results);
   }
+}
+
+namespace {
+
+/// The run of a case, interrupted as soon as it draws its line, once more when it is gone on with, and then
+/// brought to its end: against the same run done at once.
+void check_resumed(const std::string& path, const std::vector<std::string>& settings) {
+  const TemporaryFolder folder;
+  std::string words;
+  std::vector<std::string> run = {"run", path};
+  for (const std::string& setting : settings) {
+    run.insert(run.end(), {"--set", setting});
+    words += " --set " + setting;
+  }
+  const Outcome whole = arcslip_program("run " + path + words + " --quiet -o " + folder.path("whole"));
+  CAPTURE(path, whole.err);
+  for (const char* into : {"-o", "--resume"}) {
+    std::vector<std::string> words_of_run = run;
+    words_of_run.insert(words_of_run.end(), {into, folder.path("r")});
+    Terminal terminal;
+    Background work(words_of_run, [&] { terminal.take(); });
+    REQUIRE(work.wait_until([&] { return terminal.drawn() > 0; }));
+    work.signal(SIGINT);
+    CHECK(work.wait().status == 3);
+    REQUIRE(names_in(folder.path("r")).contains("run.checkpoint"));
+  }
+  const Outcome rest = arcslip_program("run " + path + words + " --quiet --resume " + folder.path("r"));
+  INFO(rest.err);
+  CHECK(rest.status == whole.status);
+  CHECK(names_in(folder.path("r")) == run_results);
+  for (const char* name : {"/branches.csv", "/curves.csv"})
+    CHECK(read(folder.path("r") + name) == read(folder.path("whole") + name));
+}
+
+}  // namespace
+
+TEST_CASE("An interrupted run goes on to the tables of one that was not", "[interrupt]") {
+  SECTION("several branches, the harmonics of which differ") {
+    check_resumed(figure_8_case,
+                  {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=15", "continuation.max_step=0.01"});
+  }
+  SECTION("branches that are switched to") {
+    check_resumed(figure_8_case, {"branch.for_each.preload=[5.0]", "branch.switching=true",
+                                  "system.harmonics=9", "continuation.max_step=0.005"});
+  }
+  SECTION("a curve in two parameters") {
+    check_resumed(case_named("lorenz84_hopf_curve"), {"continuation.max_step=1e-4"});
+  }
+}
+
+TEST_CASE("Only an interrupted run of the same case is gone on with", "[interrupt]") {
+  const TemporaryFolder folder;
+  const std::string r = folder.path("r");
+  const auto resumed = [&](const std::string& more) {
+    const Outcome outcome = arcslip_program("run " + figure_8_case + " --resume " + r + more);
+    CHECK(outcome.status == 1);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    return outcome.err;
+  };
+  CHECK_THAT(resumed(""), ContainsSubstring("there is no interrupted run"));
+  Terminal terminal;
+  Background run(endless_run(r), [&] { terminal.take(); });
+  REQUIRE(run.wait_until([&] { return terminal.drawn() > 0; }));
+  run.signal(SIGINT);
+  CHECK(run.wait().status == 3);
+  const auto tables = read(r + "/branches.csv");
+  CHECK_THAT(resumed(""), ContainsSubstring("a run of another case, which differs in"));
+  CHECK(read(r + "/branches.csv") == tables);
+  folder.write("r/run.checkpoint", "arcslip-run-checkpoint-1\n{}\n");
+  CHECK_THAT(resumed(""), ContainsSubstring("it is damaged"));
+  CHECK(arcslip_program("run " + figure_8_case + " --resume " + r + " -o " + r).status == 2);
 }

@@ -25,6 +25,11 @@ class BranchTable {
   /// verdict, which takes much longer than all else.
   enum class Detail { full, drawn };
 
+  BranchTable() = default;
+
+  /// With the columns that `header` gives.
+  explicit BranchTable(std::string_view header);
+
   /// The columns of a branch are added to those of the branches before it.
   void widen(const TracedBranch& traced);
 
@@ -36,6 +41,9 @@ class BranchTable {
 
   /// A row that was made when `before` had fewer columns, with those that were added since.
   std::string widened(std::string_view row, const BranchTable& before) const;
+
+  /// A row of this table without the columns that `before` had not.
+  std::string narrowed(std::string_view row, const BranchTable& before) const;
 
   /// Whether both have the same columns.
   bool operator==(const BranchTable&) const = default;

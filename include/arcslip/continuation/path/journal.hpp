@@ -21,8 +21,8 @@ struct JournalEntry {
 /// last one may have been interrupted.
 class Journal {
  public:
-  /// Of work with a single branch that one is kept only where it was interrupted: once it is whole the work is
-  /// done.
+  /// Of work with a single branch that one is kept only where it was interrupted: once it is whole the work
+  /// is done.
   void begin(bool has_several);
 
   /// The next branch: as it is known, gone on with if it was interrupted, else begun. One that is interrupted
