@@ -212,7 +212,8 @@ TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
   const Outcome outcome = run.wait();
   CHECK(outcome.status == 3);
   CHECK_THAT(outcome.out, ContainsSubstring("interrupted"));
-  CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
+  CHECK(names_in(folder.path("r")) ==
+        std::set<std::string>{"branches.csv", "curves.csv", "run.checkpoint", "summary.json"});
   const auto summary = nlohmann::json::parse(read(folder.path("r/summary.json")));
   CHECK(summary["branches"][0]["stop"] == "interrupted");
   CHECK(summary["branches"][0]["points"].get<std::size_t>() + 1 ==
