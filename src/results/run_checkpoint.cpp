@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "arcslip/version.hpp"
 #include "keys/printable.hpp"
 #include "results/atomic_file.hpp"
 
@@ -29,9 +30,12 @@ std::string difference(const nlohmann::json& then, const nlohmann::json& now) {
 
 void write_checkpoint(const std::string& folder, const CasePlan& plan, const RunCheckpoint& checkpoint,
                       const continuation::Journal& journal) {
-  const ordered_json head = {{"arcslip", ARCSLIP_VERSION},      {"case", plan.resolved},
-                             {"requests", checkpoint.requests}, {"branches", checkpoint.branches},
-                             {"points", checkpoint.points},     {"complete", checkpoint.complete},
+  const ordered_json head = {{"arcslip", release},
+                             {"case", plan.resolved},
+                             {"requests", checkpoint.requests},
+                             {"branches", checkpoint.branches},
+                             {"points", checkpoint.points},
+                             {"complete", checkpoint.complete},
                              {"header", checkpoint.header}};
   std::ostringstream text;
   text << signature << '\n' << head.dump() << '\n';
@@ -57,9 +61,8 @@ RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan,
     if (first != signature) throw refuse("it is no checkpoint of a run");
     const auto head = nlohmann::json::parse(line);
     const auto version = head.at("arcslip").get<std::string>();
-    if (version != ARCSLIP_VERSION)
-      throw refuse(
-          fmt::format("it was begun by arcslip {}, this is {}", printable(version), ARCSLIP_VERSION));
+    if (version != release)
+      throw refuse(fmt::format("it was begun by arcslip {}, this is {}", printable(version), release));
     const auto other = difference(head.at("case"), nlohmann::json::parse(ordered_json(plan.resolved).dump()));
     if (!other.empty()) throw refuse(fmt::format("it is a run of another case, which differs in {}", other));
     journal.read(file);
