@@ -89,6 +89,23 @@ std::vector<ExtremumLedge> ExtremumTracer::ledges(const Place& place) {
   return all;
 }
 
+/// The side beyond a border on both sides of which the response has one slope where the curve comes to it:
+/// there nothing but the regime changes.
+std::optional<CornerSlopes::Side> ExtremumTracer::smooth_side(const Place& place) {
+  constexpr double same = 1e-7;  // of slopes of which one vanishes
+  const Regime& regime = place.at.regime;
+  for (int b = 0; b < base_.border_count(regime); ++b) {
+    const double value = base_.border(place.at.unknowns, place.at.parameters, regime, b, nullptr);
+    if (!(std::abs(value) <= on_border) || !slopes_.begin(place.at, b)) continue;
+    const double before = slopes_.slope(place.at, CornerSlopes::arriving);
+    const double behind = slopes_.slope(place.at, CornerSlopes::leaving);
+    if (!(std::max(std::abs(before), std::abs(behind)) <= same)) continue;
+    border_ = b;
+    return slopes_.regime(CornerSlopes::leaving) == regime ? CornerSlopes::arriving : CornerSlopes::leaving;
+  }
+  return std::nullopt;
+}
+
 /// Goes on along a border: as a peak where it came as one, straight on if there are several.
 bool ExtremumTracer::leave(const Place& place) {
   if (is_satisfied()) return false;
@@ -100,6 +117,9 @@ bool ExtremumTracer::leave(const Place& place) {
   };
   const auto best = std::max_element(all.begin(), all.end(),
                                      [&](const Ledge& a, const Ledge& b) { return rank(a) < rank(b); });
+  if (best == all.end()) {
+    if (const auto side = smooth_side(place)) return enter(*side);
+  }
   if (best == all.end()) {
     stop(
         Stop::grazing_border,

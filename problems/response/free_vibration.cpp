@@ -42,7 +42,7 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
     order.compliance_eta += by_eta;
     order.compliance_damping += by_damping;
     for (Index j = 0; j < m; ++j) {
-      const double square = std::pow(coordinates_.element(j).reference_stiffness(), 2);
+      const double square = std::pow(reference_stiffness(j, u, p), 2);
       order.norm += square * compliance.col(j).squaredNorm();
       order.norm_eta += 2 * square * std::real(compliance.col(j).dot(by_eta.col(j)));
       order.norm_damping += 2 * square * std::real(compliance.col(j).dot(by_damping.col(j)));
@@ -57,7 +57,7 @@ bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuatio
                              const continuation::Evaluation& out) const {
   if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 && load(u, p) > 0))
     return false;
-  for (Index i = 1; i < contacts(); ++i) {
+  for (Index i = 1; i < switch_count(); ++i) {
     if (slips(regime, i) && motion(u, p, i).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;

@@ -42,7 +42,7 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
 
 bool HarmonicCycle::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
-  return !all_stick(regime) && FreeVibration::evaluate(u, p, regime, out);
+  return !contacts_stick(regime) && FreeVibration::evaluate(u, p, regime, out);
 }
 
 void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -54,7 +54,7 @@ void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
 std::optional<continuation::Regime> HarmonicCycle::regime_beyond(const continuation::Regime& regime,
                                                                  int border) const {
   const auto beyond = HarmonicProblem::regime_beyond(regime, border);
-  return all_stick(*beyond) ? std::nullopt : beyond;
+  return contacts_stick(*beyond) ? std::nullopt : beyond;
 }
 
 struct HarmonicCycle::Found {
@@ -73,8 +73,8 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
   const NonlinearMode problem(damped);
   double first = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < contacts(); ++i) {
-    const double S = coordinates_.element(i).slip_threshold(
-        preload_value + system_.preload_growth * mode.frequency * mode.frequency);
+    const double S = coordinates_.element(i).threshold(preload_value + system_.preload_growth *
+                                                                           mode.frequency * mode.frequency);
     first = std::min(first, stuck * S * std::abs(mode.relative(0) / mode.relative(i)));
   }
   // The first contact may stand still, or what is stuck not vibrate.
@@ -94,7 +94,7 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
     const BranchPoint& b = branch.points[k + 1];
     const double at_a = a.unknowns(NonlinearMode::damping);
     const double at_b = b.unknowns(NonlinearMode::damping);
-    if (all_stick(a.regime) || (at_a < 0) == (at_b < 0)) continue;
+    if (contacts_stick(a.regime) || (at_a < 0) == (at_b < 0)) continue;
     const double part = at_a / (at_a - at_b);
     Guess guess{a.unknowns + part * (b.unknowns - a.unknowns), Vector(2), a.regime};
     guess.unknowns(Unknown::amplitude) = a.parameters(0) + part * (b.parameters(0) - a.parameters(0));

@@ -28,10 +28,10 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
   bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                 const continuation::Evaluation& out) const override {
     continuation::Evaluation inner = out;
-    Matrix columns(size(), 3);
+    Matrix columns(size(), parameters_.size() + 1);
     if (out.parameter_jacobian != nullptr) inner.parameter_jacobian = &columns;
     if (!response_.evaluate(u, parameters_, regime, p(0), inner)) return false;
-    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = columns.col(2);
+    if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = columns.rightCols<1>();
     return true;
   }
 
@@ -46,7 +46,7 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
   double border(const Vector& u, const Vector& /*p*/, const Regime& regime, int border,
                 Gradient* gradient) const override {
     if (gradient == nullptr) return response_.border(u, parameters_, regime, border, nullptr);
-    Gradient inner{Vector(size()), Vector(2)};
+    Gradient inner{Vector(size()), Vector(parameters_.size())};
     const double value = response_.border(u, parameters_, regime, border, &inner);
     gradient->unknowns = inner.unknowns;
     gradient->parameters.setZero();
@@ -85,17 +85,28 @@ Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& 
 
 Guess HarmonicResponse::guess(double eta_value, double preload_value,
                               const continuation::TraceOptions& limits) const {
-  Guess guess{Vector::Zero(size()), Vector(2), 0};
-  guess.parameters << eta_value, preload_value;
-  if (!(eta_value > 0 && preload_value > 0 && load(guess.parameters) > 0))
+  Vector parameters(2);
+  parameters << eta_value, preload_value;
+  if (is_varied()) {
+    parameters.conservativeResize(3);
+    parameters(further) = system_.varied->value;
+  }
+  return guess(parameters, limits);
+}
+
+Guess HarmonicResponse::guess(const Vector& parameters, const continuation::TraceOptions& limits) const {
+  Guess guess{Vector::Zero(size()), parameters, 0};
+  if (!has_value(parameters))
     throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
-  ContactReceptance joint;
-  coordinates_.receptance(system_.base[0], system_.damper[0], eta_value, joint);
-  ContactMatrix stuck = joint.compliance;
-  for (Index j = 0; j < coordinates_.size(); ++j)
-    stuck.col(j) *= j < contacts() ? coordinates_.element(j).reference_stiffness() : 0;
-  stuck.diagonal().array() += 1;
-  const ContactVector x = -(stuck.partialPivLu().solve(joint.free));
+  const double preload_value = parameters(preload);
+  Order order;
+  set_order(0, parameters, 0, order);
+  ContactMatrix stuck = order.joint.compliance;  // but for elements beside the contacts
+  for (Index j = contacts(); j < coordinates_.size(); ++j) {
+    stuck.col(j).setZero();
+    stuck(j, j) = 1;
+  }
+  const ContactVector x = -(stuck.partialPivLu().solve(order.joint.free));
   double holding = 0;  // load over that which lets nothing slip
   for (Index i = 0; i < coordinates_.size(); ++i) {
     guess.unknowns(2 * i * harmonics()) = x(i).real();
@@ -105,13 +116,12 @@ Guess HarmonicResponse::guess(double eta_value, double preload_value,
   if (!coordinates_.has_others()) {
     if (holding <= 1) return guess;
     guess.parameters(preload) =
-        1.5 * holding * load(guess.parameters) - load(guess.parameters) + preload_value;
+        1.5 * holding * pressing({}, parameters) - pressing({}, parameters) + preload_value;
     return reached(*this, guess, preload, preload_value, limits);
   }
   constexpr double small = 1e-3;  // of the force under which the linear response does
   const double share = linear_share(guess, small / std::max(1.0, holding));
   guess.unknowns *= share;
-  const Vector parameters = guess.parameters;
   guess.parameters = Vector::Constant(1, share);
   guess = reached(LoadPath(*this, parameters), guess, 0, 1, limits);
   guess.parameters = parameters;

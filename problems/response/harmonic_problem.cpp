@@ -22,6 +22,24 @@ HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
   check(system_);
 }
 
+bool HarmonicProblem::contacts_stick(const continuation::Regime& regime) const {
+  for (Index i = 0; i < contacts(); ++i) {
+    if (slips(regime, i)) return false;
+  }
+  return true;
+}
+
+/// What the contacts do, then what each further element does that is beyond its border, of several by number.
+std::string HarmonicProblem::describe(const continuation::Regime& regime) const {
+  std::string name = slip_name(regime, contacts());
+  for (Index i = contacts(); i < switch_count(); ++i) {
+    if (regime[i] == 0) continue;
+    name += " " + coordinates_.element(i).beyond();
+    if (switch_count() > contacts() + 1) name += fmt::format(" {}", i - contacts() + 1);
+  }
+  return name;
+}
+
 HarmonicProblem::Forces& HarmonicProblem::last_forces() {
   thread_local Forces last;
   return last;
@@ -47,8 +65,10 @@ const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const 
   last.regime = regime;
   last.of_elements.resize(at(coordinates_.size()));
   for (Index i = 0; i < coordinates_.size(); ++i) {
+    ElementForce& force = last.of_elements[at(i)];
     coordinates_.element(i).force(system_.orders, motion(u, p, i), load(u, p), slips(regime, i), derivatives,
-                                  last.of_elements[at(i)]);
+                                  force);
+    if (const double factor = force_factor(i, u, p); factor != 1) force.scale(factor, derivatives);
   }
   return last.of_elements;
 }
@@ -67,6 +87,12 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
                               const Vector& p, Response& response) const {
   const double h = system_.orders[at(order)];
   const double eta = frequency(u, p);
+  if (is_varied()) {
+    respond_varied(structure, is_base, h * eta, variation(u, p), response);
+    response.compliance_eta *= h;
+    response.free_eta *= h;
+    return;
+  }
   if (layout_.damping.of == Place::nowhere) {
     static_cast<ContactReceptance&>(response) = structure.at(h * eta);
     response.compliance_eta *= h;
@@ -84,12 +110,24 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
   } else {
     rate = {};
   }
-  DampedReceptance found = structure.damped(h * eta, loss, rate);
+  Variation along = Variation::none();
+  along.loss = rate;
+  const VariedReceptance found = structure.varied(h * eta, {.loss = loss}, along);
   response.set_zero(structure.contacts());
   response.compliance = found.compliance;
   response.compliance_eta = h * found.compliance_eta;
-  if (!layout_.of_base) response.compliance_eta -= 2 * zeta * found.compliance_loss;
-  response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_loss;
+  if (!layout_.of_base) response.compliance_eta -= 2 * zeta * found.compliance_rate;
+  response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_rate;
+}
+
+void HarmonicProblem::respond_varied(const ContactModes& structure, bool is_base, double frequency_value,
+                                     const SystemParameter::At& at_value, Response& response) const {
+  const auto& [here, rate] = at_value;
+  VariedReceptance found =
+      structure.varied(frequency_value, is_base ? here.base : here.damper, is_base ? rate.base : rate.damper);
+  static_cast<ContactReceptance&>(response) = found;
+  response.by_varied = found.compliance_rate;
+  response.free_by_varied = found.free_rate;
 }
 
 HarmonicProblem::Place HarmonicProblem::place_of(Index unknown) const {
@@ -104,9 +142,12 @@ void HarmonicProblem::add(const Place& place, double value, continuation::Gradie
 
 void HarmonicProblem::add_log_load(double value, const Vector& u, const Vector& p,
                                    continuation::Gradient& gradient) const {
-  const double by_load = value / load(u, p);
+  const double by_load = value / pressing(u, p);
   add(layout_.preload, by_load, gradient);
   add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load, gradient);
+  if (!is_varied()) return;
+  const auto [here, rate] = variation(u, p);
+  add(layout_.varied, value * rate.slip_per_preload / here.slip_per_preload, gradient);
 }
 
 int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
@@ -176,7 +217,7 @@ class HarmonicProblem::Observation {
   /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics.
   double dissipated(Index contact) {
     const double S = problem_.slip_threshold(contact, u_, p_);
-    const double unit = system_.contacts[at(contact)].stiffness * S * S;
+    const double unit = problem_.reference_stiffness(contact, u_, p_) * S * S;
     const ElementForce& element = elements_[at(contact)];
     if (gradient_ != nullptr) {
       const HarmonicVector x = problem_.motion(u_, p_, contact);
@@ -186,6 +227,11 @@ class HarmonicProblem::Observation {
         add_motion(contact, a, -per * element.harmonics(a));
       }
       threshold(contact, -2 * element.energy / (unit * S));
+      if (problem_.is_varied()) {
+        const auto [here, rate] = problem_.variation(u_, p_);
+        add(problem_.layout_.varied,
+            -element.energy / unit * rate.contact_stiffness / here.contact_stiffness);
+      }
     }
     return element.energy / unit;
   }
@@ -221,6 +267,11 @@ class HarmonicProblem::Observation {
     add(problem_.layout_.eta, std::real(std::conj(weight) * by_eta));
     if (problem_.layout_.damping.of != Place::nowhere)
       add(problem_.layout_.damping, std::real(std::conj(weight) * row.times(row.response.by_damping)));
+    if (problem_.is_varied()) {
+      Complex by_varied = row.times(row.response.by_varied);
+      if (of == Body::output) by_varied += row.response.free_by_varied(row.index);
+      add(problem_.layout_.varied, std::real(std::conj(weight) * by_varied));
+    }
     for (Index j = 0; j < problem_.coordinates(); ++j) {
       const double share = problem_.coordinates_[j].push(row.is_base);
       if (share == 0) continue;
@@ -244,6 +295,11 @@ class HarmonicProblem::Observation {
       add_motion(coordinate, b, {std::real(linear + conjugate), -std::imag(linear - conjugate)});
     }
     add_log_load(std::real(w * element.by_log_load(order)));
+    if (!problem_.is_varied()) return;
+    const auto [here, rate] = problem_.variation(u_, p_);
+    add(problem_.layout_.varied, std::real(w * element.harmonics(order)) *
+                                     problem_.force_rate(coordinate, rate) /
+                                     problem_.force_factor(coordinate, here));
   }
 
   void add_log_load(double value) {

@@ -24,6 +24,7 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                                           .preload = {Place::parameters, preload},
                                           .real = {Place::unknowns, 0},
                                           .imaginary = {Place::unknowns, 1}}) {
+  if (system_.varied) layout_.varied = {Place::parameters, further};
   quantities_ = {{"R", Measure::amplitude},
                  {"S", Measure::threshold},
                  {"R_over_S", Measure::ratio},
@@ -44,6 +45,12 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
   add_higher_harmonics();
 }
 
+std::vector<std::string> HarmonicResponse::parameter_names() const {
+  std::vector<std::string> names = {"eta", "P"};
+  if (is_varied()) names.push_back(system_.varied->name);
+  return names;
+}
+
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {
   return HarmonicProblem::motion(u, {}, coordinate);
 }
@@ -60,19 +67,43 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   return sum;
 }
 
-void HarmonicResponse::set_order(Index which, double eta_value, const continuation::Regime& regime,
+/// Compliance and free response of one order, with their derivatives by the further parameter.
+void HarmonicResponse::set_varied(Order& order, double frequency_value, const Vector& p) const {
+  const auto [here, rate] = variation({}, p);
+  VariedReceptance base = system_.base[at(order.which)].varied(frequency_value, here.base, rate.base);
+  VariedReceptance damper = system_.damper[at(order.which)].varied(frequency_value, here.damper, rate.damper);
+  coordinates_.join(base, damper, order.joint);
+  base.compliance.swap(base.compliance_rate);
+  base.free.swap(base.free_rate);
+  damper.compliance.swap(damper.compliance_rate);
+  damper.free.swap(damper.free_rate);
+  ContactReceptance rates;
+  coordinates_.join(base, damper, rates);
+  order.by_varied = rates.compliance;
+  order.free_by_varied = rates.free;
+  for (Index j = 0; j < coordinates_.size(); ++j)
+    order.by_varied.col(j) += order.joint.compliance.col(j) * (force_rate(j, rate) / force_factor(j, here));
+}
+
+void HarmonicResponse::set_order(Index which, const Vector& p, const continuation::Regime& regime,
                                  Order& order) const {
   const double h = system_.orders[at(which)];
   ContactReceptance& joint = order.joint;
   order.which = which;
-  coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * eta_value, joint);
+  if (is_varied()) {
+    set_varied(order, h * p(eta), p);
+  } else {
+    coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * p(eta), joint);
+  }
   if (all_stick(regime) && which > 0 &&
       !coordinates_.has_others()) {  // x_h = 0, also where C_h has a resonance
     joint.compliance.setZero();
     joint.compliance_eta.setZero();
+    order.by_varied.setZero();
   }
   for (Index j = 0; j < coordinates_.size(); ++j) {
-    const double stiffness = coordinates_.element(j).reference_stiffness();
+    const double stiffness = reference_stiffness(j, {}, p);
+    if (is_varied()) order.by_varied.col(j) *= stiffness;
     joint.compliance.col(j) *= stiffness;
     joint.compliance_eta.col(j) *= h * stiffness;
   }
@@ -102,8 +133,8 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
 /// for it.
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                 double share, const continuation::Evaluation& out) const {
-  if (!(p(eta) > 0 && p(preload) > 0 && load(p) > 0 && u.squaredNorm() > 0)) return false;
-  for (Index i = 0; i < contacts(); ++i) {
+  if (!(has_value(p) && u.squaredNorm() > 0)) return false;
+  for (Index i = 0; i < switch_count(); ++i) {
     if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
@@ -111,7 +142,7 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
   thread_local Rows rows;
   fill_rows(elements, share, u, p, regime, rows, out.parameter_jacobian);
   if (out.residual != nullptr) *out.residual = rows.residual;
-  if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, regime, *out.jacobian);
+  if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, p, regime, *out.jacobian);
   return true;
 }
 
@@ -122,7 +153,7 @@ void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, doub
   rows.weight.resize(harmonics());
   rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
   for (Index a = 0; a < harmonics(); ++a) {
-    set_order(a, p(eta), regime, rows.order);
+    set_order(a, p, regime, rows.order);
     fill_order(rows.order, elements, share, u, p, rows, parameter_jacobian);
   }
 }
@@ -132,7 +163,7 @@ void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vec
                             Matrix& parameter_jacobian) const {
   Rows rows;
   fill_rows(elements, 1, u, p, regime, rows, &parameter_jacobian);
-  fill_jacobian(rows, elements, u, regime, jacobian);
+  fill_jacobian(rows, elements, u, p, regime, jacobian);
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
@@ -144,7 +175,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
   for (Index j = 0; j < m; ++j) {
     const Index row = 2 * (j * harmonics() + which);
-    order.f(j) = elements[at(j)].harmonics(which) / coordinates_.element(j).reference_stiffness();
+    order.f(j) = elements[at(j)].harmonics(which) / reference_stiffness(j, {}, p);
     order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + share * order.joint.free(j);
   }
   order.held.noalias() = order.inverse * order.gap;
@@ -160,32 +191,49 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   }
   if (parameter_jacobian == nullptr) return;
   ContactVector& column = order.gap;
-  Complex slope = 0;  // of the weight's logarithm, over its square
-  for (Index j = 0; j < m; ++j) {
-    order.f.noalias() = order.joint.compliance_eta * order.inverse.col(j);
-    column.noalias() = order.inverse * order.f;
-    slope += order.inverse.col(j).dot(column);
-  }
   for (Index j = 0; j < m; ++j)
-    order.f(j) = elements[at(j)].by_log_load(which) / coordinates_.element(j).reference_stiffness();
+    order.f(j) = elements[at(j)].by_log_load(which) / reference_stiffness(j, {}, p);
   column = order.f;
   column.noalias() -= order.inverse * order.f;  // by the logarithm of the load
-  column *= weight / load(p);
+  column *= weight / pressing({}, p);
   store(column, which, harmonics(), parameter_jacobian->col(preload));
-  order.f = share * order.joint.free_eta;
-  order.f.noalias() -= order.joint.compliance_eta * order.held;
+  if (is_varied()) {
+    const ContactVector by_preload = column;
+    const auto [here, rate] = variation({}, p);
+    column *= pressing({}, p) * rate.slip_per_preload / here.slip_per_preload;
+    add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
+    store(column, which, harmonics(), parameter_jacobian->col(further));
+    column = by_preload;
+  }
   column *= 2 * system_.preload_growth * p(eta);
-  column += (order.weight * order.weight * slope.real()) * order.residual;
-  column.noalias() += weight * (order.inverse * order.f);
+  add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
-  if (parameter_jacobian->cols() == 2) return;
+  const Index by_share = is_varied() ? further + 1 : further;
+  if (parameter_jacobian->cols() == by_share) return;
   column.noalias() = weight * (order.inverse * order.joint.free);
-  store(column, which, harmonics(), parameter_jacobian->col(2));
+  store(column, which, harmonics(), parameter_jacobian->col(by_share));
+}
+
+/// Adds to the column in `gap` what changes of 1 + C_h K and of -x0 do, and of the weight by them.
+void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compliance,
+                                       const ContactVector& free, double share, double weight) const {
+  Complex slope = 0;  // of the weight's logarithm, over its square
+  ContactVector turned;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    order.f.noalias() = compliance * order.inverse.col(j);
+    turned.noalias() = order.inverse * order.f;
+    slope += order.inverse.col(j).dot(turned);
+  }
+  order.f = share * free;
+  order.f.noalias() -= compliance * order.held;
+  order.gap += (order.weight * order.weight * slope.real()) * order.residual;
+  order.gap.noalias() += weight * (order.inverse * order.f);
 }
 
 /// Column by column, in which the harmonics of a coordinate's rows follow one another.
 void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
-                                     const continuation::Regime& regime, Matrix& jacobian) const {
+                                     const Vector& p, const continuation::Regime& regime,
+                                     Matrix& jacobian) const {
   const Index n = harmonics();
   const Index m = coordinates_.size();
   jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();
@@ -196,7 +244,7 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
     jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
     if (is_linear(regime, from)) continue;  // f = x
     const ElementForce& element = elements[at(from)];
-    const double per_k = 1 / coordinates_.element(from).reference_stiffness();
+    const double per_k = 1 / reference_stiffness(from, {}, p);
     rows.sum = (element.linear.col(order) + element.conjugate.col(order)) * per_k;
     rows.difference = (element.linear.col(order) - element.conjugate.col(order)) * Complex(0, per_k);
     rows.sum(order) -= 1;

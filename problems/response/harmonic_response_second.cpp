@@ -12,32 +12,46 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
                               const Vector& w, const Vector& du, const Vector& dp, Vector& out) const {
   if (!evaluate(u, p, regime, {})) return false;
   const std::vector<ElementForce> elements = forces(u, p, regime, true);
-  const double log_load = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / load(p);
+  double log_load = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / pressing({}, p);
+  std::optional<SystemParameter::At> varied;
+  if (is_varied()) {
+    varied = variation({}, p);
+    log_load += varied->rate.slip_per_preload / varied->here.slip_per_preload * dp(further);
+  }
   std::vector<ElementForce> changes;
   for (Index i = 0; i < coordinates_.size(); ++i) {
-    changes.push_back(coordinates_.element(i).change(elements[static_cast<std::size_t>(i)], system_.orders,
-                                                     motion(u, i), load(p), slips(regime, i), motion(du, i),
-                                                     log_load));
+    const double factor = force_factor(i, u, p);
+    ElementForce unscaled = elements[static_cast<std::size_t>(i)];
+    unscaled.scale(1 / factor, true);
+    ElementForce change = coordinates_.element(i).change(unscaled, system_.orders, motion(u, i), load(p),
+                                                         slips(regime, i), motion(du, i), log_load);
+    change.scale(factor, true);
+    if (varied) {
+      const double rate = force_rate(i, varied->rate) / force_factor(i, varied->here);
+      change.add(elements[static_cast<std::size_t>(i)], rate * dp(further));
+    }
+    changes.push_back(std::move(change));
   }
+  const Index parameters = p.size();
   Matrix jacobian(size(), size());
-  Matrix parameter_jacobian(size(), 2);
+  Matrix parameter_jacobian(size(), parameters);
   const auto along = [&](double h, Vector& value) {
     const Vector moved = p + h * dp;
-    if (!(moved(eta) > 0 && moved(preload) > 0 && load(moved) > 0)) return false;
+    if (!has_value(moved)) return false;
     std::vector<ElementForce> there = elements;
     for (std::size_t k = 0; k < there.size(); ++k) there[k].add(changes[k], h);
     fill(there, u + h * du, moved, regime, jacobian, parameter_jacobian);
-    value.resize(size() + 2);
+    value.resize(size() + parameters);
     value << jacobian.transpose() * w, parameter_jacobian.transpose() * w;
     return value.allFinite();
   };
   Vector unknown_scale(size());
-  Vector parameter_scale(2);
+  Vector parameter_scale(parameters);
   scale(u, p, unknown_scale, parameter_scale);
   const double length = std::max(du.cwiseQuotient(unknown_scale).lpNorm<Eigen::Infinity>(),
                                  dp.cwiseQuotient(parameter_scale).lpNorm<Eigen::Infinity>());
   if (!(length > 0)) {
-    out.setZero(size() + 2);
+    out.setZero(size() + parameters);
     return true;
   }
   constexpr double first = 0.02;  // step, of the scale: resonances are resolved by those that follow

@@ -25,7 +25,7 @@ Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicRespo
 
 std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicResponse& from, const Guess& at) {
   Guess guess = carried(from, at, to);
-  for (Index tries = 0; tries <= to.contacts(); ++tries) {
+  for (Index tries = 0; tries <= to.switch_count(); ++tries) {
     const continuation::Solution near = continuation::solve(to, guess);
     if (near.outcome != continuation::Correction::converged) return std::nullopt;
     guess.unknowns = near.unknowns;

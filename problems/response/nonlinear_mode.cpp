@@ -92,7 +92,7 @@ continuation::Guess NonlinearMode::guess(double eta_value, double R_value, doubl
   const ContactVector r = R_value / nearest->relative(0) * nearest->relative;
   const auto motion_of = [&](const ContactModes& structure, const ContactVector& pull) -> ContactVector {
     const Loss loss = structure.loss() + Loss{.mass = -2 * nearest->damping * nearest->frequency};
-    return structure.damped(nearest->frequency, loss, {}).compliance * pull;
+    return structure.with(loss).at(nearest->frequency).compliance * pull;
   };
   const ContactVector f = springs.asDiagonal() * r;
   const ContactVector y = motion_of(system_.base[0], f);
@@ -105,11 +105,13 @@ continuation::Guess NonlinearMode::guess(double eta_value, double R_value, doubl
   }
   guess.unknowns(Unknown::frequency) = nearest->frequency;
   guess.unknowns(Unknown::damping) = nearest->damping;
-  for (Index i = 0; i < contacts(); ++i) {
+  for (Index i = 0; i < switch_count(); ++i) {
     if (OddMotion(system_.orders, motion(guess.unknowns, guess.parameters, i)).maximum().value >
         slip_threshold(i, guess.unknowns, guess.parameters))
-      throw std::invalid_argument(
-          fmt::format("NonlinearMode: contact {} slips at R = {:g}; begin with a smaller R", i + 1, R_value));
+      throw std::invalid_argument(fmt::format(
+          "NonlinearMode: {} at R = {:g}; begin with a smaller R",
+          i < contacts() ? fmt::format("contact {} slips", i + 1) : "an element is beyond its border",
+          R_value));
   }
   return guess;
 }

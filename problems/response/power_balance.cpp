@@ -13,7 +13,8 @@ double PowerBalance::cancellation() const {
 
 PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, const Vector& p,
                            const continuation::Regime& regime) {
-  const HarmonicSystem& system = problem.system();
+  std::optional<HarmonicSystem> varied;
+  const HarmonicSystem& system = problem.system_at(p, varied);
   const double eta = p(HarmonicResponse::eta);
   const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
   PowerBalance balance{0, 0, 0, forces.energy, std::abs(forces.energy)};
@@ -31,7 +32,8 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
 
 double motion_error(const HarmonicResponse& problem, const Vector& u, const Vector& p,
                     const continuation::Regime& regime) {
-  const HarmonicSystem& system = problem.system();
+  std::optional<HarmonicSystem> varied;
+  const HarmonicSystem& system = problem.system_at(p, varied);
   const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
   double gap = 0;
   double largest = 0;

@@ -30,7 +30,7 @@ void check(const SystemParameters& system, const PreloadRange& range) {
     throw std::invalid_argument("study_preload: the window of eta must be positive and not empty");
   // Sectors may have all their damping from elsewhere.
   const auto passive = [&](double zeta) { return zeta > 0 || (zeta == 0 && system.sectors); };
-  if (!(passive(system.base_damping) && passive(system.damper_damping) && system.cubic_stiffness == 0))
+  if (!(passive(system.base_damping) && passive(system.damper_damping) && !system.has_others()))
     throw std::invalid_argument("study_preload: the system must be linear and passive but for friction");
   for (const double preload : range.stop_at) {
     if (!(preload >= range.from && preload <= range.to))

@@ -84,8 +84,7 @@ std::optional<Guess> solved(const HarmonicResponse& problem, Guess guess) {
     return guess;
   }
   try {
-    return problem.guess(guess.parameters(HarmonicResponse::eta),
-                         guess.parameters(HarmonicResponse::preload));
+    return problem.guess(guess.parameters);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -126,11 +125,13 @@ std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem, 
   const HarmonicResponse::ElementForces forces =
       problem.element_forces(at.unknowns, at.parameters, at.regime);
   const HarmonicVector r = problem.motion(at.unknowns, 0);
+  const HarmonicVector friction = problem.element_force(0, at.unknowns, at.parameters, at.regime);
   const std::vector<int>& orders = problem.system().orders;
   std::vector<ContactHarmonic> harmonics;
   for (std::size_t a = 0; a < orders.size(); ++a)
-    harmonics.push_back({orders[a], r(static_cast<Index>(a)), -forces.damper[a](0),
-                         -(forces.base[a](0) + forces.damper[a](0))});
+    harmonics.push_back({orders[a], r(static_cast<Index>(a)), friction(static_cast<Index>(a)),
+                         forces.base[a](0) - friction(static_cast<Index>(a)),
+                         forces.damper[a](0) + friction(static_cast<Index>(a))});
   return harmonics;
 }
 
@@ -158,7 +159,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
   const HarmonicResponse& problem = known.problem();
   const int highest = std::min(2 * orders.back() + 13, 2 * most_harmonics - 1);
   const HarmonicResponse more = balanced(parameters, odd_up_to(highest));
-  const std::optional<Ring> ring = options.in_time ? assembled(parameters) : std::nullopt;
+  std::optional<Ring> ring = options.in_time ? assembled(parameters) : std::nullopt;
   std::vector<Verification> all;
   const std::vector<std::size_t> points = chosen(branch, options);
   for (const std::size_t i : points) {
@@ -169,6 +170,9 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {
+      if (!parameters.varied.empty())
+        ring = assembled(
+            with_parameter(parameters, parameters.varied, point.parameters(HarmonicResponse::further)));
       const TimedResponse timed = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
       one.Y_time = timed.Y;
       one.growth = timed.growth;

@@ -35,7 +35,7 @@ std::string joined(const std::string& text, const char* part, const std::string&
 
 std::string as_markdown(const KeySection& section) {
   std::string text = fmt::format("| key of {} | is | if not given | means |\n|---|---|---|---|\n",
-                                 joined("`[" + section.name + "]`", ", ", section.note));
+                                 joined("`" + section.heading() + "`", ", ", section.note));
   for (const KeyWords& key : section.keys)
     text += fmt::format("| `{}` | {} | {} | {} |\n", key.name,
                         marked(joined(key.type + key.allowed, ", ", key.unit)), marked(key.otherwise),
@@ -89,8 +89,8 @@ std::string list_keys(const std::vector<std::string>& names) {
   std::string text;
   for (const KeySection& section : key_catalogue()) {
     if (!names.empty() && std::find(names.begin(), names.end(), section.name) == names.end()) continue;
-    text += fmt::format("{}{}\n", text.empty() ? "" : "\n",
-                        plain(joined("[" + section.name + "]", ", ", section.note)));
+    text +=
+        fmt::format("{}{}\n", text.empty() ? "" : "\n", plain(joined(section.heading(), ", ", section.note)));
     for (const KeyWords& key : section.keys) {
       const std::string choices = key.type.starts_with('"') ? ": " + key.type : "";
       text += fmt::format("  {:<24} {}{}\n", key.name, plain(key.meaning), choices);

@@ -86,7 +86,7 @@ CLI::App* add_run_command(CLI::App& app, arcslip::RunOptions& options) {
       "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
       "jumped; forced responses with one contact; status 3 where a segment is not proven");
   run->footer([] {
-    return run_notes + arcslip::list_keys({"system", "geometry", "branch", "continuation"});
+    return run_notes + arcslip::list_keys({"system", "geometry", "element", "branch", "continuation"});
   });
   return run;
 }

@@ -1,11 +1,44 @@
 #include "arcslip/assembly/coordinates.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/system.hpp"
 #include "arcslip/elements/jenkins.hpp"
 
 namespace arcslip {
+
+std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
+                                          const std::function<double(const Coordinate&)>& usual_stiffness) {
+  std::vector<Coordinate> all;
+  const auto add = [&](double base, double damper, Index dof, const ElementKind& kind,
+                       std::vector<double> settings) {
+    Coordinate& one = all.emplace_back(Coordinate{base, damper, dof, nullptr});
+    one.element = kind.make({std::move(settings), usual_stiffness(one)});
+  };
+  if (parameters.cubic_stiffness != 0) {
+    const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
+    for (Index i = 0; i < dofs; ++i)
+      add(1, 0, i, *find_element_kind("cubic"), {cubic_coefficient(parameters)});
+    for (Coordinate& one : all) one.follows_base = true;
+  }
+  const double nodes = parameters.sectors ? 1 : static_cast<double>(parameters.elements);
+  for (const PlacedElement& placed : parameters.others) {
+    std::vector<double> settings = placed.settings;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      if (placed.kind->settings[i].scales_force) settings[i] /= nodes;
+    }
+    using Place = PlacedElement::Place;
+    add(placed.place == Place::base      ? 1
+        : placed.place == Place::contact ? -1
+                                         : 0,
+        placed.place == Place::base ? 0 : 1, placed.dof, *placed.kind, std::move(settings));
+  }
+  std::stable_partition(all.begin(), all.end(),
+                        [](const Coordinate& one) { return one.element->has_border(); });
+  return all;
+}
 
 Coordinates::Coordinates(const HarmonicSystem& system)
     : contacts_(std::ssize(system.contacts)), spares_base_(system.one_way) {
@@ -15,6 +48,10 @@ Coordinates::Coordinates(const HarmonicSystem& system)
         {-1, 1, i, std::make_shared<Jenkins>(contact.stiffness, contact.slip_per_preload), spares_base_});
   }
   all_.insert(all_.end(), system.others.begin(), system.others.end());
+  const auto has_border = [](const Coordinate& one) { return one.element->has_border(); };
+  switches_ = std::count_if(all_.begin(), all_.end(), has_border);
+  if (!std::all_of(all_.begin(), all_.begin() + switches_, has_border))
+    throw std::invalid_argument("Coordinates: elements with a border must come first");
   if (size() > most_contacts) throw std::invalid_argument("Coordinates: too many elements");
 }
 
@@ -24,7 +61,11 @@ void Coordinates::receptance(const ContactModes& base, const ContactModes& dampe
   base.add(frequency, joint);
   if (!has_others() && !spares_base_) return damper.add(frequency, joint);
   const ContactReceptance of_base = joint;
-  const ContactReceptance of_damper = damper.at(frequency);
+  join(of_base, damper.at(frequency), joint);
+}
+
+void Coordinates::join(const ContactReceptance& of_base, const ContactReceptance& of_damper,
+                       ContactReceptance& joint) const {
   joint.set_zero(size());
   add(of_base.compliance, true, joint.compliance);
   add(of_damper.compliance, false, joint.compliance);

@@ -7,7 +7,6 @@
 
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/assembly/system.hpp"
-#include "arcslip/elements/memoryless.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
@@ -23,14 +22,13 @@ ContactModes one_contact(const ModalModel& model) {
   return {1, std::move(modes), model.loss()};
 }
 
-/// From each contact dof of the base to ground.
-void add_cubic_springs(const SystemParameters& parameters, HarmonicSystem& system) {
-  double compliance = 0;  // static, but for rigid motions
-  for (const ContactMode& mode : system.base[0].modes()) {
-    if (mode.frequency > 0) compliance += mode.shape.squaredNorm() / (mode.frequency * mode.frequency);
+/// Of modes that deform a structure, the static compliance of one of its contact dofs.
+double static_compliance(const ContactModes& structure, Index dof) {
+  double sum = 0;
+  for (const ContactMode& mode : structure.modes()) {
+    if (mode.frequency > 0) sum += std::norm(mode.shape(dof)) / (mode.frequency * mode.frequency);
   }
-  const auto spring = std::make_shared<CubicSpring>(cubic_coefficient(parameters), 1 / compliance);
-  for (Index i = 0; i < std::ssize(system.contacts); ++i) system.others.push_back({1, 0, i, spring});
+  return sum;
 }
 
 }  // namespace
@@ -74,6 +72,24 @@ HarmonicSystem one_harmonic(ContactSystem system) {
           0,   std::move(system.outputs)};
 }
 
+HarmonicSystem at_value(const HarmonicSystem& system, double value) {
+  const SystemVariation variation = system.varied.value().at(value).here;
+  HarmonicSystem other = system;
+  other.varied.reset();
+  for (ContactModes& base : other.base) base = base.varied(variation.base);
+  for (ContactModes& damper : other.damper) damper = damper.varied(variation.damper);
+  for (ContactOutput& output : other.outputs)
+    output.modes = output.modes.varied(output.on_base ? variation.base : variation.damper);
+  for (SectorContact& contact : other.contacts) {
+    contact.stiffness *= variation.contact_stiffness;
+    contact.slip_per_preload *= variation.slip_per_preload;
+  }
+  for (Coordinate& one : other.others) {
+    if (one.follows_base) one.factor *= variation.others;
+  }
+  return other;
+}
+
 HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   HarmonicSystem system;
   for (const int h : parameters.harmonics) {
@@ -96,7 +112,12 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   system.one_way = parameters.one_way;
   system.base_loss_per_zeta = base_loss_per_zeta(parameters);
   system.base_loss_fixed = base_loss_fixed(parameters);
-  if (parameters.cubic_stiffness != 0) add_cubic_springs(parameters, system);
+  if (!parameters.varied.empty()) system.varied = system_parameter(parameters, parameters.varied);
+  system.others = other_coordinates(parameters, [&](const Coordinate& one) {
+    const double compliance = std::abs(one.base) * static_compliance(system.base[0], one.dof) +
+                              std::abs(one.damper) * static_compliance(system.damper[0], one.dof);
+    return compliance > 0 ? 1 / compliance : 1;
+  });
   return system;
 }
 

@@ -60,6 +60,17 @@ Loss base_loss_fixed(const SystemParameters& parameters) {
   return parameters.sectors ? parameters.sectors->base().fixed : Loss{};
 }
 
+Loss damper_loss_per_zeta(const SystemParameters& parameters) {
+  if (!parameters.sectors) return {2, 0};
+  const SectorPart* damper = parameters.sectors->damper();
+  return damper != nullptr ? damper->loss_per_zeta() : Loss{};
+}
+
+Loss damper_loss_fixed(const SystemParameters& parameters) {
+  const SectorPart* damper = parameters.sectors ? parameters.sectors->damper() : nullptr;
+  return damper != nullptr ? damper->fixed : Loss{};
+}
+
 double cubic_coefficient(const SystemParameters& parameters) {
   return parameters.cubic_stiffness * parameters.stiffness_ratio() / static_cast<double>(parameters.elements);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "arcslip/assembly/system_parameter.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/system_section.hpp"
 
@@ -19,7 +20,10 @@ std::vector<std::string> parameters_of(const ProblemRequest& problem) {
   if (problem.model != nullptr)
     return problem.model->build(problems::defaults(*problem.model))->parameter_names();
   if (problem.is_mode()) return {"R"};
-  return {problem.is_limit_cycle() ? "zeta_B" : "eta", "P"};
+  if (problem.is_limit_cycle()) return {"zeta_B", "P"};
+  std::vector<std::string> names = system_parameter_names(false);
+  names.insert(names.begin(), {"eta", "P"});
+  return names;
 }
 
 bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
@@ -33,6 +37,9 @@ void read_parameters(CaseBranch& branch, const TomlSection& section) {
   const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names, "\", \""));
   const std::vector<std::string> pair = section.texts("parameters", names, expected);
   if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
+  if (branch.problem.model == nullptr && pair[0] != "eta" && pair[0] != "P" && pair[1] != "eta" &&
+      pair[1] != "P")
+    section.mismatch("parameters", "\"eta\" or \"P\" as one of them");
   branch.curve->active = pair[0];
   branch.options.parameter = pair[1];
 }
@@ -111,8 +118,8 @@ const KeyTable<CaseBranch>& branch_keys() {
                   }),
        K::special(
            "parameter", "name",
-           "what varies: eta or P, of limit cycles zeta_B or P, of nonlinear modes R, or a library model's "
-           "own",
+           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, M* or gamma, of limit cycles zeta_B or P, of "
+           "nonlinear modes R, or a library model's own",
            [](S& branch, const TomlSection& section) {
              branch.options.parameter = section.text("parameter", parameters_of(branch.problem));
            },

@@ -21,7 +21,7 @@
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title", "system", "geometry", "branch", "study", "continuation"};
+  return {"title", "system", "geometry", "element", "branch", "study", "continuation"};
 }
 
 namespace {
@@ -46,7 +46,7 @@ std::vector<ListedKey> for_each_keys(const TomlDocument& document, const Library
 ordered_json resolve(const TomlDocument& document, const CaseBranch& first) {
   ordered_json resolved = to_json(document.root());
   resolved.erase("study");
-  resolve_system(first.problem, resolved["system"]);
+  resolve_system(first.problem, resolved);
   resolved["continuation"].update(continuation_keys().values(first.options));
   return resolved;
 }
@@ -60,14 +60,15 @@ void check_extrema(const TomlSection& branch, const CaseBranch& first) {
 }
 
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
-void check_fixed(const TomlSection& branch, const ForEach& for_each, const CaseBranch& common,
-                 const std::string& parameter) {
+void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::vector<ListedKey>& listed,
+                 const CaseBranch& common, const std::string& parameter) {
   if (common.problem.is_limit_cycle() && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
   }
-  for (const char* key : {"preload", "preload_per_length"}) {
-    if (parameter == "P" && for_each.sets(key))
-      branch.fail("for_each", fmt::format("{} cannot be listed where P is the continuation parameter", key));
+  for (const ListedKey& key : listed) {
+    if (key.parameter == parameter && parameter != "eta" && for_each.sets(key.name))
+      branch.fail("for_each", fmt::format("{} cannot be listed where {} is the continuation parameter",
+                                          key.name, parameter));
   }
   if (parameter == "eta" && (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
@@ -101,6 +102,10 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
+  if (!system.varied.empty() && system.varied != "F")
+    section.fail("stability", fmt::format("over eta, P and F, not over {}, with which the disturbances' own "
+                                          "waves would change",
+                                          system.varied));
   if (problem.response != Response::forced) section.fail("stability", "only for the forced response");
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
@@ -140,6 +145,25 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
   return range;
 }
 
+/// The parameter of the system beside eta and P that is continued, or "".
+std::string varied_parameter(const TomlSection& section, const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  if (problem.model != nullptr || problem.is_free()) return "";
+  const std::string active = branch.curve ? branch.curve->active : "";
+  for (const std::string& name : system_parameter_names(false)) {
+    if (name != active && name != branch.options.parameter) continue;
+    const std::vector<std::string> known = system_parameter_names(problem.system.sectors != nullptr);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      section.fail(branch.curve ? "parameters" : "parameter",
+                   fmt::format("{} is only of rods and beams", name));
+    if (problem.geometry && name != "F" && name != "zeta_B" && name != "zeta_D")
+      section.fail(branch.curve ? "parameters" : "parameter",
+                   fmt::format("{} follows from [geometry], whose units it would change", name));
+    return name;
+  }
+  return "";
+}
+
 /// What the branches are made from.
 class BranchSource {
  public:
@@ -170,8 +194,9 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   model_ = read_model(*document_);
   common_ = read_branch(*document_, model_);
   parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
-  for_each_.emplace(*document_, section_, for_each_keys(*document_, model_), ForEach::Lists::together);
-  if (model_ == nullptr) check_fixed(section_, *for_each_, common_, parameter_);
+  const std::vector<ListedKey> listed = for_each_keys(*document_, model_);
+  for_each_.emplace(*document_, section_, listed, ForEach::Lists::together);
+  if (model_ == nullptr) check_fixed(section_, *for_each_, listed, common_, parameter_);
   use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
   use_.is_free = common_.problem.is_free();
   if (use_.sectors)
@@ -185,6 +210,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   read_system(*document_, replacements, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response == Response::one_way;
+  branch.problem.system.varied = varied_parameter(section_, branch);
   if (branch.problem.harmonics_tolerance && branch.problem.is_free())
     system.fail("harmonics", "\"auto\" is not for limit cycles and nonlinear modes");
   if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())

@@ -27,8 +27,13 @@ std::string why_not_certifiable(const CaseBranch& request) {
     return problem.system.contacts.size() > 1
                ? "several contacts, whose phases against each other are unknowns beside their amplitudes"
                : "the full path of a sector, whose compliance comes from sparse solves without an enclosure";
+  if (!problem.system.varied.empty())
+    return fmt::format("branches over {}: what it encloses is a function of eta and P",
+                       problem.system.varied);
   if (problem.system.cubic_stiffness != 0)
     return "cubic springs, which make the amplitude of the base a second unknown";
+  if (problem.system.has_others())
+    return "elements beside the contacts, whose displacements are further unknowns";
   return "";
 }
 

@@ -42,14 +42,15 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {
   return {build_wave(system).contacts, static_cast<double>(system.elements), system.preload_growth,
-          system.cubic_stiffness == 0};
+          !system.has_others()};
 }
 
-/// What the base does without damper, which shares no objective with the damper but Y.
+/// What the base does without damper, which shares no objective with the damper but Y. With elements that may
+/// stand anywhere it is not known.
 void compare_to_free(const StudyCase& study, const SystemParameters& system, PreloadStudy& result) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   result.free_eta = result.free_Y = unknown;
-  if (study.objective != "Y") return;
+  if (study.objective != "Y" || !system.others.empty()) return;
   problems::Peak free;
   if (needs_contact_system(system)) {
     free = problems::free_peak(build_wave(system).base, study.range, study.options);
@@ -129,8 +130,8 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
     return envelope_over(peaks, from, to);
   };
   return problems::study_uncertainty(study.range, *study.uncertain,
-                                     {design.system.preload_growth != 0, design.system.cubic_stiffness != 0},
-                                     nominal, envelope);
+                                     {design.system.preload_growth != 0, design.system.has_others()}, nominal,
+                                     envelope);
 }
 
 namespace {

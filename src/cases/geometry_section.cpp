@@ -58,9 +58,11 @@ const KeyTable<GeometrySettings>& geometry_keys() {
        GeometryKey("friction_coefficient", &GeometrySettings::friction_coefficient, positive(),
                    "mu of the contact", required),
        GeometryKey("preload_per_length", &GeometrySettings::preload_per_length, positive(),
-                   "p_0 between the rings", unit("N/m"), needed("required, unless P varies", is_needed)),
+                   "p_0 between the rings", unit("N/m"), needed("required, unless P varies", is_needed),
+                   parameter("P")),
        GeometryKey("force_per_length", &GeometrySettings::force_per_length, positive(),
-                   "f_0, amplitude of the travelling force on the base", unit("N/m"), required)}};
+                   "f_0, amplitude of the travelling force on the base", unit("N/m"), required,
+                   parameter("F"))}};
   return keys;
 }
 

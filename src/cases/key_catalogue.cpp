@@ -4,6 +4,7 @@
 
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
+#include "cases/element_section.hpp"
 #include "cases/geometry_section.hpp"
 #include "cases/sector_section.hpp"
 #include "cases/study_section.hpp"
@@ -35,6 +36,25 @@ std::vector<KeyWords> library_words() {
   return words;
 }
 
+/// The keys of all kinds of elements, those they share once.
+std::vector<KeyWords> element_words() {
+  std::vector<KeyWords> words;
+  std::vector<std::string> names;
+  for (const ElementKind& kind : element_kinds()) {
+    const std::vector<KeyWords> keys = element_keys(kind).words();
+    if (words.empty()) words.assign(keys.begin(), keys.begin() + shared_element_keys);
+    words.push_back({kind.name, fmt::format("kind = \"{}\"", kind.name), "", kind.meaning});
+    for (std::size_t i = shared_element_keys; i < keys.size(); ++i) {
+      words.push_back(keys[i]);
+      words.back().name = kind.name + "." + keys[i].name;
+    }
+    names.push_back(kind.name);
+  }
+  words.front().type = one_of(names);
+  words.front().meaning = "what it is";
+  return words;
+}
+
 }  // namespace
 
 std::vector<KeySection> key_catalogue() {
@@ -48,6 +68,8 @@ std::vector<KeySection> key_catalogue() {
   section("system", "sectors", sector_keys().words());
   section("system.base", "and of `[system.damper]`", part_keys(true).words());
   section("system", "models of the library", library_words());
+  section("element", "beside the contacts, any number of them", element_words());
+  sections.back().repeats = true;
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());
   section("study", "", study_keys().words());

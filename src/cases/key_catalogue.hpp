@@ -11,6 +11,9 @@ struct KeySection {
   std::string name;  ///< "branch"; "" of the top of the file
   std::string note;  ///< which of several sections of this name it is
   std::vector<KeyWords> keys;
+  bool repeats = false;  ///< whether there may be several such tables
+
+  std::string heading() const { return repeats ? "[[" + name + "]]" : "[" + name + "]"; }
 };
 
 std::vector<KeySection> key_catalogue();

@@ -90,7 +90,10 @@ Subject build_friction(const ProblemRequest& request, const std::string& paramet
       if constexpr (std::is_same_v<Type, problems::NonlinearMode>) {
         return problem->guess(request.eta, value, value_of("P"));
       } else if constexpr (std::is_base_of_v<problems::HarmonicResponse, Type>) {
-        return problem->guess(value_of("eta"), value_of("P"), limits);
+        const std::vector<std::string> names = problem->parameter_names();
+        Vector parameters(std::ssize(names));
+        std::transform(names.begin(), names.end(), parameters.begin(), value_of);
+        return problem->guess(parameters, limits);
       } else if constexpr (std::is_same_v<Type, problems::HarmonicCycle>) {
         return problem->guess(value_of("zeta_B"), value_of("P"), limits);
       } else {
@@ -237,7 +240,7 @@ std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& re
 
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance) {
   return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance ||
-         system.cubic_stiffness != 0;
+         system.has_others() || !system.varied.empty();
 }
 
 void try_to_build(const ProblemRequest& request) { problem_of(request); }
@@ -254,7 +257,7 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter) 
   if (problem.model == nullptr) {
     return parameter == "P"     ? problem.system.preload
            : parameter == "eta" ? problem.eta
-                                : problem.system.base_damping;
+                                : system_parameter(problem.system, parameter).value;
   }
   for (std::size_t i = 0; i < problem.settings.size(); ++i) {
     if (problem.model->settings[i].name == parameter) return problem.settings[i];

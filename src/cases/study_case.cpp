@@ -39,7 +39,7 @@ struct Source {
 ordered_json resolve(const Source& source, const StudyCase& study) {
   ordered_json resolved = to_json(source.file->root());
   resolved.erase("branch");
-  resolve_system(study.design(0).problem(), resolved["system"]);
+  resolve_system(study.design(0).problem(), resolved);
   fill(resolved["study"], study_keys().values(study));
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
   resolved["continuation"].update(continuation_keys().values(study.options));

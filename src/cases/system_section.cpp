@@ -7,6 +7,7 @@
 #include <map>
 
 #include "arcslip/motion/odd_motion.hpp"
+#include "cases/element_section.hpp"
 #include "cases/geometry_section.hpp"
 #include "cases/sector_section.hpp"
 
@@ -127,20 +128,12 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     read_rings(document, replacements, section, settings, problem);
   }
   check_waves(section, settings);
+  read_elements(document, settings);
   problem.harmonics_tolerance = settings.harmonics_tolerance;
   problem.system = std::move(settings);
 }
 
-/// What a setting of a model may be, as messages say it.
-NumberRule rule_of(const problems::Setting& setting) {
-  constexpr double most = std::numeric_limits<double>::max();
-  if (setting.low == -most && setting.high == most) return any_number();
-  const auto holds = [low = setting.low, high = setting.high](double x) { return x >= low && x <= high; };
-  if (setting.high == most) return {holds, fmt::format(" >= {:g}", setting.low)};
-  return {holds, fmt::format(" >= {:g} and <= {:g}", setting.low, setting.high)};
-}
-
-Key<LibrarySettings> key_of(const problems::Setting& setting, std::size_t i) {
+Key<LibrarySettings> key_of(const Setting& setting, std::size_t i) {
   using L = Key<LibrarySettings>;
   const std::string standard = fmt::format("{}", setting.value);
   const auto continued = only(
@@ -190,7 +183,8 @@ std::vector<K> shared_keys() {
       {K("base", &S::base_damping, {damping_rule().text, base},
          "zeta of the base; negative where its own motion excites it, which a study does not take",
          parameter("zeta_B")),
-       K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper"),
+       K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper",
+         parameter("zeta_D")),
        K::choice("kind", &S::base_damping_kind,
                  {{"viscous", DampingKind::viscous}, {"structural", DampingKind::structural}},
                  "of the base: C proportional to K, or K (1 + 2j zeta_B)", ", for the base", resolved(kind),
@@ -234,16 +228,17 @@ const KeyTable<FrictionSettings>& ring_keys() {
          required),
        K("elements", &S::elements, {" > 2 wave_number and <= 1e9", element_rule},
          "N, each with a contact point; the cost does not depend on it", required),
-       K("mass_ratio", &S::mass_ratio, positive(), "M*, mass of the base over that of the damper", group),
+       K("mass_ratio", &S::mass_ratio, positive(), "M*, mass of the base over that of the damper", group,
+         parameter("M*")),
        K("frequency_ratio", &S::frequency_ratio, positive(),
-         "gamma, natural frequency of the base over that of the damper", group),
+         "gamma, natural frequency of the base over that of the damper", group, parameter("gamma")),
        K("slenderness", &S::slenderness, positive(), "L/h_D, which gives K_FD = 12 (L/h_D)^4/(1 + nu)",
          needed("required, or interface_stiffness", needs_slenderness), in_groups,
          only("only for beams; rods take interface_stiffness", is_beam)),
        K("interface_stiffness", &S::interface_stiffness, positive(),
          "K_FD itself; beside `[geometry]` in place of its shear estimate",
-         needed("required of rods", needs_stiffness), not_both),
-       K("force", &S::force, positive(), "F = f_0/k_B", group)},
+         needed("required of rods", needs_stiffness), not_both, parameter("K_FD")),
+       K("force", &S::force, positive(), "F = f_0/k_B", group, parameter("F"))},
       shared_keys(),
       {K("poisson_ratio", &S::poisson_ratio, poisson_rule(), "nu of the damper", in_groups,
          otherwise(fmt::format("{}", S{}.poisson_ratio)), resolved(poisson_ratio)),
@@ -290,8 +285,11 @@ NumberRule poisson_rule() {
 }
 
 NumberRule parameter_rule(const LibraryModel* model, const std::string& parameter) {
-  if (model == nullptr) return parameter == "zeta_B" ? damping_rule() : positive();
-  for (const problems::Setting& setting : model->settings) {
+  if (model == nullptr) {
+    if (parameter == "zeta_B") return damping_rule();
+    return parameter == "zeta_D" ? inside(0, 1) : positive();
+  }
+  for (const Setting& setting : model->settings) {
     if (setting.name == parameter) return rule_of(setting);
   }
   return any_number();
@@ -304,12 +302,15 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   if (use.model == nullptr) return read_friction(document, replacements, section, use, problem);
   if (has_geometry(document))
     document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
+  if (document.root().contains("element"))
+    document.fail(document.root().get("element"), "element", "only for systems with friction");
   LibrarySettings settings{problems::defaults(*use.model), use.parameter};
   library_keys(*use.model).read(settings, section);
   problem.settings = std::move(settings.values);
 }
 
-void resolve_system(const ProblemRequest& problem, ordered_json& section) {
+void resolve_system(const ProblemRequest& problem, ordered_json& file) {
+  ordered_json& section = file["system"];
   if (problem.model != nullptr)
     return fill(section, library_keys(*problem.model).values({problem.settings, ""}));
   S settings{problem.system};
@@ -318,6 +319,8 @@ void resolve_system(const ProblemRequest& problem, ordered_json& section) {
   if (settings.sectors) settings.reduction_tolerance = settings.sectors->tolerance();
   if (section.contains("slenderness")) settings.slenderness = 0;
   fill(section, (settings.sectors ? sector_keys() : ring_keys()).values(settings));
+  for (std::size_t i = 0; i < settings.others.size(); ++i)
+    fill(file["element"][i], element_keys(*settings.others[i].kind).values(settings.others[i]));
 }
 
 }  // namespace arcslip

@@ -57,8 +57,8 @@ std::vector<std::string> model_names();
 void read_system(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
                  ProblemRequest& problem);
 
-/// Adds the defaults that were taken to the section as JSON.
-void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& section);
+/// Adds the defaults that were taken to the case file as JSON.
+void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& file);
 
 /// What Poisson's ratio may be.
 NumberRule poisson_rule();

@@ -1,7 +1,6 @@
 #include "arcslip/elements/element.hpp"
 
 #include <limits>
-#include <stdexcept>
 
 namespace arcslip {
 
@@ -16,6 +15,15 @@ void ElementForce::set_linear(double stiffness, const HarmonicVector& x, bool de
   by_log_load.setZero(count);
 }
 
+void ElementForce::scale(double factor, bool derivatives) {
+  harmonics *= factor;
+  energy *= factor;
+  if (!derivatives) return;
+  by_log_load *= factor;
+  linear *= factor;
+  conjugate *= factor;
+}
+
 void ElementForce::add(const ElementForce& change, double part) {
   harmonics += part * change.harmonics;
   by_log_load += part * change.by_log_load;
@@ -24,21 +32,32 @@ void ElementForce::add(const ElementForce& change, double part) {
 }
 
 ElementForce Element::change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                             double load, bool slips, const HarmonicVector& motion, double log_load) const {
+                             double load, bool beyond, const HarmonicVector& motion, double log_load) const {
   ElementForce change;
   change.harmonics = at.linear * motion + at.conjugate * motion.conjugate() + at.by_log_load * log_load;
   change.by_log_load.setZero(x.size());
   change.linear.setZero(x.size(), x.size());
   change.conjugate.setZero(x.size(), x.size());
-  if (!is_linear(slips)) second(at, orders, x, load, motion, log_load, change);
+  if (!is_linear(beyond)) second(at, orders, x, load, beyond, motion, log_load, change);
   return change;
 }
 
-StateBorder Element::border(std::span<const int> /*orders*/, const OddMotion::Maximum& /*top*/,
-                            double /*load*/, bool /*slips*/) const {
-  throw std::logic_error("Element: an element that does not slip has no border");
+StateBorder Element::border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
+                            bool beyond) const {
+  const double limit = threshold(load);
+  const double sign = beyond ? -1 : 1;
+  const double square = top.value * top.value;
+  const double sum = square + limit * limit;
+  const double slope = sign * 4 * limit * limit / (sum * sum);  // by A^2/2
+  StateBorder border{sign * (square - limit * limit) / sum, HarmonicVector(std::ssize(orders)),
+                     -slope * square * threshold_by_log_load()};
+  for (Index a = 0; a < border.by_motion.size(); ++a) {
+    border.by_motion(a) =
+        slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);
+  }
+  return border;
 }
 
-double Element::slip_threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }
+double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }
 
 }  // namespace arcslip

@@ -4,35 +4,13 @@
 #include <tuple>
 #include <utility>
 
+#include "arcslip/motion/arc_integrals.hpp"
 #include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
 
 constexpr Complex j{0, 1};
-
-/// I_m = int e^{jm theta} dtheta over an arc for m >= 0, to the rounding of each however short the arc is;
-/// I_{-m} is its conjugate.
-class ArcIntegrals {
- public:
-  ArcIntegrals(double begin, double width, int highest) {
-    const double half = 0.5 * width;
-    const Complex turn = std::polar(1.0, begin + half);
-    Complex power = 1;
-    values_[0] = 2 * half;
-    for (int m = 1; m <= highest; ++m) {
-      power *= turn;
-      values_[static_cast<std::size_t>(m)] = power * (2 * std::sin(m * half) / m);
-    }
-  }
-
-  Complex operator[](int m) const {
-    return m < 0 ? std::conj(values_[static_cast<std::size_t>(-m)]) : values_[static_cast<std::size_t>(m)];
-  }
-
- private:
-  std::array<Complex, std::size_t{4} * most_harmonics> values_;
-};
 
 }  // namespace
 

@@ -17,7 +17,7 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
                     bool derivatives, ElementForce& out) const {
   if (!slips) return out.set_linear(stiffness_, x, derivatives);
   const OddMotion motion(orders, x);
-  const HysteresisLoop loop(motion, slip_threshold(load));
+  const HysteresisLoop loop(motion, threshold(load));
   loop.force(out.harmonics);
   out.harmonics *= stiffness_;
   out.energy = stiffness_ * loop.energy();
@@ -32,30 +32,15 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
 }
 
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                     double load, const HarmonicVector& motion, double log_load, ElementForce& change) const {
-  const double threshold = slip_threshold(load);
-  HysteresisLoop(OddMotion(orders, x), threshold)
-      .second(motion, threshold * log_load, change.linear, change.conjugate);
+                     double load, bool /*slips*/, const HarmonicVector& motion, double log_load,
+                     ElementForce& change) const {
+  const double limit = threshold(load);
+  HysteresisLoop(OddMotion(orders, x), limit)
+      .second(motion, limit * log_load, change.linear, change.conjugate);
   change.linear *= stiffness_;
   change.conjugate *= stiffness_;
   change.by_log_load = at.by_log_load * log_load;  // f is homogeneous in x and S
   change.by_log_load -= change.linear * x + change.conjugate * x.conjugate();
-}
-
-StateBorder Jenkins::border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
-                            bool slips) const {
-  const double threshold = slip_threshold(load);
-  const double sign = slips ? -1 : 1;
-  const double square = top.value * top.value;
-  const double sum = square + threshold * threshold;
-  const double slope = sign * 4 * threshold * threshold / (sum * sum);  // by A^2/2
-  StateBorder border{sign * (square - threshold * threshold) / sum, HarmonicVector(std::ssize(orders)),
-                     -slope * square};
-  for (Index a = 0; a < border.by_motion.size(); ++a) {
-    border.by_motion(a) =
-        slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);
-  }
-  return border;
 }
 
 }  // namespace arcslip

@@ -1,46 +1,139 @@
 #include "arcslip/elements/memoryless.hpp"
 
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <stdexcept>
+
+#include "arcslip/motion/arc_integrals.hpp"
+#include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
 
-// Samples theta_k = pi k/M of half a period, M > (degree + 1) h/2 for the highest h, take all products
-// exactly:
-//
-//   f_h = (2/M) sum f(x_k) e^{-jh theta_k},   df_h = sum_l c_{h-l} dx_l + c_{h+l} conj(dx_l),
-//   c_m = (1/M) sum f'(x_k) e^{-jm theta_k}
-class Samples {
- public:
-  Samples(int degree, std::span<const int> orders)
-      : orders_(orders), count_((degree + 1) * orders.back() / 2 + 1), turn_(std::ssize(orders)) {}
+/// Where the motion is, among the pieces of a law: that of x >= 0 or minus that of x < 0.
+int zone_at(const PiecewiseLaw& law, double x) {
+  const int piece = static_cast<int>(law.piece_at(x));
+  return x < 0 ? -piece : piece;
+}
+std::size_t piece_of(int zone) { return static_cast<std::size_t>(std::abs(zone)); }
 
-  int count() const { return count_; }
-  void go_to(int k) {
-    for (Index a = 0; a < turn_.size(); ++a)
-      turn_(a) = std::polar(1.0, -orders_[static_cast<std::size_t>(a)] * pi * k / count_);
+/// The displacement between a zone and the next one up.
+double upper_end(const PiecewiseLaw& law, int zone) {
+  return zone >= 0 ? law.pieces()[piece_of(zone)].end : -law.pieces()[piece_of(zone) - 1].end;
+}
+
+/// A stretch of half a period in one zone.
+struct Stretch {
+  double begin;
+  double end;
+  int zone;
+  int next;  ///< the zone behind it, which may be the same
+};
+
+/// Calls `use` with all of them, from a turning point on. No motion is zero.
+template <class Use>
+void each_stretch(const PiecewiseLaw& law, const OddMotion& motion, const Angles& turns, const Use& use) {
+  for (int i = 0; i < turns.count; ++i) {
+    double begin = turns[i];
+    const double end = i + 1 < turns.count ? turns[i + 1] : turns[0] + pi;
+    int zone = zone_at(law, motion.value(begin));
+    const int last = zone_at(law, motion.value(end));
+    const int way = last > zone ? 1 : -1;
+    while (zone != last) {
+      const double level = upper_end(law, way > 0 ? zone : zone - 1);
+      const double crossing = bracketed_newton(
+          [&](double theta) { return std::pair(motion.value(theta) - level, motion.slopes(theta).first); },
+          0.5 * (begin + end), begin, end, way > 0);
+      use(Stretch{begin, crossing, zone, zone + way});
+      begin = crossing;
+      zone += way;
+    }
+    use(Stretch{begin, end, zone, zone});
   }
-  double value(const HarmonicVector& x) const { return turn_.dot(x).real(); }
+}
 
-  void add_force(double value, HarmonicVector& harmonics) const { harmonics += (2 * value / count_) * turn_; }
-  void add_slope(double slope, ComplexMatrix& linear, ComplexMatrix& conjugate) const {
-    const double share = slope / count_;
-    for (Index l = 0; l < turn_.size(); ++l) {
-      linear.col(l) += (share * std::conj(turn_(l))) * turn_;
-      conjugate.col(l) += (share * turn_(l)) * turn_;
+/// Calls `use` with angle, share of half a period and piece of nodes that integrate all products exactly, or
+/// over stretches to rounding.
+template <class Use>
+void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* turns, const Use& use) {
+  const int highest = (law.degree() + 1) * motion.orders().back();
+  if (turns == nullptr) {  // within the first piece
+    const int count = highest / 2 + 1;
+    for (int k = 0; k < count; ++k) use(pi * k / count, 1.0 / count, std::size_t{0});
+    return;
+  }
+  using Gauss = boost::math::quadrature::gauss<double, 20>;
+  constexpr double longest = 24;  // panel, in radians of the highest harmonic
+  each_stretch(law, motion, *turns, [&](const Stretch& stretch) {
+    const double width = stretch.end - stretch.begin;
+    if (!(width > 0)) return;
+    const int panels = static_cast<int>(highest * width / longest) + 1;
+    const double half = 0.5 * width / panels;
+    for (int k = 0; k < panels; ++k) {
+      const double middle = stretch.begin + (2 * k + 1) * half;
+      for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
+        const double share = Gauss::weights()[i] * half / pi;
+        use(middle - Gauss::abscissa()[i] * half, share, piece_of(stretch.zone));
+        use(middle + Gauss::abscissa()[i] * half, share, piece_of(stretch.zone));
+      }
+    }
+  });
+}
+
+// With e_h = e^{jh theta} at an angle and the mean over half a period,
+//
+//   f_h = 2 mean(f conj(e_h)),   df_h = sum_l c_{h-l} dx_l + c_{h+l} conj(dx_l),   c_m = mean(f' conj(e_m)).
+class Turn {
+ public:
+  explicit Turn(std::span<const int> orders) : orders_(orders), conj_(std::ssize(orders)) {}
+
+  void go_to(double theta) {
+    for (Index a = 0; a < conj_.size(); ++a)
+      conj_(a) = std::polar(1.0, -orders_[static_cast<std::size_t>(a)] * theta);
+  }
+  double value(const HarmonicVector& x) const { return conj_.dot(x).real(); }
+
+  void add_force(double part, HarmonicVector& harmonics) const { harmonics += (2 * part) * conj_; }
+  void add_slope(double part, ComplexMatrix& linear, ComplexMatrix& conjugate) const {
+    for (Index l = 0; l < conj_.size(); ++l) {
+      linear.col(l) += (part * std::conj(conj_(l))) * conj_;
+      conjugate.col(l) += (part * conj_(l)) * conj_;
     }
   }
 
  private:
   std::span<const int> orders_;
-  int count_;
-  HarmonicVector turn_;  // e^{-jh theta_k}
+  HarmonicVector conj_;
 };
+
+/// k_m of the slope by one piece's law, in full periods of a motion that stays on one side of zero, or within
+/// the first piece, where the law is of both sides.
+std::vector<Complex> slope_harmonics(const PiecewiseLaw& law, const OddMotion& motion, int zone) {
+  const int highest = std::max(law.degree() - 1, 0) * motion.orders().back();
+  const int count = 2 * highest + 1;
+  const double side = zone < 0 ? -1 : 1;
+  std::vector<Complex> harmonics(static_cast<std::size_t>(highest + 1));
+  for (int k = 0; k < count; ++k) {
+    const double theta = two_pi * k / count;
+    // The polynomial of |x| goes on where x has changed its sign.
+    const double slope = law.continued_slope(side * motion.value(theta), piece_of(zone));
+    for (int m = 0; m <= highest; ++m)
+      harmonics[static_cast<std::size_t>(m)] +=
+          (m == 0 ? 1 : 2) * slope / count * std::polar(1.0, -m * theta);
+  }
+  return harmonics;
+}
 
 }  // namespace
 
+MemorylessElement::MemorylessElement(PiecewiseLaw law, double reference, std::string beyond)
+    : law_(std::move(law)), reference_(reference), beyond_(std::move(beyond)) {
+  if (!(reference > 0)) throw std::invalid_argument("MemorylessElement: the reference must be positive");
+}
+
 void MemorylessElement::force(std::span<const int> orders, const HarmonicVector& x, double /*load*/,
-                              bool /*slips*/, bool derivatives, ElementForce& out) const {
+                              bool beyond, bool derivatives, ElementForce& out) const {
   const Index count = x.size();
   out.harmonics.setZero(count);
   out.energy = 0;
@@ -49,40 +142,66 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
     out.conjugate.setZero(count, count);
     out.by_log_load.setZero(count);
   }
-  Samples samples(degree(), orders);
-  for (int k = 0; k < samples.count(); ++k) {
-    samples.go_to(k);
-    const double here = samples.value(x);
-    samples.add_force(value(here), out.harmonics);
-    if (derivatives) samples.add_slope(slope(here), out.linear, out.conjugate);
+  const OddMotion motion(orders, x);
+  Angles turns;
+  if (beyond) {
+    turns = motion.turning_points();
+    out.maximum = motion.maximum(turns);
   }
+  Turn turn(orders);
+  each_node(law_, motion, beyond ? &turns : nullptr, [&](double theta, double share, std::size_t piece) {
+    turn.go_to(theta);
+    const double here = turn.value(x);
+    turn.add_force(share * law_.value(here, piece), out.harmonics);
+    if (derivatives) turn.add_slope(share * law_.slope(here, piece), out.linear, out.conjugate);
+  });
 }
 
 VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> orders,
                                                       const HarmonicVector& x) const {
-  // The slope has harmonics up to (degree - 1) h.
-  const int count = (degree() - 1) * orders.back() + 1;
   VaryingStiffness stiffness;
-  stiffness.harmonics.resize(static_cast<std::size_t>(count / 2 + 1));
   const OddMotion motion(orders, x);
-  for (int k = 0; k < count; ++k) {
-    const double theta = pi * k / count;
-    const double share = slope(motion.value(theta)) / count;
-    for (std::size_t m = 0; m < stiffness.harmonics.size(); ++m)
-      stiffness.harmonics[m] +=
-          (m == 0 ? 1 : 2) * share * std::polar(1.0, -2 * static_cast<double>(m) * theta);
+  constexpr double touch = 1 + 1e-9;  // a longer one holds something
+  const Angles turns = has_border() ? motion.turning_points() : Angles{};
+  if (!has_border() || motion.maximum(turns).value <= touch * law_.pieces().front().end) {
+    const std::vector<Complex> all = slope_harmonics(law_, motion, 0);
+    for (std::size_t m = 0; m < all.size(); m += 2) stiffness.harmonics.push_back(all[m]);
+    return stiffness;
   }
+  each_stretch(law_, motion, turns, [&](const Stretch& stretch) {
+    stiffness.arcs.push_back(
+        {stretch.begin, stretch.end - stretch.begin, slope_harmonics(law_, motion, stretch.zone)});
+  });
   return stiffness;
 }
 
+/// Beside the change within its pieces, each stretch ends elsewhere, by -dx/x'.
 void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> orders,
-                               const HarmonicVector& x, double /*load*/, const HarmonicVector& motion,
-                               double /*log_load*/, ElementForce& change) const {
-  Samples samples(degree(), orders);
-  for (int k = 0; k < samples.count(); ++k) {
-    samples.go_to(k);
-    samples.add_slope(curvature(samples.value(x)) * samples.value(motion), change.linear, change.conjugate);
-  }
+                               const HarmonicVector& x, double /*load*/, bool beyond,
+                               const HarmonicVector& motion, double /*log_load*/,
+                               ElementForce& change) const {
+  const OddMotion odd(orders, x);
+  const Angles turns = beyond ? odd.turning_points() : Angles{};
+  Turn turn(orders);
+  each_node(law_, odd, beyond ? &turns : nullptr, [&](double theta, double share, std::size_t piece) {
+    turn.go_to(theta);
+    turn.add_slope(share * law_.curvature(turn.value(x), piece) * turn.value(motion), change.linear,
+                   change.conjugate);
+  });
+  if (!beyond) return;
+  each_stretch(law_, odd, turns, [&](const Stretch& stretch) {
+    if (stretch.zone == stretch.next) return;
+    turn.go_to(stretch.end);
+    const double here = turn.value(x);
+    const double drop = law_.slope(here, piece_of(stretch.zone)) - law_.slope(here, piece_of(stretch.next));
+    turn.add_slope(-drop * turn.value(motion) / (pi * odd.slopes(stretch.end).first), change.linear,
+                   change.conjugate);
+  });
+}
+
+std::shared_ptr<const Element> cubic_spring(double coefficient, double reference) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  return std::make_shared<MemorylessElement>(PiecewiseLaw({{endless, {0, 0, 0, coefficient}}}), reference);
 }
 
 }  // namespace arcslip

@@ -7,11 +7,11 @@ std::vector<ListedKey> listed_keys(const std::vector<KeyWords>& keys, const std:
   for (const KeyWords& key : keys) {
     const std::string path = section + "." + key.name;
     if (key.is_listed) {
-      listed.push_back({key.name, path});
+      listed.push_back({key.name, path, key.parameter});
       continue;
     }
     for (const ListedKey& part : listed_keys(key.inner, path))
-      listed.push_back({key.name + "." + part.name, part.path});
+      listed.push_back({key.name + "." + part.name, part.path, part.parameter});
   }
   return listed;
 }

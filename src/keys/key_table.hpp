@@ -43,6 +43,7 @@ struct KeyWords {
 struct ListedKey {
   std::string name;  ///< dotted where it stands in a table of its own
   std::string path;
+  std::string parameter = {};  ///< the name under which it may be continued
 };
 
 /// Those among the keys of a section.

@@ -114,9 +114,8 @@ Angles OddMotion::turning_points() const {
   return found;
 }
 
-OddMotion::Maximum OddMotion::maximum() const {
+OddMotion::Maximum OddMotion::maximum(const Angles& turns) const {
   Maximum best{0, 0};
-  const Angles turns = turning_points();
   for (int i = 0; i < turns.count; ++i) {
     const double here = value(turns[i]);
     if (std::abs(here) > best.value) best = {here > 0 ? turns[i] : turns[i] + pi, std::abs(here)};

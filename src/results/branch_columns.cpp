@@ -43,7 +43,8 @@ Index Columns::find(const std::string& name) const {
 std::vector<Index> Columns::shown() const {
   constexpr std::size_t most_shown = 8;
   std::vector<Index> indices;
-  for (const char* name : {"eta", "zeta", "zeta_B", "P", "R_over_S", "Y", "growth", "worst_wave"}) {
+  for (const char* name : {"eta", "zeta", "F", "zeta_B", "zeta_D", "K_FD", "M*", "gamma", "P", "R_over_S",
+                           "Y", "growth", "worst_wave"}) {
     if (const Index i = find(name); i >= 0) indices.push_back(i);
   }
   if (find("R_over_S") >= 0) return indices;

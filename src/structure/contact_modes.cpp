@@ -105,19 +105,62 @@ CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
   return sum;
 }
 
-DampedReceptance ContactModes::damped(double eta, const Loss& loss, const Loss& rate) const {
-  DampedReceptance response;
-  for (ContactMatrix* matrix : {&response.compliance, &response.compliance_eta, &response.compliance_loss})
-    matrix->setZero(contacts_, contacts_);
-  for (const ContactMode& mode : modes_) {
-    const ModalDenominator d(eta, mode.frequency, loss);
-    const Complex inverse = std::conj(d.value) / std::norm(d.value);
-    const ContactMatrix shape = mode.shape * mode.shape.adjoint();
-    response.compliance += inverse * shape;
-    response.compliance_eta -= (inverse * inverse * d.by_eta) * shape;
-    response.compliance_loss -= (inverse * inverse * Complex(0, rate.part(eta, mode.frequency))) * shape;
+VariedReceptance ContactModes::varied(double eta, const Variation& at, const Variation& rate) const {
+  VariedReceptance sum;
+  sum.set_zero(contacts_);
+  sum.compliance_rate.setZero(contacts_, contacts_);
+  sum.free_rate.setZero(contacts_);
+  if (receptance_) {
+    static_cast<ContactReceptance&>(sum) = receptance_(eta);
+    sum.free_rate = rate.load * sum.free;
+    sum.free *= at.load;
+    sum.free_eta *= at.load;
+    return sum;
   }
-  return response;
+  const double stretch = std::sqrt(at.stiffness / at.mass);
+  const double stretch_rate = 0.5 * (rate.stiffness / at.stiffness - rate.mass / at.mass);
+  for (const ContactMode& mode : modes_) {
+    const double frequency = stretch * mode.frequency;
+    const ModalDenominator d(eta, frequency, at.loss);
+    const Complex by_frequency(2 * frequency, 2 * frequency * at.loss.at(eta) + at.loss.modal * eta);
+    const Complex d_rate =
+        by_frequency * (frequency * stretch_rate) + Complex(0, rate.loss.part(eta, frequency));
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
+    const Complex over_mass = inverse / at.mass;
+    const Complex by_eta = -over_mass * inverse * d.by_eta;
+    const Complex by_rate = -over_mass * (inverse * d_rate + rate.mass / at.mass);
+    for (Index j = 0; j < contacts_; ++j) {
+      const Complex shape = std::conj(mode.shape(j));
+      sum.compliance.col(j) += (over_mass * shape) * mode.shape;
+      sum.compliance_eta.col(j) += (by_eta * shape) * mode.shape;
+      sum.compliance_rate.col(j) += (by_rate * shape) * mode.shape;
+    }
+    sum.free += (at.load * mode.load * over_mass) * mode.shape;
+    sum.free_eta += (at.load * mode.load * by_eta) * mode.shape;
+    sum.free_rate += (mode.load * (at.load * by_rate + rate.load * over_mass)) * mode.shape;
+  }
+  return sum;
+}
+
+ContactModes ContactModes::varied(const Variation& at) const {
+  std::vector<ContactMode> modes = modes_;
+  const double smaller = 1 / std::sqrt(at.mass);
+  for (ContactMode& mode : modes) {
+    mode.frequency *= std::sqrt(at.stiffness) * smaller;
+    mode.shape *= smaller;
+    mode.load *= at.load * smaller;
+  }
+  ContactModes structure(contacts_, std::move(modes), at.loss);
+  if (!receptance_) return structure;
+  structure.loss_ = loss_;
+  return structure.solved_by(
+      [load = at.load, solved = receptance_](double eta) {
+        ContactReceptance response = solved(eta);
+        response.free *= load;
+        response.free_eta *= load;
+        return response;
+      },
+      receptance_work_);
 }
 
 double ContactOutput::amplitude(double eta, const ContactVector& forces) const {

@@ -37,6 +37,12 @@ ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspac
 
 Vector least_squares(const Matrix& a, const Vector& b) { return a.householderQr().solve(b); }
 
+Vector least_squares(const Matrix& a, const Vector& b, double rank) {
+  Eigen::CompleteOrthogonalDecomposition<Matrix> factors;
+  factors.setThreshold(rank);
+  return factors.compute(a).solve(b);
+}
+
 ComplexVector eigenvector(const ComplexMatrix& matrix, const Complex& value) {
   const Complex beside = value + 1e-10 * std::max(std::abs(value), matrix.norm() * 1e-3);
   const Eigen::PartialPivLU<ComplexMatrix> solver(

@@ -164,13 +164,13 @@ void DisturbanceFlow::add_modes(double eta, Flow& flow) const {
   }
 }
 
-/// Where all contacts slip, base and damper are free to move as rigid bodies with all sliders, unless other
-/// elements hold them.
+/// Rigid motions that nothing resists, as in TurnedFlow: where all contacts slip, base and damper are free to
+/// move with all sliders, unless other elements hold them.
 Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> elements) const {
   Matrix found(size, 0);
-  if (orders_.front() != 0 || std::any_of(elements.begin(), elements.begin() + contacts_,
-                                          [](const StickPattern& one) { return !one.slips; }))
-    return found;
+  const bool all_slip = std::all_of(elements.begin(), elements.begin() + contacts_,
+                                    [](const StickPattern& one) { return one.slips; });
+  if (orders_.front() != 0) return found;
   std::vector<const Coordinate*> rigid;
   for (const Coordinate& one : coordinates_) {
     if (one.order == 0 && one.mode.frequency == 0) rigid.push_back(&one);
@@ -178,16 +178,27 @@ Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> element
   Matrix shapes(springs_.size(), std::ssize(rigid));
   for (Index k = 0; k < shapes.cols(); ++k)
     shapes.col(k) = rigid[static_cast<std::size_t>(k)]->mode.shape.real();
-  const Matrix free = kernel_of(Matrix(shapes.bottomRows(springs_.size() - contacts_)));
+  std::vector<Index> holding;
+  for (Index i = contacts_; i < springs_.size(); ++i) {
+    if (elements[static_cast<std::size_t>(i)].stiffness.bound() > 0) holding.push_back(i);
+  }
+  const Matrix held = shapes(holding, Eigen::all);
+  Matrix felt(contacts_ + held.rows(), shapes.cols());
+  felt << shapes.topRows(contacts_), held;
+  const Matrix common = springs_.size() == contacts_ ? Matrix(shapes.cols(), 0) : kernel_of(felt);
+  const Matrix free = all_slip ? kernel_of(held) : common;
   const Matrix moved = shapes * free;
   const Index inner = places_.size() - 1;
-  found.setZero(size, free.cols());
-  for (Index k = 0; k < shapes.cols(); ++k)
-    found.row(rigid[static_cast<std::size_t>(k)]->place) = free.row(k);
+  found.setZero(size, free.cols() + common.cols());
+  for (Index k = 0; k < shapes.cols(); ++k) {
+    const Index place = rigid[static_cast<std::size_t>(k)]->place;
+    found.row(place).head(free.cols()) = free.row(k);
+    found.row(place + 1).tail(common.cols()) = common.row(k);
+  }
   Index slider = modal_states_;
   for (Index i = 0; i < contacts_; ++i) {
     const Index count = inner * std::ssize(elements[static_cast<std::size_t>(i)].arcs);
-    found.middleRows(slider, count).rowwise() = moved.row(i);
+    found.middleRows(slider, count).leftCols(free.cols()).rowwise() = moved.row(i);
     slider += count;
   }
   return found;
@@ -218,7 +229,7 @@ Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> element
   for (Index i = 0; i < springs_.size(); ++i) {
     const StickPattern& contact = elements[static_cast<std::size_t>(i)];
     if (!contact.slips) {
-      if (!contact.stiffness.harmonics.empty()) {
+      if (i >= contacts_) {
         add_stiffness(i, contact.stiffness, flow);
       } else {
         flow.force.middleRows(i * orders, orders) =

@@ -1,6 +1,7 @@
 #include "arcslip/time/ring.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -106,8 +107,6 @@ Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   ring.contact_stiffness = parameters.interface_stiffness / static_cast<double>(nodes);
   ring.slip_per_preload = parameters.stiffness_ratio() / parameters.interface_stiffness;
   ring.preload_growth = parameters.preload_growth;
-  ring.cubic_stiffness = cubic_coefficient(parameters);
-  ring.drifts = ring.cubic_stiffness == 0;
   return ring;
 }
 
@@ -140,7 +139,8 @@ void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damp
   ring.turn = turn;
 }
 
-/// The same where springs hold the base: the damper's rigid motion is by itself, and the first coordinate.
+/// The same where elements hold base or damper to ground: the damper's rigid motion is by itself, the first
+/// coordinate, before that of the base.
 void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
   const Index own = ring.base.cols();
   const Index nodes = ring.base.rows();
@@ -168,15 +168,44 @@ void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
   turn.block(1, 1, own, own) = ring.turn;
   turn.bottomRightCorner(elastic, elastic) = damper.turn.bottomRightCorner(elastic, elastic).cast<double>();
   ring.turn = turn;
-  ring.drifts = true;
+}
+
+/// The elements beside the contacts, and the drift that they leave.
+void add_others(Ring& ring, const std::vector<Coordinate>& others, bool is_free) {
+  bool holds_base = false;
+  bool holds_damper = false;
+  for (const Coordinate& one : others) {
+    if (one.element->law() == nullptr)
+      throw std::invalid_argument("build_ring: elements beside the contacts must have no memory");
+    ring.others.push_back({one.base * ring.base + one.damper * ring.damper, one.element});
+    holds_base = holds_base || one.base != 0;
+    holds_damper = holds_damper || one.damper != 0;
+  }
+  if (!is_free) {
+    if (!holds_base) ring.drift = 0;
+  } else if (!holds_base) {
+    ring.drift = holds_damper ? 1 : 0;
+  } else if (!holds_damper) {
+    ring.drift = 0;
+  }
 }
 
 }  // namespace
 
 double Ring::fastest_rate() const {
   const double contacts = (relative * relative.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
+  double others_stiffness = 0;  // of laws that do not grow with the displacement
+  for (const RingElements& other : others) {
+    double steepest = 0;
+    for (const PiecewiseLaw::Piece& piece : other.law().pieces()) {
+      if (piece.coefficients.size() == 2) steepest = std::max(steepest, std::abs(piece.coefficients[1]));
+    }
+    others_stiffness +=
+        steepest * (other.motion * other.motion.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
+  }
   const double half = damping.cwiseAbs().maxCoeff() / 2;
-  return half + std::sqrt(half * half + stiffness.maxCoeff() + contact_stiffness * contacts);
+  return half +
+         std::sqrt(half * half + stiffness.maxCoeff() + contact_stiffness * contacts + others_stiffness);
 }
 
 Ring build_ring(const SystemParameters& parameters) {
@@ -186,16 +215,20 @@ Ring build_ring(const SystemParameters& parameters) {
   const Modes base = modes_of(
       make(parameters.mass_ratio, parameters.stiffness_ratio(), parameters.wave_number, nodes), nodes);
   Ring ring = ring_of_base(parameters, base);
+  const std::vector<Coordinate> others = other_coordinates(parameters, [](const Coordinate&) { return 1.0; });
   if (!parameters.fixed_damper) {
     const Modes damper = modes_of(make(1, 1, parameters.wave_number, nodes), nodes);
     const double factor = damper_damping_factor(parameters);
-    if (ring.drifts) {
-      join_damper(ring, base, damper, factor);
-    } else {
+    const bool is_grounded = std::any_of(
+        others.begin(), others.end(), [](const Coordinate& one) { return one.base == 0 || one.damper == 0; });
+    if (is_grounded) {
       join_free_damper(ring, damper, factor);
+    } else {
+      join_damper(ring, base, damper, factor);
     }
   }
   ring.relative = ring.damper - ring.base;
+  add_others(ring, others, !parameters.fixed_damper);
   return ring;
 }
 

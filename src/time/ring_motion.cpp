@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "time/first_crossing.hpp"
+#include "time/law_series.hpp"
 
 namespace arcslip {
 namespace {
@@ -51,12 +52,6 @@ Index series_order(double reach_of_step) {
     if (term > 1e-19) order = std::max(order, m + 1);
   }
   return order;
-}
-
-Vector product_term(const Matrix& a, const Matrix& b, Index m) {
-  Vector sum = Vector::Zero(a.rows());
-  for (Index j = 0; j <= m; ++j) sum += a.col(j).cwiseProduct(b.col(m - j));
-  return sum;
 }
 
 Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip) {
@@ -105,9 +100,10 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
       const auto turns = static_cast<double>(harmonic.order * ring_.wave_number * i % nodes);
       wave(i) = std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
     }
-    add(harmonic.order, -(ring_.relative.transpose() * wave) * harmonic.force);
-    if (harmonic.ground != 0.0) add(harmonic.order, -(ring_.base.transpose() * wave) * harmonic.ground);
-    force += (wave * harmonic.force).real();
+    add(harmonic.order, -(ring_.relative.transpose() * wave) * harmonic.friction);
+    if (harmonic.base != 0.0) add(harmonic.order, (ring_.base.transpose() * wave) * harmonic.base);
+    if (harmonic.damper != 0.0) add(harmonic.order, (ring_.damper.transpose() * wave) * harmonic.damper);
+    force += (wave * harmonic.friction).real();
     relative += (wave * harmonic.relative).real();
   }
   const Vector spring = (force / ring_.contact_stiffness).cwiseMin(threshold_).cwiseMax(-threshold_);
@@ -117,13 +113,10 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
 
 /// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
 bool RingMotion::expands(const RingState& state, double length) {
-  const bool is_cubic = ring_.cubic_stiffness != 0;
-  const Index order = series_order(rate_ * length + frequency_ * length) + (is_cubic ? 10 : 0);
-  Matrix base, square;  // series of y and y^2
-  if (is_cubic) {
-    base.resize(ring_.nodes(), order + 1);
-    square.resize(ring_.nodes(), order + 1);
-  }
+  const Index order = series_order(rate_ * length + frequency_ * length) + (ring_.others.empty() ? 0 : 10);
+  std::vector<LawSeries> laws;
+  for (std::size_t e = 0; e < ring_.others.size(); ++e)
+    laws.emplace_back(ring_.others[e].law(), segment_.zones[e], order);
   const Matrix sticking = sticking_rows(ring_, state.slip);
   const double k = ring_.contact_stiffness;
   Vector offset(ring_.nodes());  // contact forces at r = 0
@@ -141,7 +134,7 @@ bool RingMotion::expands(const RingState& state, double length) {
   Vector forces(ring_.coordinates());
   double largest = 0;
   Index needed = order;
-  bool is_summed = !is_cubic;
+  bool is_summed = laws.empty();
   for (Index m = 0; m + 2 <= order; ++m) {
     const auto next = static_cast<double>(m + 1);
     forces = ring_.load.real() * phase.real() - ring_.load.imag() * phase.imag();
@@ -149,10 +142,10 @@ bool RingMotion::expands(const RingState& state, double length) {
     forces -= (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
     if (sticking.rows() > 0) forces.noalias() -= sticking.transpose() * (k * (sticking * p.col(m)));
     if (m == 0) forces.noalias() -= ring_.relative.transpose() * offset;
-    if (is_cubic) {
-      base.col(m) = ring_.base * p.col(m);
-      square.col(m) = product_term(base, base, m);
-      forces.noalias() -= ring_.base.transpose() * (ring_.cubic_stiffness * product_term(square, base, m));
+    for (std::size_t e = 0; e < laws.size(); ++e) {
+      const Matrix& motion = ring_.others[e].motion;
+      laws[e].take(motion * p.col(m));
+      forces.noalias() -= motion.transpose() * laws[e].force();
     }
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
     phase *= Complex(0, frequency_ * length / next);
@@ -165,7 +158,39 @@ bool RingMotion::expands(const RingState& state, double length) {
   }
   p.conservativeResize(Eigen::NoChange, needed + 1);
   segment_.relative.noalias() = ring_.relative * p;
+  for (std::size_t e = 0; e < laws.size(); ++e) segment_.other[e].noalias() = ring_.others[e].motion * p;
   return is_summed;
+}
+
+/// By which law the further elements act from here on.
+void RingMotion::find_pieces(const RingState& state) {
+  segment_.other.resize(ring_.others.size());
+  segment_.zones.resize(ring_.others.size());
+  for (std::size_t e = 0; e < ring_.others.size(); ++e) {
+    const Matrix& motion = ring_.others[e].motion;
+    const Vector loose = rounding * (motion.cwiseAbs() * state.position.cwiseAbs());
+    segment_.zones[e] =
+        zones_of(ring_.others[e].law(), motion * state.position, motion * state.velocity, loose);
+  }
+}
+
+/// Where displacements leave the zones of their laws by more than the sums may be wrong by.
+void RingMotion::add_law_crossings(std::vector<Crossing>& found) const {
+  for (std::size_t e = 0; e < ring_.others.size(); ++e) {
+    const Matrix& x = segment_.other[e];
+    for (Index i = 0; i < ring_.nodes(); ++i) {
+      const ZoneEnds ends = zone_ends(ring_.others[e].law(), segment_.zones[e][static_cast<std::size_t>(i)]);
+      const double loose = rounding * ring_.others[e].motion.row(i).cwiseAbs().dot(
+                                          segment_.position.col(0).cwiseAbs().transpose());
+      for (const double sign : {1.0, -1.0}) {
+        const double end = sign > 0 ? ends.high : -ends.low;
+        if (std::isinf(end)) continue;
+        Vector excess = sign * x.row(i).transpose();
+        excess(0) -= end + loose;
+        if (const auto ratio = first_crossing(excess)) found.push_back({ring_.nodes(), *ratio});
+      }
+    }
+  }
 }
 
 std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& state) const {
@@ -194,6 +219,7 @@ std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& s
       look(i, excess);
     }
   }
+  add_law_crossings(found);
   if (found.empty()) return found;
   const double first = std::min_element(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
                          return a.ratio < b.ratio;
@@ -223,6 +249,7 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
   note(state);
   while (duration - elapsed > 1e-15 * period_) {
     double length = std::min(longest_step_, duration - elapsed);
+    find_pieces(state);
     while (!expands(state, length)) length *= 0.5;
     ++count_.steps;
     const std::vector<Crossing> crossings = first_crossings(state);
@@ -236,6 +263,7 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
     at_once = ratio > 0 ? 0 : at_once + 1;
     if (at_once > 4 * ring_.nodes()) throw std::runtime_error("RingMotion: contacts switch without end");
     for (const Crossing& crossing : crossings) {
+      if (crossing.contact == ring_.nodes()) continue;
       change(crossing.contact, state);
       ++count_.events;
       if (observer) observer->change(crossing.contact, state);
@@ -256,8 +284,11 @@ double RingMotion::energy(const RingState& state) const {
         state.slip[i] == 0 ? ring_.relative.row(i).dot(state.position) - state.slider(i) : threshold_;
     energy += ring_.contact_stiffness * spring * spring;
   }
-  energy += 0.5 * ring_.cubic_stiffness * (ring_.base * state.position).array().pow(4).sum();
-  return 0.5 * energy;
+  energy *= 0.5;
+  for (const RingElements& other : ring_.others) {
+    for (const double x : Vector(other.motion * state.position)) energy += other.law().energy(x);
+  }
+  return energy;
 }
 
 }  // namespace arcslip

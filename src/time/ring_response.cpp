@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arcslip/structure/spectrum.hpp"
+#include "time/law_series.hpp"
 
 namespace arcslip {
 namespace {
@@ -68,7 +69,10 @@ Vector newton_step(const RingMotion& motion, const Matrix& derivative, const Vec
   const Index coordinates = motion.ring().coordinates();
   equations.middleRows(coordinates, coordinates) /= motion.frequency();
   equations.middleCols(coordinates, coordinates) *= motion.frequency();
-  Vector step = least_squares(equations, right);
+  // What further elements hold only at times may drift as well.
+  constexpr double held = 1e-10;
+  Vector step =
+      motion.ring().others.empty() ? least_squares(equations, right) : least_squares(equations, right, held);
   step.segment(coordinates, coordinates) *= motion.frequency();
   return step;
 }
@@ -104,25 +108,26 @@ RingTangent::RingTangent(const RingMotion& motion)
   slider_ = all.bottomRows(nodes);
 }
 
-/// Terms of 3 k_3 y^2 in a step's own length: nodes x (order + 1).
-Matrix RingTangent::spring_slopes(const RingSegment& segment, Index order) const {
-  Matrix base = Matrix::Zero(ring_.nodes(), order + 1);
-  const Index known = std::min(order + 1, segment.position.cols());
+/// Terms of df/dx of a further element in a step's own length: nodes x (order + 1).
+Matrix RingTangent::slopes(std::size_t element, const RingSegment& segment, Index order) const {
+  const Matrix& x = segment.other[element];
+  LawSeries law(ring_.others[element].law(), segment.zones[element], order);
+  Matrix all(ring_.nodes(), order + 1);
   double power = 1;
-  for (Index m = 0; m < known; ++m, power *= segment.length / segment.scale)
-    base.col(m) = power * (ring_.base * segment.position.col(m));
-  Matrix slopes(ring_.nodes(), order + 1);
-  for (Index m = 0; m <= order; ++m) slopes.col(m) = 3 * ring_.cubic_stiffness * product_term(base, base, m);
-  return slopes;
+  for (Index m = 0; m <= order; ++m, power *= segment.length / segment.scale) {
+    law.take(m < x.cols() ? Vector(power * x.col(m)) : Vector::Zero(ring_.nodes()));
+    all.col(m) = law.slope();
+  }
+  return all;
 }
 
 void RingTangent::follow(const RingSegment& segment, const RingState& state) {
   const double h = segment.length;
   if (h == 0) return;
-  const bool is_cubic = ring_.cubic_stiffness != 0;
-  const Index order = series_order(rate_ * h) + (is_cubic ? segment.position.cols() : 0);
-  const Matrix slopes = is_cubic ? spring_slopes(segment, order) : Matrix();
-  std::vector<Matrix> of_base;  // terms of its motion
+  const Index order = series_order(rate_ * h) + (ring_.others.empty() ? 0 : segment.position.cols());
+  std::vector<Matrix> stiffness;
+  for (std::size_t e = 0; e < ring_.others.size(); ++e) stiffness.push_back(slopes(e, segment, order));
+  std::vector<std::vector<Matrix>> motions(stiffness.size());  // terms of those of further elements
   const Matrix sticking = sticking_rows(ring_, state.slip);
   const double k = ring_.contact_stiffness;
   Matrix sliders(sticking.rows(), slider_.cols());
@@ -141,11 +146,12 @@ void RingTangent::follow(const RingSegment& segment, const RingState& state) {
     Matrix force = -(ring_.stiffness.asDiagonal() * now);
     force -= (up / h) * (ring_.damping.asDiagonal() * next);
     force.noalias() -= k * sticking.transpose() * spring;
-    if (is_cubic) {
-      of_base.push_back(ring_.base * now);
+    for (std::size_t e = 0; e < stiffness.size(); ++e) {
+      const Matrix& motion = ring_.others[e].motion;
+      motions[e].push_back(motion * now);
       for (Index j = 0; j <= m; ++j)
-        force -=
-            ring_.base.transpose() * (slopes.col(m - j).asDiagonal() * of_base[static_cast<std::size_t>(j)]);
+        force -= motion.transpose() *
+                 (stiffness[e].col(m - j).asDiagonal() * motions[e][static_cast<std::size_t>(j)]);
     }
     now.swap(next);
     next = force * (h * h / (up * (up + 1)));
@@ -171,9 +177,9 @@ Matrix RingTangent::at(const RingState& state) const {
 
 Vector neutral_drift(const Ring& ring) {
   Vector drift = Vector::Zero(2 * ring.coordinates() + ring.nodes());
-  if (!ring.drifts) return drift;
-  drift(0) = 1;
-  drift.tail(ring.nodes()) = ring.relative.col(0);
+  if (!ring.drift) return drift;
+  drift(*ring.drift) = 1;
+  drift.tail(ring.nodes()) = ring.relative.col(*ring.drift);
   return drift.normalized();
 }
 

@@ -29,7 +29,7 @@ RingStability floquet_stability(RingMotion& motion, const RingState& state) {
   if (!stability.slips) {
     stability.turned = spectrum(Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates)));
   } else {
-    stability.turned = spectrum(ring.drifts ? deflated(derivative, Matrix(neutral_drift(ring))) : derivative);
+    stability.turned = spectrum(ring.drift ? deflated(derivative, Matrix(neutral_drift(ring))) : derivative);
   }
   return stability;
 }

@@ -86,21 +86,32 @@ class Flow {
     return state;
   }
 
-  /// Rigid motions that all sliders follow, which nothing resists: no element moves but contacts that slip.
+  /// Rigid motions that nothing resists: that no contact feels, with their velocities, and where all contacts
+  /// slip those that all sliders follow. Further elements hold what they feel, unless they are at rest.
   Dense<Scalar> drifts() const {
     const auto size = std::ssize(coordinates_);
     const std::vector<Slot>& sticking = schedule_.intervals().front().sticking;
     const bool all_slip =
         std::all_of(contacts_.begin(), contacts_.end(), [](const StickPattern& one) { return one.slips; });
-    Dense<Scalar> found(2 * size + std::ssize(sticking), 0);
-    if (!all_slip) return found;
     std::vector<Index> rigid;
     for (Index i = 0; i < size; ++i) {
       if (coordinates_[static_cast<std::size_t>(i)].mode.frequency == 0) rigid.push_back(i);
     }
-    const Dense<Scalar> free = kernel_of(Dense<Scalar>(other_motion_(Eigen::all, rigid)));
-    found.setZero(found.rows(), free.cols());
-    found(rigid, Eigen::all) = free;
+    std::vector<Index> holding;
+    for (Index row = 0; row < other_motion_.rows(); ++row) {
+      if (others_[static_cast<std::size_t>(row % std::ssize(others_))].stiffness.bound() > 0)
+        holding.push_back(row);
+    }
+    const Dense<Scalar> held = other_motion_(holding, rigid);
+    Dense<Scalar> felt(relative_.rows() + held.rows(), std::ssize(rigid));
+    felt << relative_(Eigen::all, rigid), held;
+    const Dense<Scalar> common = others_.empty() ? Dense<Scalar>(std::ssize(rigid), 0) : kernel_of(felt);
+    const Dense<Scalar> free = all_slip ? kernel_of(held) : common;
+    Dense<Scalar> found = Dense<Scalar>::Zero(2 * size + std::ssize(sticking), free.cols() + common.cols());
+    for (std::size_t i = 0; i < rigid.size(); ++i) {
+      found.row(rigid[i]).head(free.cols()) = free.row(static_cast<Index>(i));
+      found.row(size + rigid[i]).tail(common.cols()) = common.row(static_cast<Index>(i));
+    }
     Index slider = 2 * size;
     for (const Slot& slot : sticking) found.row(slider++) = row(slot) * found.topRows(size);
     return found;
@@ -125,18 +136,45 @@ class Flow {
       state.topRows(size) = (flow.topRows(size) * state).eval();
       return;
     }
+    const std::vector<double> ends = ends_within(interval);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const double part = (ends[i + 1] - ends[i]) / interval.width;
+      pass(ends[i], ends[i + 1] - ends[i], rates * part, state);
+    }
+  }
+
+  /// Where the law of an element of some node changes within an interval, between its own ends.
+  std::vector<double> ends_within(const StickSchedule::Interval& interval) const {
+    constexpr double narrow = 1e-12;  // less would be rounding
+    std::vector<double> ends = {interval.begin};
+    for (Index node = 0; node < nodes_; ++node) {
+      const double lag = pi * static_cast<double>(node) / static_cast<double>(nodes_);
+      for (const StickPattern& other : others_) {
+        for (const VaryingStiffness::Arc& arc : other.stiffness.arcs) {
+          const double behind = std::fmod(arc.begin + lag - interval.begin, pi);
+          const double end = behind < 0 ? behind + pi : behind;
+          if (end < interval.width) ends.push_back(interval.begin + end);
+        }
+      }
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < narrow; }),
+               ends.end());
+    ends.push_back(interval.begin + interval.width);
+    return ends;
+  }
+
+  void pass(double begin, double angle, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
     constexpr double longest = 4;  // step, of the fastest rate
     double fastest = rates.cwiseAbs().colwise().sum().maxCoeff();
     for (const StickPattern& other : others_) {
-      for (const Complex& harmonic : other.stiffness.harmonics)
-        fastest += std::abs(harmonic) * other_motion_.squaredNorm() / scale_.minCoeff() * interval.width /
-                   (eta_ * static_cast<double>(nodes_));
+      fastest += other.stiffness.bound() * other_motion_.squaredNorm() / scale_.minCoeff() * angle /
+                 (eta_ * static_cast<double>(nodes_));
     }
-    const auto steps = static_cast<Index>(std::ceil(fastest / longest));
-    const double width = interval.width / static_cast<double>(steps);
+    const auto steps = std::max(Index{1}, static_cast<Index>(std::ceil(fastest / longest)));
+    const double width = angle / static_cast<double>(steps);
     const Dense<Scalar> of_step = rates / static_cast<double>(steps);
-    for (Index i = 0; i < steps; ++i)
-      step(interval.begin + static_cast<double>(i) * width, width, of_step, state);
+    for (Index i = 0; i < steps; ++i) step(begin + static_cast<double>(i) * width, width, of_step, state);
   }
 
   /// The series of one step from a phase of node 0 on.

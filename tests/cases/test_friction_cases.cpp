@@ -120,3 +120,12 @@ TEST_CASE("Where the border of stick turns over the preload the response has two
       CHECK_THAT(value(one, point, "R_over_S"), WithinRel(1, 1e-9));
   }
 }
+
+TEST_CASE("Stops open the folds that their case tells, and the least force that folds is a cusp", "[cases]") {
+  const Run stops("stops");
+  check(stops.traced[0], PointType::fold, {{{"eta", 1.78175367}}, {{"eta", 1.63950823}}});
+  const Run curve("force_fold_curve");
+  const auto cusps = points(curve.traced[0], PointType::cusp);
+  REQUIRE(cusps.size() == 1);
+  CHECK_THAT(value(curve.traced[0], cusps[0], "F"), WithinRel(0.12264984297815, 1e-8));
+}

@@ -52,8 +52,7 @@ HarmonicSystem two_contacts(const std::vector<int>& orders, double stiffening) {
   system.contacts = {{3.0, 0.4}, {5.0, 0.3}};
   system.base_loss_per_zeta = {.viscous = 2};
   if (stiffening != 0) {
-    for (Index i = 0; i < 2; ++i)
-      system.others.push_back({1, 0, i, std::make_shared<CubicSpring>(stiffening, 20)});
+    for (Index i = 0; i < 2; ++i) system.others.push_back({1, 0, i, cubic_spring(stiffening, 20)});
   }
   return system;
 }

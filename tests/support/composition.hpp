@@ -75,6 +75,10 @@ inline std::string sector(const std::string& contacts, const std::string& more) 
          part("base") + "load = { dof = [2], value = [1.0] }\n" + part("damper");
 }
 
+/// That the base meets in its motion.
+inline const std::string stops =
+    "[[element]]\nkind = \"clearance\"\nat = \"base\"\nstiffness = 20.0\ngap = 0.1\n";
+
 inline std::vector<Kind> kinds() {
   return {{"plain", rods(""), 0.5, 5, 1.6, -5e-2},
           {"five harmonics", rods("harmonics = 9"), 0.5, 5, 1.6, -5e-2},
@@ -84,6 +88,7 @@ inline std::vector<Kind> kinds() {
           {"structural damping", rods("", "{ base = 1e-2, damper = 2e-2, kind = \"structural\" }"), 0.5, 5,
            1.6, -5e-2},
           {"growing preload", rods("preload_growth = 0.05"), 0.5, 5, 1.6, -5e-2},
+          {"stops of `[[element]]`, five harmonics", rods("harmonics = 9\n" + stops), 0.5, 5, 1.6, -5e-2},
           {"cubic, five harmonics", rods("cubic_stiffness = 0.5\nharmonics = 9"), 0.5, 5, 1.6, -5e-2},
           {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},

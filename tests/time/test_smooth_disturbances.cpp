@@ -187,7 +187,8 @@ ComplexVector above(const ComplexVector& all, double modulus) {
 }  // namespace
 
 TEST_CASE("Disturbances meet the slope of a smooth element as its motion passes", "[stability]") {
-  const CubicSpring spring(0.7, 1);
+  const auto cubic = cubic_spring(0.7, 1);
+  const Element& spring = *cubic;
   const std::vector<int> orders = {1, 3, 9};
   HarmonicVector x(3);
   x << Complex(1.2, -0.4), Complex(0.3, 0.2), Complex(-0.1, 0.05);

@@ -8,6 +8,7 @@
 //
 // where G = L, but for contacts that act on the damper and not back on the base, which have no entry for it.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,7 @@
 namespace arcslip {
 
 struct HarmonicSystem;
+struct SystemParameters;
 
 /// A row of L with the element that acts in it.
 struct Coordinate {
@@ -25,11 +27,18 @@ struct Coordinate {
   Index dof = 0;                           ///< which of their contact dofs
   std::shared_ptr<const Element> element;  ///< may be shared
   bool spares_base = false;                ///< no force on the base
+  double factor = 1;                       ///< on the element's force
+  bool follows_base = false;               ///< whether its force is told relative to the base's stiffness K*
 
   /// Entry of L for a structure, and of G.
   double move(bool is_base) const { return is_base ? base : damper; }
   double push(bool is_base) const { return is_base && spares_base ? 0 : move(is_base); }
 };
+
+/// Those of the elements beside the contacts, first the ones with a border; `usual_stiffness`, the static one
+/// of base or damper at a contact dof, is asked for each.
+std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
+                                          const std::function<double(const Coordinate&)>& usual_stiffness);
 
 /// All of a system, and what its structures do in them.
 class Coordinates {
@@ -43,12 +52,19 @@ class Coordinates {
   const Element& element(Index i) const { return *all_[static_cast<std::size_t>(i)].element; }
   const Coordinate& operator[](Index i) const { return all_[static_cast<std::size_t>(i)]; }
 
+  /// How many, the first ones, have elements with a border.
+  Index switches() const { return switches_; }
+
   /// Whether elements act but at the contacts.
   bool has_others() const { return size() > contacts_; }
 
   /// C of one order, and -x0 as its `free`, with their derivatives.
   void receptance(const ContactModes& base, const ContactModes& damper, double frequency,
                   ContactReceptance& joint) const;
+
+  /// The same of structures whose responses are known.
+  void join(const ContactReceptance& of_base, const ContactReceptance& of_damper,
+            ContactReceptance& joint) const;
 
   /// Adds the part that one structure has in L C G^T.
   void add(const ContactMatrix& compliance, bool is_base, ContactMatrix& sum) const;
@@ -59,6 +75,7 @@ class Coordinates {
  private:
   std::vector<Coordinate> all_;
   Index contacts_;
+  Index switches_;
   bool spares_base_;
 };
 

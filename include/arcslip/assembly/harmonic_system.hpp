@@ -6,9 +6,11 @@
 //
 //   r_h + C_h k f_h(r) = -y_0 delta_h1,   C_h(eta) = C_B(h eta; h a) + C_D(h eta; h a).
 
+#include <optional>
 #include <vector>
 
 #include "arcslip/assembly/coordinates.hpp"
+#include "arcslip/assembly/system_parameter.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -17,17 +19,21 @@ struct SystemParameters;
 
 /// All that a response in several harmonics needs to know.
 struct HarmonicSystem {
-  std::vector<int> orders;                  ///< h, ascending: of a response odd and from 1
-  std::vector<ContactModes> base;           ///< of each order, the first with the travelling load
-  std::vector<ContactModes> damper;         ///< of each order, without load
-  std::vector<SectorContact> contacts;      ///< in the order of the structures' own
-  double preload_growth = 0;                ///< P_2 of the preload P + P_2 eta^2
-  std::vector<ContactOutput> outputs = {};  ///< of which the first harmonic is wanted
-  std::vector<Coordinate> others = {};      ///< in which elements act beside the contacts
-  bool one_way = false;                     ///< whether contacts do not act back on the base
-  Loss base_loss_per_zeta = {};             ///< the base's loss over zeta_B
-  Loss base_loss_fixed = {};                ///< the rest of it
+  std::vector<int> orders;                     ///< h, ascending: of a response odd and from 1
+  std::vector<ContactModes> base;              ///< of each order, the first with the travelling load
+  std::vector<ContactModes> damper;            ///< of each order, without load
+  std::vector<SectorContact> contacts;         ///< in the order of the structures' own
+  double preload_growth = 0;                   ///< P_2 of the preload P + P_2 eta^2
+  std::vector<ContactOutput> outputs = {};     ///< of which the first harmonic is wanted
+  std::vector<Coordinate> others = {};         ///< in which elements act beside the contacts
+  bool one_way = false;                        ///< whether contacts do not act back on the base
+  Loss base_loss_per_zeta = {};                ///< the base's loss over zeta_B
+  Loss base_loss_fixed = {};                   ///< the rest of it
+  std::optional<SystemParameter> varied = {};  ///< which may be continued beside eta and the preload
 };
+
+/// The system at a value of its parameter `varied`, which it then has no more.
+HarmonicSystem at_value(const HarmonicSystem& system, double value);
 
 /// Throws std::invalid_argument where base, damper, orders and contacts do not fit, or a stiffness or
 /// threshold is not positive.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/elements/element_kind.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -28,6 +29,20 @@ enum class DampingKind { viscous, structural, modal };
 /// As case files have it: its name.
 std::string to_string(DampingKind kind);
 
+/// An element beside the contacts, at the same place of each node.
+struct PlacedElement {
+  enum class Place {
+    contact,  ///< between base and damper
+    base,     ///< between the base and ground
+    damper    ///< between the damper and ground
+  };
+
+  const ElementKind* kind = nullptr;
+  Place place = Place::base;
+  Index dof = 0;                 ///< which of the contact dofs, from 0
+  std::vector<double> settings;  ///< forces of rods and beams N times those of a node
+};
+
 /// [system] of a case file, nondimensional throughout.
 struct SystemParameters {
   StructureModel model = StructureModel::beams;  ///< of both
@@ -46,7 +61,10 @@ struct SystemParameters {
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
   bool one_way = false;        ///< friction acts on the damper and not back on the base
-  std::vector<int> harmonics = {1};  ///< h in which friction is balanced, odd and ascending from 1
+  std::vector<int> harmonics = {1};        ///< h in which friction is balanced, odd and ascending from 1
+  std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
+
+  std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued
 
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
   /// contact, and no ratio, cubic stiffness or fixed damper counts.
@@ -54,6 +72,9 @@ struct SystemParameters {
   std::vector<SectorContact> contacts = {};  ///< one or several
   double eta_low = 0;                        ///< window of eta in which the modes give the response
   double eta_high = 0;
+
+  /// Whether elements act beside the contacts.
+  bool has_others() const { return cubic_stiffness != 0 || !others.empty(); }
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
@@ -115,6 +136,10 @@ double damper_damping_factor(const SystemParameters& parameters);
 /// the rest of it.
 Loss base_loss_per_zeta(const SystemParameters& parameters);
 Loss base_loss_fixed(const SystemParameters& parameters);
+
+/// The same of the damper over zeta_D.
+Loss damper_loss_per_zeta(const SystemParameters& parameters);
+Loss damper_loss_fixed(const SystemParameters& parameters);
 
 /// k_3 of each spring between the base's nodes and ground.
 double cubic_coefficient(const SystemParameters& parameters);

@@ -4,7 +4,9 @@
 // over a period and from the load that presses the parts together, f = f(x; load), in several odd harmonics.
 
 #include <span>
+#include <string>
 
+#include "arcslip/elements/piecewise_law.hpp"
 #include "arcslip/elements/varying_stiffness.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
@@ -22,6 +24,9 @@ struct ElementForce {
 
   /// k x, whatever the load is.
   void set_linear(double stiffness, const HarmonicVector& x, bool derivatives);
+
+  /// By a factor on the force.
+  void scale(double factor, bool derivatives);
 
   /// Adds so much of a change.
   void add(const ElementForce& change, double part);
@@ -42,38 +47,48 @@ class Element {
   /// The stiffness, > 0, relative to which the force is measured: that of the stuck state, if there is one.
   virtual double reference_stiffness() const = 0;
 
-  /// Whether it sticks or slips, with a border in between; else its force is smooth.
-  virtual bool may_slip() const { return false; }
+  /// Whether it has a second state beyond a border, as a contact that slips; else its force is smooth.
+  virtual bool has_border() const { return false; }
+
+  /// What it does in its second state, as "slip".
+  virtual std::string beyond() const { return ""; }
 
   /// Whether the force is reference_stiffness() x in this state.
-  virtual bool is_linear(bool slips) const = 0;
+  virtual bool is_linear(bool beyond) const = 0;
 
-  /// The force under the motion x with these orders; all but harmonics and energy only with `derivatives`. No
-  /// motion that slips is zero. Allocates nothing where the sizes are those of before.
-  virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+  /// The force under the motion x with these orders; all but harmonics, energy and, beyond, the maximum only
+  /// with `derivatives`. No motion beyond the border is zero. Allocates nothing where the sizes are those of
+  /// before.
+  virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                      bool derivatives, ElementForce& out) const = 0;
 
   /// How harmonics and derivatives, which `force` has given as `at` with these arguments, change with x and
   /// with ln(load). Of the energy and the maximum nothing is said.
   ElementForce change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                      double load, bool slips, const HarmonicVector& motion, double log_load) const;
+                      double load, bool beyond, const HarmonicVector& motion, double log_load) const;
 
-  /// What small disturbances of the motion x meet in an element that does not slip; one that slips has a
-  /// memory and no such stiffness.
+  /// What small disturbances of the motion x meet; a contact that slips has a memory and no such stiffness.
   virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const = 0;
 
-  /// The border of one that may slip, smooth where the motion is zero; `top` is the motion's maximum.
-  virtual StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
-                             bool slips) const;
+  /// The border of one that has one, (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in the first state and its
+  /// negative beyond, smooth where the motion is zero; `top` is the motion's maximum.
+  StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
+                     bool beyond) const;
 
-  /// The amplitude up to which it sticks; infinite of one that does not slip.
-  virtual double slip_threshold(double load) const;
+  /// S, the amplitude up to which it stays in its first state; infinite of one without border.
+  virtual double threshold(double load) const;
+
+  /// d ln S/d ln(load).
+  virtual double threshold_by_log_load() const { return 0; }
+
+  /// The law of one without memory, as its motion in time follows it; null of others.
+  virtual const PiecewiseLaw* law() const { return nullptr; }
 
  protected:
   /// How `linear`, `conjugate` and `by_log_load`, which are zero before, of a force that is not linear
   /// change.
   virtual void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                      double load, const HarmonicVector& motion, double log_load,
+                      double load, bool beyond, const HarmonicVector& motion, double log_load,
                       ElementForce& change) const = 0;
 };
 

@@ -15,7 +15,8 @@ class Jenkins final : public Element {
   Jenkins(double stiffness, double slip_per_load);
 
   double reference_stiffness() const override { return stiffness_; }
-  bool may_slip() const override { return true; }
+  bool has_border() const override { return true; }
+  std::string beyond() const override { return "slip"; }
   bool is_linear(bool slips) const override { return !slips; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
              ElementForce& out) const override;
@@ -25,14 +26,12 @@ class Jenkins final : public Element {
     return {{stiffness_}};
   }
 
-  /// (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in stick, its negative in slip.
-  StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
-                     bool slips) const override;
-  double slip_threshold(double load) const override { return slip_per_load_ * load; }
+  double threshold(double load) const override { return slip_per_load_ * load; }
+  double threshold_by_log_load() const override { return 1; }
 
  private:
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
-              const HarmonicVector& motion, double log_load, ElementForce& change) const override;
+              bool slips, const HarmonicVector& motion, double log_load, ElementForce& change) const override;
 
   double stiffness_;
   double slip_per_load_;

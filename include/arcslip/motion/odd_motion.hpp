@@ -62,7 +62,10 @@ class OddMotion {
     double value;  ///< r
   };
   /// max r, which is max |r|; 0 of a motion that is zero.
-  Maximum maximum() const;
+  Maximum maximum() const { return maximum(turning_points()); }
+
+  /// The same where the turning points are known.
+  Maximum maximum(const Angles& turns) const;
 
  private:
   double steepest() const;

@@ -35,11 +35,20 @@ struct ContactReceptance {
   void set_zero(Index contacts);
 };
 
-/// Compliance of m contacts under another damping, with its derivatives.
-struct DampedReceptance {
-  ContactMatrix compliance;       ///< C, m x m
-  ContactMatrix compliance_eta;   ///< dC/deta
-  ContactMatrix compliance_loss;  ///< as the loss changes
+/// A structure whose properties are not those it was built with, or the rates at which they change.
+struct Variation {
+  double stiffness = 1;  ///< factor on K
+  double mass = 1;       ///< factor on M
+  double load = 1;       ///< factor on F
+  Loss loss = {};        ///< in place of its own; proportional to these K and M
+
+  static Variation none() { return {0, 0, 0, {}}; }  ///< of rates
+};
+
+/// Response of such a structure, with its derivatives along the rates of a variation.
+struct VariedReceptance : ContactReceptance {
+  ContactMatrix compliance_rate;  ///< of C, m x m
+  ContactVector free_rate;        ///< of y_0, m
 };
 
 /// Work of a cycle at eta: of the load, what the damping takes, and that of load and contact forces whatever
@@ -87,8 +96,13 @@ class ContactModes {
   /// of all modes, or where it is solved otherwise of load and contacts, |F^H d| and |f_i y_i|.
   CycleWork work(double eta, const ContactVector& forces) const;
 
-  /// The compliance of the modes with this loss, and how it changes with the loss by `rate`.
-  DampedReceptance damped(double eta, const Loss& loss, const Loss& rate) const;
+  /// The response of the modes as their structure is varied,
+  ///   C = sum_k s_k s_k^H/(m d_k)   with eta_k sqrt(a/m) in d_k   for factors a on K and m on M.
+  /// One that is solved for may differ in its load alone.
+  VariedReceptance varied(double eta, const Variation& at, const Variation& rate) const;
+
+  /// The structure as it is varied. One that is solved for may differ in its load alone.
+  ContactModes varied(const Variation& at) const;
 
   /// What it was made of.
   Index contacts() const { return contacts_; }

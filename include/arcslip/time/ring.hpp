@@ -11,14 +11,26 @@
 // where node i carries the load of node 1 times e^{-ja(i-1)}. It is held in the undamped modes of the two
 // uncoupled structures, q = Phi p, which leave every matrix but that of the contacts diagonal:
 //
-//   p'' + D p' + W p + B^T g + Y^T k_3 y^3 = Re(L e^{jw*t}),   r = B p,   y = Y p
+//   p'' + D p' + W p + B^T g + sum X^T f(x) = Re(L e^{jw*t}),   r = B p,   x = X p
 //
-// Where the damper is free, base and damper can move together as one rigid body. No force of this model does
-// it, unless the base stands on springs k_3 y^3: that coordinate stays at rest and is left out.
+// with further elements f(x) in coordinates x of base or damper. Where the damper is free, base and damper
+// can move together as one rigid body. No force of this model does it, unless elements hold one of them to
+// ground: that coordinate stays at rest and is left out.
 
+#include <optional>
+
+#include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/system.hpp"
 
 namespace arcslip {
+
+/// Elements without memory beside the contacts, the same at each node.
+struct RingElements {
+  Matrix motion;  ///< N x D: x = motion p
+  std::shared_ptr<const Element> element;
+
+  const PiecewiseLaw& law() const { return *element->law(); }
+};
 
 /// Modal form of the ring; D coordinates, N contacts. Time is nondimensional: one period is 1/eta.
 struct Ring {
@@ -34,8 +46,8 @@ struct Ring {
   double contact_stiffness;  ///< k = K_FD/N
   double slip_per_preload;   ///< S/P
   double preload_growth;     ///< P_2
-  double cubic_stiffness;    ///< k_3
-  bool drifts;               ///< whether the first coordinate is a rigid motion that contacts alone resist
+  std::vector<RingElements> others;
+  std::optional<Index> drift;  ///< the coordinate, if any, of a rigid motion that contacts alone resist
 
   /// N and D.
   Index nodes() const { return relative.rows(); }
@@ -45,7 +57,8 @@ struct Ring {
   double fastest_rate() const;
 };
 
-/// Assembles the ring. Throws std::invalid_argument for sectors and for damping that is not viscous.
+/// Assembles the ring. Throws std::invalid_argument for sectors, for damping that is not viscous and for
+/// elements with memory beside the contacts.
 Ring build_ring(const SystemParameters& parameters);
 
 }  // namespace arcslip

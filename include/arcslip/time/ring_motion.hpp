@@ -6,10 +6,11 @@
 //   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - B^T g_m
 //
 // is summed to rounding, over steps of a few units of the fastest rate of the ring, or shorter ones where
-// cubic springs add products of series to it. So every displacement is
-// a polynomial in a step, of which the first crossing is found without sampling: |r - x| = S ends stick,
-// r' = 0 ends slip. It needs no decomposition for each pattern of sticking contacts, of which a transient has
-// hundreds, and has no exception where the damped modes are defective.
+// further elements add products of series to it. So every displacement is a polynomial in a step, of which
+// the first crossing is found without sampling: |r - x| = S ends stick, r' = 0 ends slip, and a further
+// element changes its law where its displacement says so. It needs no decomposition for each pattern of
+// sticking contacts, of which a transient has hundreds, and has no exception where the damped modes are
+// defective.
 
 #include <set>
 #include <vector>
@@ -29,11 +30,13 @@ struct RingState {
 
 /// One step: coefficients in powers of (t - start)/scale, valid for start <= t <= start + length.
 struct RingSegment {
-  double start = 0;   ///< t
-  double scale = 1;   ///< of time, in the powers
-  double length = 0;  ///< of the step, in time
-  Matrix position;    ///< D x (order + 1)
-  Matrix relative;    ///< N x (order + 1): r
+  double start = 0;                     ///< t
+  double scale = 1;                     ///< of time, in the powers
+  double length = 0;                    ///< of the step, in time
+  Matrix position;                      ///< D x (order + 1)
+  Matrix relative;                      ///< N x (order + 1): r
+  std::vector<Matrix> other;            ///< N x (order + 1) of each further element: x
+  std::vector<std::vector<int>> zones;  ///< N of each: the piece of its law, negative where x is
 
   /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
   static Vector value(const Matrix& series, double ratio);
@@ -59,12 +62,13 @@ struct RingCount {
   std::set<std::vector<bool>> patterns;  ///< of sticking contacts, the least of each one's rotations
 };
 
-/// One harmonic of the relative displacement and the friction force of node 1, phasors.
+/// One harmonic of the relative displacement of node 1, and of forces there, phasors.
 struct ContactHarmonic {
   int order;           ///< h
   Complex relative;    ///< r_h
-  Complex force;       ///< of the friction force on the base, k phi r for one harmonic
-  Complex ground = 0;  ///< of the force of cubic springs against the base's motion
+  Complex friction;    ///< on the base, k phi r for one harmonic; that on the damper is the opposite
+  Complex base = 0;    ///< force of further elements on the base
+  Complex damper = 0;  ///< and on the damper
 };
 
 /// Equation of motion of `ring` at one eta and preload.
@@ -95,11 +99,13 @@ class RingMotion {
 
  private:
   struct Crossing {
-    Index contact;
-    double ratio;  ///< of the segment's scale
+    Index contact;  ///< beyond the last: the law of a further element changes
+    double ratio;   ///< of the segment's scale
   };
 
   bool expands(const RingState& state, double length);
+  void find_pieces(const RingState& state);
+  void add_law_crossings(std::vector<Crossing>& found) const;
   std::vector<Crossing> first_crossings(const RingState& state) const;
   void change(Index contact, RingState& state) const;
   void note(const RingState& state);
@@ -113,9 +119,6 @@ class RingMotion {
   RingSegment segment_;
   RingCount count_;
 };
-
-/// Coefficient m of the product of two series, row by row, in columns.
-Vector product_term(const Matrix& a, const Matrix& b, Index m);
 
 /// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
 Index series_order(double reach);

@@ -13,7 +13,7 @@
 //
 // One direction is neutral in every state: base against damper as rigid bodies, with all sliders. Neither
 // structure resists it, and r - x stays as it was. Responses that differ by such a drift are one here. On
-// cubic springs the base has none, and the damper, if it is free, has it alone.
+// further elements the structure that they hold has none, and the other one, if it is free, has it alone.
 
 #include "arcslip/time/ring_motion.hpp"
 
@@ -32,7 +32,7 @@ class RingTangent : public RingObserver {
   Matrix at(const RingState& state) const;
 
  private:
-  Matrix spring_slopes(const RingSegment& segment, Index order) const;
+  Matrix slopes(std::size_t element, const RingSegment& segment, Index order) const;
 
   const Ring& ring_;
   double rate_;

@@ -66,6 +66,7 @@ class ExtremumTracer {
 
   bool go_on();
   bool leave(const Place& place);
+  std::optional<Side> smooth_side(const Place& place);
   bool enter(Side side);
   std::optional<BasePoint> first_inside(const BasePoint& corner, Side side, double inside, double least);
   std::optional<BasePoint> fold_beside(const BasePoint& corner, int border, Side side);

@@ -9,18 +9,11 @@
 
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/setting.hpp"
 
 namespace arcslip::problems {
 
-/// A key of [system] that a model understands: a parameter of the problem, or a size.
-struct Setting {
-  std::string name;         ///< the key
-  double value;             ///< the default
-  double low;               ///< smallest value allowed
-  double high;              ///< largest
-  bool is_integer = false;  ///< whether it must be whole
-  std::string meaning;      ///< as `arcslip help` tells it
-};
+using arcslip::Setting;  // a key of [system] that a model understands: a parameter of the problem, or a size
 
 /// A problem that can be built by name. Every parameter of the problem is a setting of the same name.
 struct LibraryModel {

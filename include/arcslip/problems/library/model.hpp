@@ -2,25 +2,11 @@
 
 // How the entries of the library are written.
 
-#include <limits>
 #include <memory>
-#include <string>
-#include <utility>
 
 #include "arcslip/problems/library/library.hpp"
 
 namespace arcslip::problems {
-
-/// A real setting without limits.
-inline Setting any_value(std::string name, double value, std::string meaning) {
-  constexpr double most = std::numeric_limits<double>::max();
-  return {std::move(name), value, -most, most, false, std::move(meaning)};
-}
-
-/// A real setting that is not negative.
-inline Setting not_negative(std::string name, double value, std::string meaning) {
-  return {std::move(name), value, 0, std::numeric_limits<double>::max(), false, std::move(meaning)};
-}
 
 /// The first `count` values as a vector: those settings that are the problem's parameters come first.
 inline Vector parameters_of(const LibraryModel::Values& values, Index count) {

@@ -1,9 +1,9 @@
 #pragma once
 
 // What the problems of base, damper and contacts in several harmonics share: the coordinates x in which
-// elements act, the regimes, which contacts slip, switch i for contact i, with the borders A_i = max |x_i(t)|
-// = S_i, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the first
-// coordinate is an unknown or a parameter is each problem's own matter, its layout.
+// elements act, the regimes, which elements are beyond their border A_i = max |x_i(t)| = S_i, as contacts
+// that slip, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the
+// first coordinate is an unknown or a parameter is each problem's own matter, its layout.
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
@@ -18,12 +18,11 @@ class HarmonicProblem : public continuation::Problem {
  public:
   Index size() const override { return 2 * coordinates_.size() * harmonics(); }
 
-  Index switch_count() const override { return contacts(); }
-  std::string describe(const continuation::Regime& regime) const override {
-    return slip_name(regime, contacts());
-  }
+  /// Of the coordinates whose elements have a border, which come first.
+  Index switch_count() const override { return coordinates_.switches(); }
+  std::string describe(const continuation::Regime& regime) const override;
   int border_count(const continuation::Regime& /*regime*/) const override {
-    return static_cast<int>(contacts());
+    return static_cast<int>(switch_count());
   }
   double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
@@ -53,7 +52,7 @@ class HarmonicProblem : public continuation::Problem {
 
   /// S of a contact.
   double slip_threshold(Index contact, const Vector& u, const Vector& p) const {
-    return coordinates_.element(contact).slip_threshold(load(u, p));
+    return coordinates_.element(contact).threshold(load(u, p));
   }
 
  protected:
@@ -73,6 +72,7 @@ class HarmonicProblem : public continuation::Problem {
     Place imaginary = {};  ///< and Im x_1, 0 where it stands nowhere
     Place damping = {};    ///< zeta of a damping -2 zeta w* M of both structures,
     bool of_base = false;  ///< or else zeta_B
+    Place varied = {};     ///< the further parameter of the system, if it may be continued
   };
 
   /// Of what a quantity tells.
@@ -100,10 +100,46 @@ class HarmonicProblem : public continuation::Problem {
   /// eta.
   double frequency(const Vector& u, const Vector& p) const { return value(layout_.eta, u, p); }
 
+  /// Whether none slips, whatever further elements do.
+  bool contacts_stick(const continuation::Regime& regime) const;
+
+  /// Whether a further parameter of the system may be continued.
+  bool is_varied() const { return layout_.varied.of != Place::nowhere; }
+
+  /// What the further parameter does here.
+  SystemParameter::At variation(const Vector& u, const Vector& p) const {
+    return system_.varied->at(value(layout_.varied, u, p));
+  }
+
   /// P + P_2 eta^2.
-  double load(const Vector& u, const Vector& p) const {
+  double pressing(const Vector& u, const Vector& p) const {
     const double eta = frequency(u, p);
     return value(layout_.preload, u, p) + system_.preload_growth * eta * eta;
+  }
+
+  /// The same times what a variation does to S/P.
+  double load(const Vector& u, const Vector& p) const {
+    return is_varied() ? pressing(u, p) * variation(u, p).here.slip_per_preload : pressing(u, p);
+  }
+
+  /// Factor on the force of a coordinate's element, or its rate.
+  double force_factor(Index coordinate, const SystemVariation& of) const {
+    return coordinate < contacts()                 ? of.contact_stiffness
+           : coordinates_[coordinate].follows_base ? of.others
+                                                   : 1;
+  }
+  double force_rate(Index coordinate, const SystemVariation& rate) const {
+    return coordinate < contacts() || coordinates_[coordinate].follows_base ? force_factor(coordinate, rate)
+                                                                            : 0;
+  }
+  double force_factor(Index coordinate, const Vector& u, const Vector& p) const {
+    const double own = coordinates_[coordinate].factor;
+    return is_varied() ? own * force_factor(coordinate, variation(u, p).here) : own;
+  }
+
+  /// The stiffness relative to which the force of a coordinate's element is measured.
+  double reference_stiffness(Index coordinate, const Vector& u, const Vector& p) const {
+    return coordinates_.element(coordinate).reference_stiffness() * force_factor(coordinate, u, p);
   }
 
   /// Of each coordinate; valid until the thread's next call, whose work space it is.
@@ -112,7 +148,9 @@ class HarmonicProblem : public continuation::Problem {
 
   /// A structure in one harmonic, with derivatives by eta itself and by the damping of the layout.
   struct Response : ContactReceptance {
-    ContactMatrix by_damping;  ///< dC/dzeta
+    ContactMatrix by_damping;      ///< dC/dzeta
+    ContactMatrix by_varied;       ///< dC by the further parameter
+    ContactVector free_by_varied;  ///< dy_0 by it
   };
   /// `order` is the position of the harmonic.
   void respond(const ContactModes& structure, bool is_base, Index order, const Vector& u, const Vector& p,
@@ -135,6 +173,8 @@ class HarmonicProblem : public continuation::Problem {
   static void add(const Place& place, double value, continuation::Gradient& gradient);
   /// Adds what is `value` times a change of ln(load).
   void add_log_load(double value, const Vector& u, const Vector& p, continuation::Gradient& gradient) const;
+  void respond_varied(const ContactModes& structure, bool is_base, double frequency_value,
+                      const SystemParameter::At& at_value, Response& response) const;
   OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
   class Observation;
 };

@@ -23,8 +23,8 @@ namespace arcslip::problems {
 /// The equations above.
 class HarmonicResponse : public HarmonicProblem {
  public:
-  /// Positions of eta and P.
-  enum Parameter : Index { eta, preload };
+  /// Positions of eta, P and, if it may be continued, a further parameter of the system.
+  enum Parameter : Index { eta, preload, further };
   /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
   /// is the energy of all, over k S^2; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
   /// dissipated_contact_2 of each further contact; the amplitudes of the outputs; then, of the first contact,
@@ -34,7 +34,7 @@ class HarmonicResponse : public HarmonicProblem {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit HarmonicResponse(HarmonicSystem system);
 
-  std::vector<std::string> parameter_names() const override { return {"eta", "P"}; }
+  std::vector<std::string> parameter_names() const override;
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
   /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
@@ -49,8 +49,16 @@ class HarmonicResponse : public HarmonicProblem {
   /// The solution at (eta, P) on the branch that begins where all contacts stick: under a high preload or,
   /// where other elements act, under a small force. Throws std::invalid_argument where that cannot be traced,
   /// Unfinished where max_seconds or go_on of the limits end it.
+  continuation::Guess guess(const Vector& parameters, const continuation::TraceOptions& limits = {}) const;
+
+  /// At the system's own value of its further parameter, if it has one.
   continuation::Guess guess(double eta_value, double preload_value,
                             const continuation::TraceOptions& limits = {}) const;
+
+  /// The system at these parameters; `varied` holds it where it is not the problem's own.
+  const HarmonicSystem& system_at(const Vector& p, std::optional<HarmonicSystem>& varied) const {
+    return is_varied() ? varied.emplace(at_value(system_, p(further))) : system_;
+  }
 
   /// x_h of a coordinate, of the unknowns.
   HarmonicVector motion(const Vector& u, Index coordinate) const;
@@ -58,6 +66,12 @@ class HarmonicResponse : public HarmonicProblem {
   /// S of a contact.
   double slip_threshold(Index contact, const Vector& p) const {
     return HarmonicProblem::slip_threshold(contact, {}, p);
+  }
+
+  /// f_h of the element of a coordinate.
+  HarmonicVector element_force(Index coordinate, const Vector& u, const Vector& p,
+                               const continuation::Regime& regime) const {
+    return forces(u, p, regime, false)[at(coordinate)].harmonics;
   }
 
   /// What the elements do to base and damper.
@@ -80,18 +94,23 @@ class HarmonicResponse : public HarmonicProblem {
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
     Index which;
-    ContactReceptance joint;               // 1 + C_h K in place of C_h, and -x0, 0 above the first
+    ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
+    ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
+    ContactVector free_by_varied;
     ContactMatrix inverse;                 // (1 + C_h K)^{-1}
     double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
   };
-  void set_order(Index which, double eta_value, const continuation::Regime& regime, Order& order) const;
+  void set_order(Index which, const Vector& p, const continuation::Regime& regime, Order& order) const;
+  void set_varied(Order& order, double frequency_value, const Vector& p) const;
   struct Rows;
   void fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u, const Vector& p,
                  const continuation::Regime& regime, Rows& rows, Matrix* parameter_jacobian) const;
   void fill_order(Order& order, const std::vector<ElementForce>& elements, double share, const Vector& u,
                   const Vector& p, Rows& rows, Matrix* parameter_jacobian) const;
-  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
+  void add_linear_part(Order& order, const ContactMatrix& compliance, const ContactVector& free, double share,
+                       double weight) const;
+  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
                      const continuation::Regime& regime, Matrix& jacobian) const;
 
   /// The derivatives of F with these forces of the elements.
@@ -102,6 +121,11 @@ class HarmonicResponse : public HarmonicProblem {
     return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
   }
   double load(const Vector& p) const { return HarmonicProblem::load({}, p); }
+
+  /// Whether there is a response at these parameters.
+  bool has_value(const Vector& p) const {
+    return p(eta) > 0 && p(preload) > 0 && load(p) > 0 && (!is_varied() || p(further) > system_.varied->low);
+  }
 };
 
 }  // namespace arcslip::problems

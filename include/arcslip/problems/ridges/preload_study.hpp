@@ -107,9 +107,9 @@ struct PreloadStudy {
   std::vector<int> harmonics = {};   ///< those that were added as the best preload asked for; else empty
 };
 
-/// Studies a linear, passive system (cubic_stiffness = 0, damping > 0); its `preload` is not used. Of
-/// `options` the tolerance and the limits of steps count. Throws std::invalid_argument for other systems or
-/// an empty range. What cannot be traced is told by `failure`, never passed over.
+/// Studies a linear, passive system (without elements beside the contact, damping > 0); its `preload` is not
+/// used. Of `options` the tolerance and the limits of steps count. Throws std::invalid_argument for other
+/// systems or an empty range. What cannot be traced is told by `failure`, never passed over.
 PreloadStudy study_preload(const SystemParameters& system, const PreloadRange& range,
                            const continuation::TraceOptions& options = {});
 

@@ -1,0 +1,39 @@
+#pragma once
+
+// The elements that [[element]] of a case file may name. Each is one file in src/elements/kinds: NAME.cpp
+// defines `ElementKind NAME_element()`, and the build finds it.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "arcslip/elements/element.hpp"
+#include "arcslip/setting.hpp"
+
+namespace arcslip {
+
+struct ElementKind {
+  /// What one is made of.
+  struct Values {
+    std::vector<double> settings;  ///< in their order
+    double usual_stiffness = 1;    ///< the static one that its coordinate meets, > 0
+  };
+
+  std::string name;
+  std::string meaning;  ///< one line
+  struct Value : Setting {
+    bool scales_force = false;  ///< whether the force is proportional to all such values together
+  };
+  std::vector<Value> settings;
+  std::function<std::shared_ptr<const Element>(const Values&)> make;
+};
+
+/// All of them, in alphabetical order.
+const std::vector<ElementKind>& element_kinds();
+
+/// The one of this name, or null.
+const ElementKind* find_element_kind(const std::string& name);
+
+}  // namespace arcslip

@@ -1,0 +1,93 @@
+#include "cases/element_section.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace arcslip {
+namespace {
+
+using ElementKey = Key<PlacedElement>;
+
+constexpr const char* expected_tables = "expected tables [[element]]";
+
+ElementKey key_of(const ElementKind::Value& setting, std::size_t i) {
+  std::string meaning = setting.meaning;
+  if (setting.scales_force) meaning += "; of rods and beams N times that of a node, as K_FD";
+  const auto setting_value = [i](auto& placed) -> auto& { return placed.settings[i]; };
+  if (std::isnan(setting.value)) return {setting.name, setting_value, rule_of(setting), meaning, required};
+  return {setting.name, setting_value, rule_of(setting), meaning,
+          otherwise(fmt::format("{}", setting.value))};
+}
+
+KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
+  const auto contact = [](PlacedElement& placed, const TomlSection& section) {
+    placed.dof = section.integer("contact", at_least(1)) - 1;
+  };
+  std::vector<ElementKey> keys = {
+      ElementKey::special("kind", fmt::format("\"{}\"", kind.name), kind.meaning, {}, otherwise("required"),
+                          unlisted),
+      ElementKey::choice("at", &PlacedElement::place,
+                         {{"contact", PlacedElement::Place::contact},
+                          {"base", PlacedElement::Place::base},
+                          {"damper", PlacedElement::Place::damper}},
+                         "between base and damper, or between one of them and ground", "", required,
+                         unlisted),
+      ElementKey::special("contact", "integer >= 1", "of sectors, at which of the contact dofs", contact,
+                          resolved([](const PlacedElement& placed) { return placed.dof + 1; }), unlisted)};
+  for (std::size_t i = 0; i < kind.settings.size(); ++i) keys.push_back(key_of(kind.settings[i], i));
+  return {std::move(keys)};
+}
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const ElementKind& kind : element_kinds()) names.push_back(kind.name);
+  return names;
+}
+
+}  // namespace
+
+NumberRule rule_of(const Setting& setting) {
+  constexpr double most = std::numeric_limits<double>::max();
+  if (setting.low == -most && setting.high == most) return any_number();
+  const auto holds = [setting](double x) {
+    return (setting.may_be_low ? x >= setting.low : x > setting.low) && x <= setting.high;
+  };
+  const char* above = setting.may_be_low ? ">=" : ">";
+  if (setting.high == most) return {holds, fmt::format(" {} {:g}", above, setting.low)};
+  return {holds, fmt::format(" {} {:g} and <= {:g}", above, setting.low, setting.high)};
+}
+
+const KeyTable<PlacedElement>& element_keys(const ElementKind& kind) {
+  static const auto tables = [] {
+    std::map<std::string, KeyTable<PlacedElement>> made;
+    for (const ElementKind& one : element_kinds()) made.emplace(one.name, keys_of(one));
+    return made;
+  }();
+  return tables.at(kind.name);
+}
+
+void read_elements(const TomlDocument& document, SystemParameters& system) {
+  const toml::node* node = document.root().get("element");
+  if (node == nullptr) return;
+  if (!node->is_array_of_tables()) document.mismatch(*node, "element", expected_tables);
+  const auto contacts = std::max<Index>(1, std::ssize(system.contacts));
+  for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
+    const TomlSection section(document, *node->as_array()->get(i)->as_table(), fmt::format("element[{}]", i));
+    PlacedElement placed;
+    section.require("kind", one_of(kind_names()));
+    placed.kind = find_element_kind(section.text("kind", kind_names()));
+    for (const ElementKind::Value& setting : placed.kind->settings) placed.settings.push_back(setting.value);
+    element_keys(*placed.kind).read(placed, section);
+    if (placed.dof >= contacts)
+      section.fail("contact",
+                   fmt::format("expected a contact from 1 to {}, got {}", contacts, placed.dof + 1));
+    if (system.fixed_damper && placed.place == PlacedElement::Place::damper)
+      section.fail("at", "there is no damper that moves");
+    if (contacts + std::ssize(system.others) + (system.cubic_stiffness != 0 ? contacts : 0) >= most_contacts)
+      section.fail("kind", fmt::format("more than {} contacts and elements at a node", most_contacts));
+    system.others.push_back(std::move(placed));
+  }
+}
+
+}  // namespace arcslip

@@ -1,0 +1,89 @@
+#include "arcslip/elements/piecewise_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace arcslip {
+namespace {
+
+/// sum_m m (m - 1) ... (m - order + 1) c_m x^(m - order).
+double derivative(const std::vector<double>& coefficients, int order, double x) {
+  double sum = 0;
+  for (int m = static_cast<int>(coefficients.size()) - 1; m >= order; --m) {
+    double factor = coefficients[static_cast<std::size_t>(m)];
+    for (int i = 0; i < order; ++i) factor *= m - i;
+    sum = sum * x + factor;
+  }
+  return sum;
+}
+
+double integral(const std::vector<double>& coefficients, double x) {
+  double sum = 0;
+  for (std::size_t m = coefficients.size(); m-- > 0;)
+    sum = sum * x + coefficients[m] / static_cast<double>(m + 1);
+  return sum * x;
+}
+
+}  // namespace
+
+PiecewiseLaw::PiecewiseLaw(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
+  const auto refuse = [](const char* why) {
+    throw std::invalid_argument(std::string("PiecewiseLaw: ") + why);
+  };
+  if (pieces_.empty() || !std::isinf(pieces_.back().end)) refuse("the last piece must have no end");
+  for (std::size_t m = 0; m < pieces_.front().coefficients.size(); m += 2) {
+    if (pieces_.front().coefficients[m] != 0) refuse("the first piece must be odd");
+  }
+  double before = 0;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    degree_ = std::max(degree_, static_cast<int>(pieces_[i].coefficients.size()) - 1);
+    const double end = pieces_[i].end;
+    if (!(end > before)) refuse("the ends of pieces must ascend from above 0");
+    before = end;
+    if (i + 1 == pieces_.size()) break;
+    constexpr double rounding = 1e-12;
+    const double jump = value(end, i + 1) - value(end, i);
+    double size = std::abs(value(end, i));
+    for (std::size_t m = 0; m < pieces_[i + 1].coefficients.size(); ++m)
+      size = std::max(size, std::abs(pieces_[i + 1].coefficients[m]) * std::pow(end, m));
+    if (!(std::abs(jump) <= rounding * size)) refuse("the force must be continuous");
+  }
+}
+
+std::size_t PiecewiseLaw::piece_at(double x) const {
+  std::size_t piece = 0;
+  while (std::abs(x) > pieces_[piece].end) ++piece;
+  return piece;
+}
+
+double PiecewiseLaw::value(double x, std::size_t piece) const {
+  return (x < 0 ? -1 : 1) * derivative(pieces_[piece].coefficients, 0, std::abs(x));
+}
+
+double PiecewiseLaw::slope(double x, std::size_t piece) const {
+  return derivative(pieces_[piece].coefficients, 1, std::abs(x));
+}
+
+double PiecewiseLaw::continued_slope(double x, std::size_t piece) const {
+  return derivative(pieces_[piece].coefficients, 1, x);
+}
+
+double PiecewiseLaw::curvature(double x, std::size_t piece) const {
+  return (x < 0 ? -1 : 1) * derivative(pieces_[piece].coefficients, 2, std::abs(x));
+}
+
+double PiecewiseLaw::energy(double x) const {
+  double sum = 0;
+  double from = 0;
+  for (const Piece& piece : pieces_) {
+    const double to = std::min(piece.end, std::abs(x));
+    sum += integral(piece.coefficients, to) - integral(piece.coefficients, from);
+    if (to >= std::abs(x)) break;
+    from = to;
+  }
+  return sum;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,75 @@
+#include "arcslip/elements/piecewise_law.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "arcslip/elements/memoryless.hpp"
+#include "catch.hpp"
+
+using namespace arcslip;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// Linear, then stiffer, then quadratic.
+PiecewiseLaw three_pieces() { return PiecewiseLaw({{1, {0, 2}}, {2, {-3, 5}}, {endless, {3, 0, 1}}}); }
+
+}  // namespace
+
+TEST_CASE("A law in pieces is odd and continuous, with its slope, curvature and energy", "[elements]") {
+  const PiecewiseLaw law = three_pieces();
+  CHECK(law.degree() == 2);
+  for (const double x : {0.5, 1.5, 3.0}) {
+    const std::size_t piece = law.piece_at(x);
+    CHECK(law.piece_at(-x) == piece);
+    CHECK(law.value(-x, piece) == -law.value(x, piece));
+    CHECK(law.slope(-x, piece) == law.slope(x, piece));
+    CHECK(law.curvature(-x, piece) == -law.curvature(x, piece));
+    constexpr double h = 1e-5;
+    CHECK_THAT((law.energy(x + h) - law.energy(x - h)) / (2 * h), WithinRel(law.value(x, piece), 1e-8));
+    CHECK_THAT((law.value(x + h, piece) - law.value(x - h, piece)) / (2 * h),
+               WithinRel(law.slope(x, piece), 1e-8));
+  }
+  CHECK(law.energy(-3) == law.energy(3));
+}
+
+TEST_CASE("Laws that are no laws are refused", "[elements]") {
+  const auto law = [](std::vector<PiecewiseLaw::Piece> pieces) { return PiecewiseLaw(std::move(pieces)); };
+  CHECK_THROWS_AS(law({}), std::invalid_argument);
+  CHECK_THROWS_AS(law({{1, {0, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(law({{1, {0, 1}}, {endless, {0, 2}}}), std::invalid_argument);
+  CHECK_THROWS_AS(law({{endless, {1, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(law({{endless, {0, 1, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(law({{2, {0, 1}}, {1, {0, 1}}, {endless, {0, 1}}}), std::invalid_argument);
+  CHECK_THROWS_AS(MemorylessElement(three_pieces(), 0), std::invalid_argument);
+}
+
+TEST_CASE("A motion through all pieces of a law has the derivatives of differences", "[elements]") {
+  const MemorylessElement element(three_pieces(), 2);
+  const std::vector<int> orders = {1, 3};
+  HarmonicVector x(2), way(2);
+  x << Complex(2.5, 0.3), Complex(0.7, -1.1);
+  way << Complex(0.2, -0.4), Complex(-0.3, 0.1);
+  const auto at = [&](double step) {
+    ElementForce force;
+    element.force(orders, x + step * way, 1, true, true, force);
+    return force;
+  };
+  constexpr double h = 1e-5;
+  const ElementForce here = at(0);
+  const ElementForce change = element.change(here, orders, x, 1, true, way, 0);
+  CHECK(((at(h).harmonics - at(-h).harmonics) / (2 * h) - change.harmonics).norm() <
+        1e-8 * change.harmonics.norm());
+  CHECK(((at(h).linear - at(-h).linear) / (2 * h) - change.linear).norm() < 1e-6 * change.linear.norm());
+  CHECK(((at(h).conjugate - at(-h).conjugate) / (2 * h) - change.conjugate).norm() <
+        1e-6 * change.linear.norm());
+  const VaryingStiffness stiffness = element.stiffness_in_time(orders, x);
+  const OddMotion motion(orders, x);
+  for (double theta = -7; theta < 7; theta += 0.173) {
+    const double r = motion.value(theta);
+    const double slope = element.law()->slope(r, element.law()->piece_at(r));
+    CHECK_THAT(stiffness.at(theta), WithinRel(slope, 1e-12));
+  }
+}

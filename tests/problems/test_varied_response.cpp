@@ -1,0 +1,116 @@
+// Responses whose force, damping, stiffness or ratios are continued: derivatives, and the response of the
+// system that is built with the value.
+
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/problem/derivative_check.hpp"
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/response/power_balance.hpp"
+#include "catch.hpp"
+
+using namespace arcslip;
+using namespace arcslip::problems;
+
+namespace {
+
+SystemParameters some_rods(const std::string& varied) {
+  SystemParameters s;
+  s.model = StructureModel::rods;
+  s.wave_number = 1;
+  s.elements = 12;
+  s.mass_ratio = 3;
+  s.frequency_ratio = 1.5;
+  s.interface_stiffness = 40;
+  s.base_damping = 1e-2;
+  s.damper_damping = 2e-2;
+  s.preload = 0.3;
+  s.preload_growth = 0.02;
+  s.harmonics = {1, 3, 5};
+  s.cubic_stiffness = 0.3;
+  s.others = {{find_element_kind("clearance"), PlacedElement::Place::contact, 0, {20, 0.12}}};
+  s.varied = varied;
+  return s;
+}
+
+/// At the system's eta, preload and another value of the parameter.
+Vector parameters_at(double eta, double preload, double value) {
+  Vector p(3);
+  p << eta, preload, value;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("A response over a parameter of the system is that of the system with its value", "[harmonics]") {
+  for (const std::string& name : system_parameter_names(false)) {
+    const SystemParameters system = some_rods(name);
+    const HarmonicResponse problem(build_harmonic_system(system));
+    CHECK(problem.parameter_names() == std::vector<std::string>{"eta", "P", name});
+    const double value = 1.2 * system_parameter(system, name).value;
+    SystemParameters other = with_parameter(system, name, value);
+    other.varied.clear();
+    const HarmonicResponse built(build_harmonic_system(other));
+    for (const double eta : {1.2, 1.5}) {
+      CAPTURE(name, eta);
+      const continuation::Guess at = problem.guess(parameters_at(eta, 0.3, value));
+      const continuation::Guess wanted = built.guess(eta, 0.3);
+      CHECK(at.regime == wanted.regime);
+      const continuation::Solution one = continuation::solve(problem, at);
+      const continuation::Solution same = continuation::solve(built, wanted);
+      REQUIRE(one.outcome == continuation::Correction::converged);
+      REQUIRE(same.outcome == continuation::Correction::converged);
+      CHECK((one.unknowns - same.unknowns).norm() < 1e-9 * same.unknowns.norm());
+      Vector values;
+      Vector wanted_values;
+      problem.observe(one.unknowns, at.parameters, at.regime, values);
+      built.observe(same.unknowns, wanted.parameters, wanted.regime, wanted_values);
+      for (Index i = 0; i < values.size(); ++i)
+        CHECK_THAT(values(i), Catch::Matchers::WithinAbs(wanted_values(i), 1e-8 * wanted_values.norm()));
+      const PowerBalance power = power_balance(problem, one.unknowns, at.parameters, at.regime);
+      CHECK(power.error() < 1e-9);
+      CHECK(motion_error(problem, one.unknowns, at.parameters, at.regime) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("Derivatives by a parameter of the system are those of differences", "[harmonics]") {
+  for (const std::string& name : system_parameter_names(false)) {
+    CAPTURE(name);
+    const SystemParameters system = some_rods(name);
+    const HarmonicResponse problem(build_harmonic_system(system));
+    const continuation::Guess at =
+        problem.guess(parameters_at(1.5, 0.3, 0.9 * system_parameter(system, name).value));
+    REQUIRE(at.regime[0] == 1);
+    const auto report = continuation::check_derivatives(problem, at.unknowns, at.parameters, at.regime);
+    CAPTURE(report.where);
+    CHECK(report.worst < 1e-5);  // differences of small amplitudes, which turn quickly
+  }
+}
+
+TEST_CASE("Second derivatives along a parameter of the system are those of differences", "[harmonics]") {
+  for (const std::string& name : system_parameter_names(false)) {
+    CAPTURE(name);
+    const SystemParameters system = some_rods(name);
+    const HarmonicResponse problem(build_harmonic_system(system));
+    const Index n = problem.size();
+    const continuation::Guess at =
+        problem.guess(parameters_at(1.5, 0.3, 0.9 * system_parameter(system, name).value));
+    const Vector w = Vector::LinSpaced(n, -1, 1);
+    const Vector du = at.unknowns.norm() * Vector::LinSpaced(n, 1, -0.5);
+    const Vector dp = at.parameters.cwiseProduct(Eigen::Vector3d(0.3, -0.4, 1));
+    Vector exact;
+    REQUIRE(problem.second(at.unknowns, at.parameters, at.regime, w, du, dp, exact));
+    const auto gradient = [&](double h) {
+      Matrix jacobian(n, n);
+      Matrix by_parameters(n, 3);
+      REQUIRE(problem.evaluate(at.unknowns + h * du, at.parameters + h * dp, at.regime,
+                               {nullptr, &jacobian, &by_parameters}));
+      Vector out(n + 3);
+      out << jacobian.transpose() * w, by_parameters.transpose() * w;
+      return out;
+    };
+    constexpr double h = 1e-5;
+    const Vector differences = (gradient(h) - gradient(-h)) / (2 * h);
+    CHECK((differences - exact).norm() < 1e-5 * exact.norm());
+  }
+}
