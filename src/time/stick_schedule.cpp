@@ -52,4 +52,24 @@ std::vector<StickSchedule::Slot> StickSchedule::sticking(std::span<const StickPa
   return slots;
 }
 
+std::vector<double> law_changes(const StickSchedule::Interval& interval, std::span<const StickPattern> others,
+                                Index nodes) {
+  constexpr double narrow = 1e-12;  // less would be rounding
+  std::vector<double> ends = {interval.begin};
+  for (Index node = 0; node < nodes; ++node) {
+    const double lag = pi * static_cast<double>(node) / static_cast<double>(nodes);
+    for (const StickPattern& other : others) {
+      for (const VaryingStiffness::Arc& arc : other.stiffness.arcs) {
+        const double end = modulo(arc.begin + lag - interval.begin, pi);
+        if (end < interval.width) ends.push_back(interval.begin + end);
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < narrow; }),
+             ends.end());
+  ends.push_back(interval.begin + interval.width);
+  return ends;
+}
+
 }  // namespace arcslip

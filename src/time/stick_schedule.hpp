@@ -45,4 +45,8 @@ class StickSchedule {
   std::vector<Slot> behind_;
 };
 
+/// Where, between the ends of an interval, the law of a smooth element of some node changes, with these ends.
+std::vector<double> law_changes(const StickSchedule::Interval& interval, std::span<const StickPattern> others,
+                                Index nodes);
+
 }  // namespace arcslip

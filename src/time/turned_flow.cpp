@@ -136,32 +136,11 @@ class Flow {
       state.topRows(size) = (flow.topRows(size) * state).eval();
       return;
     }
-    const std::vector<double> ends = ends_within(interval);
+    const std::vector<double> ends = law_changes(interval, others_, nodes_);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double part = (ends[i + 1] - ends[i]) / interval.width;
       pass(ends[i], ends[i + 1] - ends[i], rates * part, state);
     }
-  }
-
-  /// Where the law of an element of some node changes within an interval, between its own ends.
-  std::vector<double> ends_within(const StickSchedule::Interval& interval) const {
-    constexpr double narrow = 1e-12;  // less would be rounding
-    std::vector<double> ends = {interval.begin};
-    for (Index node = 0; node < nodes_; ++node) {
-      const double lag = pi * static_cast<double>(node) / static_cast<double>(nodes_);
-      for (const StickPattern& other : others_) {
-        for (const VaryingStiffness::Arc& arc : other.stiffness.arcs) {
-          const double behind = std::fmod(arc.begin + lag - interval.begin, pi);
-          const double end = behind < 0 ? behind + pi : behind;
-          if (end < interval.width) ends.push_back(interval.begin + end);
-        }
-      }
-    }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < narrow; }),
-               ends.end());
-    ends.push_back(interval.begin + interval.width);
-    return ends;
   }
 
   void pass(double begin, double angle, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
