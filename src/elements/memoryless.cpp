@@ -11,18 +11,6 @@
 namespace arcslip {
 namespace {
 
-/// Where the motion is, among the pieces of a law: that of x >= 0 or minus that of x < 0.
-int zone_at(const PiecewiseLaw& law, double x) {
-  const int piece = static_cast<int>(law.piece_at(x));
-  return x < 0 ? -piece : piece;
-}
-std::size_t piece_of(int zone) { return static_cast<std::size_t>(std::abs(zone)); }
-
-/// The displacement between a zone and the next one up.
-double upper_end(const PiecewiseLaw& law, int zone) {
-  return zone >= 0 ? law.pieces()[piece_of(zone)].end : -law.pieces()[piece_of(zone) - 1].end;
-}
-
 /// A stretch of half a period in one zone.
 struct Stretch {
   double begin;
@@ -37,11 +25,11 @@ void each_stretch(const PiecewiseLaw& law, const OddMotion& motion, const Angles
   for (int i = 0; i < turns.count; ++i) {
     double begin = turns[i];
     const double end = i + 1 < turns.count ? turns[i + 1] : turns[0] + pi;
-    int zone = zone_at(law, motion.value(begin));
-    const int last = zone_at(law, motion.value(end));
+    int zone = law.zone_at(motion.value(begin));
+    const int last = law.zone_at(motion.value(end));
     const int way = last > zone ? 1 : -1;
     while (zone != last) {
-      const double level = upper_end(law, way > 0 ? zone : zone - 1);
+      const double level = way > 0 ? law.ends(zone).high : law.ends(zone).low;
       const double crossing = bracketed_newton(
           [&](double theta) { return std::pair(motion.value(theta) - level, motion.slopes(theta).first); },
           0.5 * (begin + end), begin, end, way > 0);
@@ -53,14 +41,14 @@ void each_stretch(const PiecewiseLaw& law, const OddMotion& motion, const Angles
   }
 }
 
-/// Calls `use` with angle, share of half a period and piece of nodes that integrate all products exactly, or
+/// Calls `use` with angle, share of half a period and zone of nodes that integrate all products exactly, or
 /// over stretches to rounding.
 template <class Use>
 void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* turns, const Use& use) {
   const int highest = (law.degree() + 1) * motion.orders().back();
   if (turns == nullptr) {  // within the first piece
     const int count = highest / 2 + 1;
-    for (int k = 0; k < count; ++k) use(pi * k / count, 1.0 / count, std::size_t{0});
+    for (int k = 0; k < count; ++k) use(pi * k / count, 1.0 / count, 0);
     return;
   }
   using Gauss = boost::math::quadrature::gauss<double, 20>;
@@ -74,8 +62,8 @@ void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* t
       const double middle = stretch.begin + (2 * k + 1) * half;
       for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
         const double share = Gauss::weights()[i] * half / pi;
-        use(middle - Gauss::abscissa()[i] * half, share, piece_of(stretch.zone));
-        use(middle + Gauss::abscissa()[i] * half, share, piece_of(stretch.zone));
+        use(middle - Gauss::abscissa()[i] * half, share, stretch.zone);
+        use(middle + Gauss::abscissa()[i] * half, share, stretch.zone);
       }
     }
   });
@@ -107,17 +95,14 @@ class Turn {
   HarmonicVector conj_;
 };
 
-/// k_m of the slope by one piece's law, in full periods of a motion that stays on one side of zero, or within
-/// the first piece, where the law is of both sides.
+/// k_m of the slope by the polynomial of one zone, in full periods.
 std::vector<Complex> slope_harmonics(const PiecewiseLaw& law, const OddMotion& motion, int zone) {
   const int highest = std::max(law.degree() - 1, 0) * motion.orders().back();
   const int count = 2 * highest + 1;
-  const double side = zone < 0 ? -1 : 1;
   std::vector<Complex> harmonics(static_cast<std::size_t>(highest + 1));
   for (int k = 0; k < count; ++k) {
     const double theta = two_pi * k / count;
-    // The polynomial of |x| goes on where x has changed its sign.
-    const double slope = law.continued_slope(side * motion.value(theta), piece_of(zone));
+    const double slope = law.slope(motion.value(theta), zone);
     for (int m = 0; m <= highest; ++m)
       harmonics[static_cast<std::size_t>(m)] +=
           (m == 0 ? 1 : 2) * slope / count * std::polar(1.0, -m * theta);
@@ -149,11 +134,11 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
     out.maximum = motion.maximum(turns);
   }
   Turn turn(orders);
-  each_node(law_, motion, beyond ? &turns : nullptr, [&](double theta, double share, std::size_t piece) {
+  each_node(law_, motion, beyond ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
     const double here = turn.value(x);
-    turn.add_force(share * law_.value(here, piece), out.harmonics);
-    if (derivatives) turn.add_slope(share * law_.slope(here, piece), out.linear, out.conjugate);
+    turn.add_force(share * law_.value(here, zone), out.harmonics);
+    if (derivatives) turn.add_slope(share * law_.slope(here, zone), out.linear, out.conjugate);
   });
 }
 
@@ -183,9 +168,9 @@ void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> 
   const OddMotion odd(orders, x);
   const Angles turns = beyond ? odd.turning_points() : Angles{};
   Turn turn(orders);
-  each_node(law_, odd, beyond ? &turns : nullptr, [&](double theta, double share, std::size_t piece) {
+  each_node(law_, odd, beyond ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
-    turn.add_slope(share * law_.curvature(turn.value(x), piece) * turn.value(motion), change.linear,
+    turn.add_slope(share * law_.curvature(turn.value(x), zone) * turn.value(motion), change.linear,
                    change.conjugate);
   });
   if (!beyond) return;
@@ -193,7 +178,7 @@ void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> 
     if (stretch.zone == stretch.next) return;
     turn.go_to(stretch.end);
     const double here = turn.value(x);
-    const double drop = law_.slope(here, piece_of(stretch.zone)) - law_.slope(here, piece_of(stretch.next));
+    const double drop = law_.slope(here, stretch.zone) - law_.slope(here, stretch.next);
     turn.add_slope(-drop * turn.value(motion) / (pi * odd.slopes(stretch.end).first), change.linear,
                    change.conjugate);
   });

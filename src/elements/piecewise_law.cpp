@@ -44,34 +44,40 @@ PiecewiseLaw::PiecewiseLaw(std::vector<Piece> pieces) : pieces_(std::move(pieces
     before = end;
     if (i + 1 == pieces_.size()) break;
     constexpr double rounding = 1e-12;
-    const double jump = value(end, i + 1) - value(end, i);
-    double size = std::abs(value(end, i));
+    const int zone = static_cast<int>(i);
+    const double jump = value(end, zone + 1) - value(end, zone);
+    double size = std::abs(value(end, zone));
     for (std::size_t m = 0; m < pieces_[i + 1].coefficients.size(); ++m)
       size = std::max(size, std::abs(pieces_[i + 1].coefficients[m]) * std::pow(end, m));
     if (!(std::abs(jump) <= rounding * size)) refuse("the force must be continuous");
   }
 }
 
-std::size_t PiecewiseLaw::piece_at(double x) const {
-  std::size_t piece = 0;
-  while (std::abs(x) > pieces_[piece].end) ++piece;
-  return piece;
+int PiecewiseLaw::zone_at(double x) const {
+  int zone = 0;
+  while (std::abs(x) > piece(zone).end) ++zone;
+  return x < 0 ? -zone : zone;
 }
 
-double PiecewiseLaw::value(double x, std::size_t piece) const {
-  return (x < 0 ? -1 : 1) * derivative(pieces_[piece].coefficients, 0, std::abs(x));
+PiecewiseLaw::Ends PiecewiseLaw::ends(int zone) const {
+  const double outer = piece(zone).end;
+  if (zone == 0) return {-outer, outer};
+  const double inner = piece(std::abs(zone) - 1).end;
+  return zone > 0 ? Ends{inner, outer} : Ends{-outer, -inner};
 }
 
-double PiecewiseLaw::slope(double x, std::size_t piece) const {
-  return derivative(pieces_[piece].coefficients, 1, std::abs(x));
+double PiecewiseLaw::value(double x, int zone) const {
+  const int side = zone < 0 ? -1 : 1;
+  return side * derivative(piece(zone).coefficients, 0, side * x);
 }
 
-double PiecewiseLaw::continued_slope(double x, std::size_t piece) const {
-  return derivative(pieces_[piece].coefficients, 1, x);
+double PiecewiseLaw::slope(double x, int zone) const {
+  return derivative(piece(zone).coefficients, 1, zone < 0 ? -x : x);
 }
 
-double PiecewiseLaw::curvature(double x, std::size_t piece) const {
-  return (x < 0 ? -1 : 1) * derivative(pieces_[piece].coefficients, 2, std::abs(x));
+double PiecewiseLaw::curvature(double x, int zone) const {
+  const int side = zone < 0 ? -1 : 1;
+  return side * derivative(piece(zone).coefficients, 2, side * x);
 }
 
 double PiecewiseLaw::energy(double x) const {

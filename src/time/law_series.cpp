@@ -1,36 +1,24 @@
 #include "time/law_series.hpp"
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 
 namespace arcslip {
 
 std::vector<int> zones_of(const PiecewiseLaw& law, const Vector& displacements, const Vector& direction,
                           const Vector& loose) {
   std::vector<int> zones;
-  const int last = static_cast<int>(law.pieces().size()) - 1;
   for (Index i = 0; i < displacements.size(); ++i) {
-    const double x = std::abs(displacements(i));
-    const double outwards = displacements(i) < 0 ? -direction(i) : direction(i);
-    int piece = static_cast<int>(law.piece_at(x));
-    const auto end = [&](int of) { return law.pieces()[static_cast<std::size_t>(of)].end; };
-    if (piece < last && end(piece) - x <= loose(i) && outwards > 0) {
-      ++piece;
-    } else if (piece > 0 && x - end(piece - 1) <= loose(i) && outwards < 0) {
-      --piece;
+    const double x = displacements(i);
+    int zone = law.zone_at(x);
+    const auto [low, high] = law.ends(zone);
+    if (direction(i) > 0 && high - x <= loose(i)) {
+      ++zone;
+    } else if (direction(i) < 0 && x - low <= loose(i)) {
+      --zone;
     }
-    zones.push_back(displacements(i) < 0 ? -piece : piece);
+    zones.push_back(zone);
   }
   return zones;
-}
-
-ZoneEnds zone_ends(const PiecewiseLaw& law, int zone) {
-  const auto piece = static_cast<std::size_t>(std::abs(zone));
-  const double outer = law.pieces()[piece].end;
-  const double inner = piece == 0 ? -outer : law.pieces()[piece - 1].end;
-  if (zone < 0) return {-outer, -inner};
-  return {inner, outer};
 }
 
 LawSeries::LawSeries(const PiecewiseLaw& law, const std::vector<int>& zones, Index order)

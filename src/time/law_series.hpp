@@ -7,18 +7,9 @@
 
 namespace arcslip {
 
-/// The pieces of a law at displacements, negative where these are; `direction` decides within `loose` of an
-/// end.
+/// The zones of a law at displacements; `direction` decides within `loose` of an end.
 std::vector<int> zones_of(const PiecewiseLaw& law, const Vector& displacements, const Vector& direction,
                           const Vector& loose);
-
-/// The ends of the zone, upwards and downwards, beyond which the law is another; infinite where there is
-/// none.
-struct ZoneEnds {
-  double low;
-  double high;
-};
-ZoneEnds zone_ends(const PiecewiseLaw& law, int zone);
 
 /// Force and stiffness of elements of one law as Taylor series in time, term by term as those of their
 /// displacements become known.

@@ -18,6 +18,11 @@ constexpr double steps_per_period = 64;  // at least, so that quadrature resolve
 constexpr double negligible = 1e-18;
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
+/// What these rows times the values may be wrong by.
+Vector rounding_of(const Matrix& rows, const Vector& values) {
+  return rounding * (rows.cwiseAbs() * values.cwiseAbs());
+}
+
 std::vector<bool> least_rotation(const std::vector<int>& slip) {
   std::vector<bool> pattern(slip.size());
   std::transform(slip.begin(), slip.end(), pattern.begin(), [](int sign) { return sign == 0; });
@@ -163,14 +168,13 @@ bool RingMotion::expands(const RingState& state, double length) {
 }
 
 /// By which law the further elements act from here on.
-void RingMotion::find_pieces(const RingState& state) {
+void RingMotion::find_zones(const RingState& state) {
   segment_.other.resize(ring_.others.size());
   segment_.zones.resize(ring_.others.size());
   for (std::size_t e = 0; e < ring_.others.size(); ++e) {
     const Matrix& motion = ring_.others[e].motion;
-    const Vector loose = rounding * (motion.cwiseAbs() * state.position.cwiseAbs());
-    segment_.zones[e] =
-        zones_of(ring_.others[e].law(), motion * state.position, motion * state.velocity, loose);
+    segment_.zones[e] = zones_of(ring_.others[e].law(), motion * state.position, motion * state.velocity,
+                                 rounding_of(motion, state.position));
   }
 }
 
@@ -178,15 +182,14 @@ void RingMotion::find_pieces(const RingState& state) {
 void RingMotion::add_law_crossings(std::vector<Crossing>& found) const {
   for (std::size_t e = 0; e < ring_.others.size(); ++e) {
     const Matrix& x = segment_.other[e];
+    const Vector loose = rounding_of(ring_.others[e].motion, segment_.position.col(0));
     for (Index i = 0; i < ring_.nodes(); ++i) {
-      const ZoneEnds ends = zone_ends(ring_.others[e].law(), segment_.zones[e][static_cast<std::size_t>(i)]);
-      const double loose = rounding * ring_.others[e].motion.row(i).cwiseAbs().dot(
-                                          segment_.position.col(0).cwiseAbs().transpose());
+      const auto [low, high] = ring_.others[e].law().ends(segment_.zones[e][static_cast<std::size_t>(i)]);
       for (const double sign : {1.0, -1.0}) {
-        const double end = sign > 0 ? ends.high : -ends.low;
+        const double end = sign > 0 ? high : -low;
         if (std::isinf(end)) continue;
         Vector excess = sign * x.row(i).transpose();
-        excess(0) -= end + loose;
+        excess(0) -= end + loose(i);
         if (const auto ratio = first_crossing(excess)) found.push_back({ring_.nodes(), *ratio});
       }
     }
@@ -195,8 +198,8 @@ void RingMotion::add_law_crossings(std::vector<Crossing>& found) const {
 
 std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& state) const {
   // What the sums r and r' may be wrong by is no crossing.
-  const Vector loose = rounding * (ring_.relative.cwiseAbs() * state.position.cwiseAbs());
-  const Vector loose_rate = rounding * (ring_.relative.cwiseAbs() * state.velocity.cwiseAbs());
+  const Vector loose = rounding_of(ring_.relative, state.position);
+  const Vector loose_rate = rounding_of(ring_.relative, state.velocity);
   const Matrix& r = segment_.relative;
   const Index order = r.cols() - 1;
   std::vector<Crossing> found;
@@ -249,7 +252,7 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
   note(state);
   while (duration - elapsed > 1e-15 * period_) {
     double length = std::min(longest_step_, duration - elapsed);
-    find_pieces(state);
+    find_zones(state);
     while (!expands(state, length)) length *= 0.5;
     ++count_.steps;
     const std::vector<Crossing> crossings = first_crossings(state);

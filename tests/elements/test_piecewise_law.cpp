@@ -22,15 +22,17 @@ TEST_CASE("A law in pieces is odd and continuous, with its slope, curvature and 
   const PiecewiseLaw law = three_pieces();
   CHECK(law.degree() == 2);
   for (const double x : {0.5, 1.5, 3.0}) {
-    const std::size_t piece = law.piece_at(x);
-    CHECK(law.piece_at(-x) == piece);
-    CHECK(law.value(-x, piece) == -law.value(x, piece));
-    CHECK(law.slope(-x, piece) == law.slope(x, piece));
-    CHECK(law.curvature(-x, piece) == -law.curvature(x, piece));
+    const int zone = law.zone_at(x);
+    CHECK(law.zone_at(-x) == -zone);
+    CHECK(law.value(-x, -zone) == -law.value(x, zone));
+    CHECK(law.slope(-x, -zone) == law.slope(x, zone));
+    CHECK(law.curvature(-x, -zone) == -law.curvature(x, zone));
+    CHECK((law.ends(zone).low <= x && x <= law.ends(zone).high));
+    CHECK(law.ends(-zone).low == -law.ends(zone).high);
     constexpr double h = 1e-5;
-    CHECK_THAT((law.energy(x + h) - law.energy(x - h)) / (2 * h), WithinRel(law.value(x, piece), 1e-8));
-    CHECK_THAT((law.value(x + h, piece) - law.value(x - h, piece)) / (2 * h),
-               WithinRel(law.slope(x, piece), 1e-8));
+    CHECK_THAT((law.energy(x + h) - law.energy(x - h)) / (2 * h), WithinRel(law.value(x, zone), 1e-8));
+    CHECK_THAT((law.value(x + h, zone) - law.value(x - h, zone)) / (2 * h),
+               WithinRel(law.slope(x, zone), 1e-8));
   }
   CHECK(law.energy(-3) == law.energy(3));
 }
@@ -69,7 +71,7 @@ TEST_CASE("A motion through all pieces of a law has the derivatives of differenc
   const OddMotion motion(orders, x);
   for (double theta = -7; theta < 7; theta += 0.173) {
     const double r = motion.value(theta);
-    const double slope = element.law()->slope(r, element.law()->piece_at(r));
+    const double slope = element.law()->slope(r, element.law()->zone_at(r));
     CHECK_THAT(stiffness.at(theta), WithinRel(slope, 1e-12));
   }
 }

@@ -3,6 +3,7 @@
 // A force that follows from the momentary displacement alone, odd, f(-x) = -f(x), and for x >= 0 a polynomial
 // from each displacement at which it changes its law to the next.
 
+#include <cstdlib>
 #include <vector>
 
 namespace arcslip {
@@ -22,21 +23,28 @@ class PiecewiseLaw {
   const std::vector<Piece>& pieces() const { return pieces_; }
   int degree() const { return degree_; }  ///< the highest of the pieces
 
-  /// The piece that holds at |x|.
-  std::size_t piece_at(double x) const;
+  /// The position of the piece that holds at x, negative where x is: each such zone has one polynomial, and
+  /// the first piece, of both signs, is one zone.
+  int zone_at(double x) const;
 
-  // At x, by the law of a piece, whether it holds there or not.
-  double value(double x, std::size_t piece) const;      ///< f
-  double slope(double x, std::size_t piece) const;      ///< df/dx
-  double curvature(double x, std::size_t piece) const;  ///< d2f/dx2
+  /// Where a zone ends, downwards and upwards; infinite where there is no other.
+  struct Ends {
+    double low;
+    double high;
+  };
+  Ends ends(int zone) const;
 
-  /// The slope's polynomial of x where x is the distance from zero and may have become negative.
-  double continued_slope(double x, std::size_t piece) const;
+  // At x, by the polynomial of a zone, whether it holds there or not.
+  double value(double x, int zone) const;      ///< f
+  double slope(double x, int zone) const;      ///< df/dx
+  double curvature(double x, int zone) const;  ///< d2f/dx2
 
   /// int_0^x f dx.
   double energy(double x) const;
 
  private:
+  const Piece& piece(int zone) const { return pieces_[static_cast<std::size_t>(std::abs(zone))]; }
+
   std::vector<Piece> pieces_;
   int degree_ = 0;
 };

@@ -104,7 +104,7 @@ class RingMotion {
   };
 
   bool expands(const RingState& state, double length);
-  void find_pieces(const RingState& state);
+  void find_zones(const RingState& state);
   void add_law_crossings(std::vector<Crossing>& found) const;
   std::vector<Crossing> first_crossings(const RingState& state) const;
   void change(Index contact, RingState& state) const;
