@@ -74,14 +74,17 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
                               const Vector& p, Response& response) const {
   const double h = system_.orders[at(order)];
   const double eta = frequency(u, p);
-  if (is_varied()) {
-    respond_varied(structure, is_base, h * eta, variation(u, p), response);
-    response.compliance_eta *= h;
-    response.free_eta *= h;
-    return;
-  }
   if (layout_.damping.of == Place::nowhere) {
-    static_cast<ContactReceptance&>(response) = structure.at(h * eta);
+    if (is_varied()) {
+      const auto [here, rate] = variation(u, p);
+      const VariedReceptance found = is_base ? structure.varied(h * eta, here.base, rate.base)
+                                             : structure.varied(h * eta, here.damper, rate.damper);
+      static_cast<ContactReceptance&>(response) = found;
+      response.by_varied = found.compliance_rate;
+      response.free_by_varied = found.free_rate;
+    } else {
+      static_cast<ContactReceptance&>(response) = structure.at(h * eta);
+    }
     response.compliance_eta *= h;
     response.free_eta *= h;
     return;
@@ -107,16 +110,6 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
   response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_rate;
 }
 
-void HarmonicProblem::respond_varied(const ContactModes& structure, bool is_base, double frequency_value,
-                                     const SystemParameter::At& at_value, Response& response) const {
-  const auto& [here, rate] = at_value;
-  VariedReceptance found =
-      structure.varied(frequency_value, is_base ? here.base : here.damper, is_base ? rate.base : rate.damper);
-  static_cast<ContactReceptance&>(response) = found;
-  response.by_varied = found.compliance_rate;
-  response.free_by_varied = found.free_rate;
-}
-
 HarmonicProblem::Place HarmonicProblem::place_of(Index unknown) const {
   if (unknown > 1) return {Place::unknowns, unknown};
   return unknown == 0 ? layout_.real : layout_.imaginary;
@@ -132,9 +125,7 @@ void HarmonicProblem::add_log_load(double value, const Vector& u, const Vector& 
   const double by_load = value / pressing(u, p);
   add(layout_.preload, by_load, gradient);
   add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load, gradient);
-  if (!is_varied()) return;
-  const auto [here, rate] = variation(u, p);
-  add(layout_.varied, value * rate.slip_per_preload / here.slip_per_preload, gradient);
+  if (is_varied()) add(layout_.varied, value * variation(u, p).log_slip_rate(), gradient);
 }
 
 int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
@@ -214,11 +205,7 @@ class HarmonicProblem::Observation {
         add_motion(contact, a, -per * element.harmonics(a));
       }
       threshold(contact, -2 * element.energy / (unit * S));
-      if (problem_.is_varied()) {
-        const auto [here, rate] = problem_.variation(u_, p_);
-        add(problem_.layout_.varied,
-            -element.energy / unit * rate.contact_stiffness / here.contact_stiffness);
-      }
+      add_log_force(contact, -element.energy / unit);
     }
     return element.energy / unit;
   }
@@ -282,11 +269,13 @@ class HarmonicProblem::Observation {
       add_motion(coordinate, b, {std::real(linear + conjugate), -std::imag(linear - conjugate)});
     }
     add_log_load(std::real(w * element.by_log_load(order)));
+    add_log_force(coordinate, std::real(w * element.harmonics(order)));
+  }
+
+  /// What is `value` times a change of the logarithm of the factor on a force.
+  void add_log_force(Index coordinate, double value) {
     if (!problem_.is_varied()) return;
-    const auto [here, rate] = problem_.variation(u_, p_);
-    add(problem_.layout_.varied, std::real(w * element.harmonics(order)) *
-                                     problem_.force_rate(coordinate, rate) /
-                                     problem_.force_factor(coordinate, here));
+    add(problem_.layout_.varied, value * problem_.log_force_rate(coordinate, problem_.variation(u_, p_)));
   }
 
   void add_log_load(double value) {

@@ -69,7 +69,8 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
 
 /// Compliance and free response of one order, with their derivatives by the further parameter.
 void HarmonicResponse::set_varied(Order& order, double frequency_value, const Vector& p) const {
-  const auto [here, rate] = variation({}, p);
+  const SystemParameter::At varied = variation({}, p);
+  const auto& [here, rate] = varied;
   VariedReceptance base = system_.base[at(order.which)].varied(frequency_value, here.base, rate.base);
   VariedReceptance damper = system_.damper[at(order.which)].varied(frequency_value, here.damper, rate.damper);
   coordinates_.join(base, damper, order.joint);
@@ -82,7 +83,8 @@ void HarmonicResponse::set_varied(Order& order, double frequency_value, const Ve
   order.by_varied = rates.compliance;
   order.free_by_varied = rates.free;
   for (Index j = 0; j < coordinates_.size(); ++j)
-    order.by_varied.col(j) += order.joint.compliance.col(j) * (force_rate(j, rate) / force_factor(j, here));
+    order.by_varied.col(j) += order.joint.compliance.col(j) * log_force_rate(j, varied);
+  order.log_slip_rate = varied.log_slip_rate();
 }
 
 void HarmonicResponse::set_order(Index which, const Vector& p, const continuation::Regime& regime,
@@ -101,8 +103,9 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
     joint.compliance_eta.setZero();
     order.by_varied.setZero();
   }
+  order.stiffness.resize(coordinates_.size());
   for (Index j = 0; j < coordinates_.size(); ++j) {
-    const double stiffness = reference_stiffness(j, {}, p);
+    const double stiffness = order.stiffness(j) = reference_stiffness(j, {}, p);
     if (is_varied()) order.by_varied.col(j) *= stiffness;
     joint.compliance.col(j) *= stiffness;
     joint.compliance_eta.col(j) *= h * stiffness;
@@ -142,7 +145,7 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
   thread_local Rows rows;
   fill_rows(elements, share, u, p, regime, rows, out.parameter_jacobian);
   if (out.residual != nullptr) *out.residual = rows.residual;
-  if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, p, regime, *out.jacobian);
+  if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, regime, *out.jacobian);
   return true;
 }
 
@@ -163,7 +166,7 @@ void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vec
                             Matrix& parameter_jacobian) const {
   Rows rows;
   fill_rows(elements, 1, u, p, regime, rows, &parameter_jacobian);
-  fill_jacobian(rows, elements, u, p, regime, jacobian);
+  fill_jacobian(rows, elements, u, regime, jacobian);
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
@@ -175,7 +178,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
   for (Index j = 0; j < m; ++j) {
     const Index row = 2 * (j * harmonics() + which);
-    order.f(j) = elements[at(j)].harmonics(which) / reference_stiffness(j, {}, p);
+    order.f(j) = elements[at(j)].harmonics(which) / order.stiffness(j);
     order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + share * order.joint.free(j);
   }
   order.held.noalias() = order.inverse * order.gap;
@@ -191,16 +194,14 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   }
   if (parameter_jacobian == nullptr) return;
   ContactVector& column = order.gap;
-  for (Index j = 0; j < m; ++j)
-    order.f(j) = elements[at(j)].by_log_load(which) / reference_stiffness(j, {}, p);
+  for (Index j = 0; j < m; ++j) order.f(j) = elements[at(j)].by_log_load(which) / order.stiffness(j);
   column = order.f;
   column.noalias() -= order.inverse * order.f;  // by the logarithm of the load
   column *= weight / pressing({}, p);
   store(column, which, harmonics(), parameter_jacobian->col(preload));
   if (is_varied()) {
     const ContactVector by_preload = column;
-    const auto [here, rate] = variation({}, p);
-    column *= pressing({}, p) * rate.slip_per_preload / here.slip_per_preload;
+    column *= pressing({}, p) * order.log_slip_rate;
     add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
     store(column, which, harmonics(), parameter_jacobian->col(further));
     column = by_preload;
@@ -232,8 +233,7 @@ void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compli
 
 /// Column by column, in which the harmonics of a coordinate's rows follow one another.
 void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
-                                     const Vector& p, const continuation::Regime& regime,
-                                     Matrix& jacobian) const {
+                                     const continuation::Regime& regime, Matrix& jacobian) const {
   const Index n = harmonics();
   const Index m = coordinates_.size();
   jacobian.noalias() = (-1 / u.squaredNorm() * rows.residual) * u.transpose();
@@ -244,7 +244,7 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
     jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
     if (is_linear(regime, from)) continue;  // f = x
     const ElementForce& element = elements[at(from)];
-    const double per_k = 1 / reference_stiffness(from, {}, p);
+    const double per_k = 1 / rows.order.stiffness(from);
     rows.sum = (element.linear.col(order) + element.conjugate.col(order)) * per_k;
     rows.difference = (element.linear.col(order) - element.conjugate.col(order)) * Complex(0, per_k);
     rows.sum(order) -= 1;

@@ -16,7 +16,7 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
   std::optional<SystemParameter::At> varied;
   if (is_varied()) {
     varied = variation({}, p);
-    log_load += varied->rate.slip_per_preload / varied->here.slip_per_preload * dp(further);
+    log_load += varied->log_slip_rate() * dp(further);
   }
   std::vector<ElementForce> changes;
   for (Index i = 0; i < coordinates_.size(); ++i) {
@@ -26,10 +26,7 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
     ElementForce change = coordinates_.element(i).change(unscaled, system_.orders, motion(u, i), load(p),
                                                          slips(regime, i), motion(du, i), log_load);
     change.scale(factor, true);
-    if (varied) {
-      const double rate = force_rate(i, varied->rate) / force_factor(i, varied->here);
-      change.add(elements[static_cast<std::size_t>(i)], rate * dp(further));
-    }
+    if (varied) change.add(elements[static_cast<std::size_t>(i)], log_force_rate(i, *varied) * dp(further));
     changes.push_back(std::move(change));
   }
   const Index parameters = p.size();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "arcslip/assembly/sector_pair.hpp"
@@ -21,51 +23,27 @@ At unchanged(const SystemParameters& system) {
   return at;
 }
 
-SystemParameter load(const SystemParameters& system) {
-  return {"F", system.force,
-          [start = unchanged(system), F = system.force](double value) {
-            At at = start;
-            at.here.base.load = value / F;
-            at.rate.base.load = 1 / F;
-            return at;
-          },
-          true};
+void change_load(At& at, double value, const SystemParameters& system) {
+  at.here.base.load = value / system.force;
+  at.rate.base.load = 1 / system.force;
 }
 
-SystemParameter base_damping(const SystemParameters& system) {
-  return {"zeta_B", system.base_damping,
-          [start = unchanged(system), fixed = base_loss_fixed(system),
-           per_zeta = base_loss_per_zeta(system)](double value) {
-            At at = start;
-            at.here.base.loss = fixed + value * per_zeta;
-            at.rate.base.loss = per_zeta;
-            return at;
-          },
-          false, -1};
+void change_base_damping(At& at, double value, const SystemParameters& system) {
+  at.rate.base.loss = base_loss_per_zeta(system);
+  at.here.base.loss = base_loss_fixed(system) + value * at.rate.base.loss;
 }
 
-SystemParameter damper_damping(const SystemParameters& system) {
-  return {"zeta_D", system.damper_damping,
-          [start = unchanged(system), fixed = damper_loss_fixed(system),
-           per_zeta = damper_loss_per_zeta(system)](double value) {
-            At at = start;
-            at.here.damper.loss = fixed + value * per_zeta;
-            at.rate.damper.loss = per_zeta;
-            return at;
-          },
-          false, -1};
+void change_damper_damping(At& at, double value, const SystemParameters& system) {
+  at.rate.damper.loss = damper_loss_per_zeta(system);
+  at.here.damper.loss = damper_loss_fixed(system) + value * at.rate.damper.loss;
 }
 
-SystemParameter contact_stiffness(const SystemParameters& system) {
-  return {"K_FD", system.interface_stiffness,
-          [start = unchanged(system), K = system.interface_stiffness](double value) {
-            At at = start;
-            at.here.contact_stiffness = value / K;
-            at.rate.contact_stiffness = 1 / K;
-            at.here.slip_per_preload = K / value;
-            at.rate.slip_per_preload = -K / (value * value);
-            return at;
-          }};
+void change_contact_stiffness(At& at, double value, const SystemParameters& system) {
+  const double K = system.interface_stiffness;
+  at.here.contact_stiffness = value / K;
+  at.rate.contact_stiffness = 1 / K;
+  at.here.slip_per_preload = K / value;
+  at.rate.slip_per_preload = -K / (value * value);
 }
 
 /// All that goes with the base's stiffness, as K* grows by a factor with this rate.
@@ -74,55 +52,50 @@ void follow_stiffness(At& at, double factor, double rate) {
   at.rate.base.stiffness = at.rate.base.load = at.rate.slip_per_preload = at.rate.others = rate;
 }
 
-SystemParameter mass_ratio(const SystemParameters& system) {
-  return {"M*", system.mass_ratio, [start = unchanged(system), M = system.mass_ratio](double value) {
-            At at = start;
-            follow_stiffness(at, value / M, 1 / M);
-            at.here.base.mass = value / M;
-            at.rate.base.mass = 1 / M;
-            return at;
-          }};
+void change_mass_ratio(At& at, double value, const SystemParameters& system) {
+  follow_stiffness(at, value / system.mass_ratio, 1 / system.mass_ratio);
+  at.here.base.mass = value / system.mass_ratio;
+  at.rate.base.mass = 1 / system.mass_ratio;
 }
 
-SystemParameter frequency_ratio(const SystemParameters& system) {
-  return {"gamma", system.frequency_ratio,
-          [start = unchanged(system), gamma = system.frequency_ratio](double value) {
-            At at = start;
-            follow_stiffness(at, value * value / (gamma * gamma), 2 * value / (gamma * gamma));
-            at.here.base.loss.viscous *= gamma / value;  // 2 zeta_B/gamma
-            at.rate.base.loss.viscous = -at.here.base.loss.viscous / value;
-            return at;
-          }};
+void change_frequency_ratio(At& at, double value, const SystemParameters& system) {
+  const double gamma = system.frequency_ratio;
+  follow_stiffness(at, value * value / (gamma * gamma), 2 * value / (gamma * gamma));
+  at.here.base.loss.viscous *= gamma / value;  // 2 zeta_B/gamma
+  at.rate.base.loss.viscous = -at.here.base.loss.viscous / value;
 }
+
+using Kind = SystemParameter::Kind;
 
 struct Entry {
   const char* name;
-  SystemParameter (*make)(const SystemParameters&);
   double SystemParameters::*member;
-  bool of_sectors;
+  void (*change)(At& at, double value, const SystemParameters& system);
+  Kind kind;
 };
 
-constexpr Entry all[] = {{"F", load, &SystemParameters::force, true},
-                         {"zeta_B", base_damping, &SystemParameters::base_damping, true},
-                         {"zeta_D", damper_damping, &SystemParameters::damper_damping, true},
-                         {"K_FD", contact_stiffness, &SystemParameters::interface_stiffness, true},
-                         {"M*", mass_ratio, &SystemParameters::mass_ratio, false},
-                         {"gamma", frequency_ratio, &SystemParameters::frequency_ratio, false}};
+constexpr Entry all[] = {
+    {"F", &SystemParameters::force, change_load, Kind::load},
+    {"zeta_B", &SystemParameters::base_damping, change_base_damping, Kind::damping},
+    {"zeta_D", &SystemParameters::damper_damping, change_damper_damping, Kind::damping},
+    {"K_FD", &SystemParameters::interface_stiffness, change_contact_stiffness, Kind::contact},
+    {"M*", &SystemParameters::mass_ratio, change_mass_ratio, Kind::ratio},
+    {"gamma", &SystemParameters::frequency_ratio, change_frequency_ratio, Kind::ratio}};
 
 const Entry& entry_of(const SystemParameters& system, const std::string& name) {
-  for (const Entry& entry : all) {
-    if (entry.name == name && (entry.of_sectors || !system.sectors)) return entry;
-  }
-  throw std::invalid_argument(fmt::format("the system has no parameter {}", name));
+  const auto found =
+      std::find_if(std::begin(all), std::end(all), [&](const Entry& entry) { return entry.name == name; });
+  if (found == std::end(all)) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
+  if (system.sectors && found->kind == Kind::ratio)
+    throw std::invalid_argument(fmt::format("{} is only of rods and beams", name));
+  return *found;
 }
 
 }  // namespace
 
-std::vector<std::string> system_parameter_names(bool of_sectors) {
+std::vector<std::string> system_parameter_names() {
   std::vector<std::string> names;
-  for (const Entry& entry : all) {
-    if (entry.of_sectors || !of_sectors) names.emplace_back(entry.name);
-  }
+  for (const Entry& entry : all) names.emplace_back(entry.name);
   return names;
 }
 
@@ -130,7 +103,7 @@ SystemParameters with_parameter(SystemParameters system, const std::string& name
   const double factor = value / system.interface_stiffness;
   const Entry& entry = entry_of(system, name);
   system.*entry.member = value;
-  if (entry.member != &SystemParameters::interface_stiffness) return system;
+  if (entry.kind != Kind::contact) return system;
   for (SectorContact& contact : system.contacts) {
     contact.stiffness *= factor;
     contact.slip_per_preload /= factor;
@@ -139,7 +112,13 @@ SystemParameters with_parameter(SystemParameters system, const std::string& name
 }
 
 SystemParameter system_parameter(const SystemParameters& system, const std::string& name) {
-  return entry_of(system, name).make(system);
+  const Entry& entry = entry_of(system, name);
+  const auto at = [start = unchanged(system), system, change = entry.change](double value) {
+    At varied = start;
+    change(varied, value, system);
+    return varied;
+  };
+  return {name, system.*entry.member, at, entry.kind};
 }
 
 }  // namespace arcslip

@@ -21,7 +21,7 @@ std::vector<std::string> parameters_of(const ProblemRequest& problem) {
     return problem.model->build(problems::defaults(*problem.model))->parameter_names();
   if (problem.is_mode()) return {"R"};
   if (problem.is_limit_cycle()) return {"zeta_B", "P"};
-  std::vector<std::string> names = system_parameter_names(false);
+  std::vector<std::string> names = system_parameter_names();
   names.insert(names.begin(), {"eta", "P"});
   return names;
 }

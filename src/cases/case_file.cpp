@@ -102,7 +102,7 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
-  if (!system.varied.empty() && system.varied != "F")
+  if (!system.varied.empty() && system_parameter(system, system.varied).kind != SystemParameter::Kind::load)
     section.fail("stability", fmt::format("over eta, P and F, not over {}, with which the disturbances' own "
                                           "waves would change",
                                           system.varied));
@@ -149,16 +149,20 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
 std::string varied_parameter(const TomlSection& section, const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr || problem.is_free()) return "";
+  using Kind = SystemParameter::Kind;
   const std::string active = branch.curve ? branch.curve->active : "";
-  for (const std::string& name : system_parameter_names(false)) {
+  const auto fail = [&](const std::string& why) {
+    section.fail(branch.curve ? "parameters" : "parameter", why);
+  };
+  for (const std::string& name : system_parameter_names()) {
     if (name != active && name != branch.options.parameter) continue;
-    const std::vector<std::string> known = system_parameter_names(problem.system.sectors != nullptr);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      section.fail(branch.curve ? "parameters" : "parameter",
-                   fmt::format("{} is only of rods and beams", name));
-    if (problem.geometry && name != "F" && name != "zeta_B" && name != "zeta_D")
-      section.fail(branch.curve ? "parameters" : "parameter",
-                   fmt::format("{} follows from [geometry], whose units it would change", name));
+    try {
+      const Kind kind = system_parameter(problem.system, name).kind;
+      if (problem.geometry && kind != Kind::load && kind != Kind::damping)
+        fail(fmt::format("{} follows from [geometry], whose units it would change", name));
+    } catch (const std::invalid_argument& error) {
+      fail(error.what());
+    }
     return name;
   }
   return "";

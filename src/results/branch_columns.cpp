@@ -43,8 +43,10 @@ Index Columns::find(const std::string& name) const {
 std::vector<Index> Columns::shown() const {
   constexpr std::size_t most_shown = 8;
   std::vector<Index> indices;
-  for (const char* name : {"eta", "zeta", "F", "zeta_B", "zeta_D", "K_FD", "M*", "gamma", "P", "R_over_S",
-                           "Y", "growth", "worst_wave"}) {
+  std::vector<std::string> names = system_parameter_names();
+  names.insert(names.begin(), {"eta", "zeta"});
+  names.insert(names.end(), {"P", "R_over_S", "Y", "growth", "worst_wave"});
+  for (const std::string& name : names) {
     if (const Index i = find(name); i >= 0) indices.push_back(i);
   }
   if (find("R_over_S") >= 0) return indices;

@@ -42,7 +42,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
   const auto kind = GENERATE(DampingKind::viscous, DampingKind::structural);
   const SystemParameters system = some_rings(model, kind);
   const HarmonicSystem built = build_harmonic_system(system);
-  for (const std::string& name : system_parameter_names(false)) {
+  for (const std::string& name : system_parameter_names()) {
     CAPTURE(name);
     const SystemParameter parameter = system_parameter(system, name);
     const double value = 1.3 * parameter.value;
@@ -66,7 +66,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
 TEST_CASE("The rates of a varied system are those of differences", "[systems]") {
   const SystemParameters system = some_rings(StructureModel::beams, DampingKind::viscous);
   const HarmonicSystem built = build_harmonic_system(system);
-  for (const std::string& name : system_parameter_names(false)) {
+  for (const std::string& name : system_parameter_names()) {
     CAPTURE(name);
     const SystemParameter parameter = system_parameter(system, name);
     const double value = 0.8 * parameter.value;

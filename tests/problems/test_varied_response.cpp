@@ -42,7 +42,7 @@ Vector parameters_at(double eta, double preload, double value) {
 }  // namespace
 
 TEST_CASE("A response over a parameter of the system is that of the system with its value", "[harmonics]") {
-  for (const std::string& name : system_parameter_names(false)) {
+  for (const std::string& name : system_parameter_names()) {
     const SystemParameters system = some_rods(name);
     const HarmonicResponse problem(build_harmonic_system(system));
     CHECK(problem.parameter_names() == std::vector<std::string>{"eta", "P", name});
@@ -74,7 +74,7 @@ TEST_CASE("A response over a parameter of the system is that of the system with 
 }
 
 TEST_CASE("Derivatives by a parameter of the system are those of differences", "[harmonics]") {
-  for (const std::string& name : system_parameter_names(false)) {
+  for (const std::string& name : system_parameter_names()) {
     CAPTURE(name);
     const SystemParameters system = some_rods(name);
     const HarmonicResponse problem(build_harmonic_system(system));
@@ -88,7 +88,7 @@ TEST_CASE("Derivatives by a parameter of the system are those of differences", "
 }
 
 TEST_CASE("Second derivatives along a parameter of the system are those of differences", "[harmonics]") {
-  for (const std::string& name : system_parameter_names(false)) {
+  for (const std::string& name : system_parameter_names()) {
     CAPTURE(name);
     const SystemParameters system = some_rods(name);
     const HarmonicResponse problem(build_harmonic_system(system));

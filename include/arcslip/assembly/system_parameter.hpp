@@ -35,17 +35,29 @@ struct SystemParameter {
   struct At {
     SystemVariation here;
     SystemVariation rate;
+
+    /// d ln(S/P).
+    double log_slip_rate() const { return rate.slip_per_preload / here.slip_per_preload; }
+  };
+
+  enum class Kind {
+    load,     ///< scales it, and does nothing else
+    damping,  ///< a damping ratio
+    contact,  ///< a stiffness of contacts
+    ratio     ///< of base to damper, which sectors do not have
   };
 
   std::string name;
-  double value;  ///< that of the system
-  std::function<At(double value)> at;
-  bool scales_load = false;  ///< whether it does nothing else
-  double low = 0;            ///< it must be above
+  double value;                        ///< that of the system
+  std::function<At(double value)> at;  ///< closed
+  Kind kind;
+
+  /// Whether a system may have this value.
+  bool allows(double other) const { return kind == Kind::damping || other > 0; }
 };
 
-/// The names of all, of sectors those that they have.
-std::vector<std::string> system_parameter_names(bool of_sectors);
+/// The names of all, in the order in which they are told.
+std::vector<std::string> system_parameter_names();
 
 /// The system with another value of a parameter.
 SystemParameters with_parameter(SystemParameters system, const std::string& name, double value);

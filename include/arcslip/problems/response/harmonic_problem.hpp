@@ -122,19 +122,23 @@ class HarmonicProblem : public continuation::Problem {
     return is_varied() ? pressing(u, p) * variation(u, p).here.slip_per_preload : pressing(u, p);
   }
 
-  /// Factor on the force of a coordinate's element, or its rate.
-  double force_factor(Index coordinate, const SystemVariation& of) const {
-    return coordinate < contacts()                 ? of.contact_stiffness
-           : coordinates_[coordinate].follows_base ? of.others
-                                                   : 1;
+  /// The factor of a variation on the force of a coordinate's element; null where it has none.
+  double SystemVariation::*varied_force(Index coordinate) const {
+    if (coordinate < contacts()) return &SystemVariation::contact_stiffness;
+    return coordinates_[coordinate].follows_base ? &SystemVariation::others : nullptr;
   }
-  double force_rate(Index coordinate, const SystemVariation& rate) const {
-    return coordinate < contacts() || coordinates_[coordinate].follows_base ? force_factor(coordinate, rate)
-                                                                            : 0;
-  }
+
+  /// All factors on that force.
   double force_factor(Index coordinate, const Vector& u, const Vector& p) const {
     const double own = coordinates_[coordinate].factor;
-    return is_varied() ? own * force_factor(coordinate, variation(u, p).here) : own;
+    const auto varied = is_varied() ? varied_force(coordinate) : nullptr;
+    return varied != nullptr ? own * variation(u, p).here.*varied : own;
+  }
+
+  /// How the logarithm of that factor changes with the further parameter.
+  double log_force_rate(Index coordinate, const SystemParameter::At& at) const {
+    const auto varied = varied_force(coordinate);
+    return varied != nullptr ? at.rate.*varied / at.here.*varied : 0;
   }
 
   /// The stiffness relative to which the force of a coordinate's element is measured.
@@ -173,8 +177,6 @@ class HarmonicProblem : public continuation::Problem {
   static void add(const Place& place, double value, continuation::Gradient& gradient);
   /// Adds what is `value` times a change of ln(load).
   void add_log_load(double value, const Vector& u, const Vector& p, continuation::Gradient& gradient) const;
-  void respond_varied(const ContactModes& structure, bool is_base, double frequency_value,
-                      const SystemParameter::At& at_value, Response& response) const;
   OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
   class Observation;
 };

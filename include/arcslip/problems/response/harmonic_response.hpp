@@ -94,9 +94,11 @@ class HarmonicResponse : public HarmonicProblem {
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
     Index which;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_contacts, 1> stiffness;  // K
     ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
     ContactVector free_by_varied;
+    double log_slip_rate;                  // of ln(S/P) by it
     ContactMatrix inverse;                 // (1 + C_h K)^{-1}
     double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
@@ -110,7 +112,7 @@ class HarmonicResponse : public HarmonicProblem {
                   const Vector& p, Rows& rows, Matrix* parameter_jacobian) const;
   void add_linear_part(Order& order, const ContactMatrix& compliance, const ContactVector& free, double share,
                        double weight) const;
-  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
+  void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
                      const continuation::Regime& regime, Matrix& jacobian) const;
 
   /// The derivatives of F with these forces of the elements.
@@ -124,7 +126,8 @@ class HarmonicResponse : public HarmonicProblem {
 
   /// Whether there is a response at these parameters.
   bool has_value(const Vector& p) const {
-    return p(eta) > 0 && p(preload) > 0 && load(p) > 0 && (!is_varied() || p(further) > system_.varied->low);
+    return p(eta) > 0 && p(preload) > 0 && (!is_varied() || system_.varied->allows(p(further))) &&
+           load(p) > 0;
   }
 };
 
