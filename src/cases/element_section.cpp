@@ -9,8 +9,6 @@ namespace {
 
 using ElementKey = Key<PlacedElement>;
 
-constexpr const char* expected_tables = "expected tables [[element]]";
-
 ElementKey key_of(const ElementKind::Value& setting, std::size_t i) {
   std::string meaning = setting.meaning;
   if (setting.scales_force) meaning += "; of rods and beams N times that of a node, as K_FD";
@@ -70,7 +68,7 @@ const KeyTable<PlacedElement>& element_keys(const ElementKind& kind) {
 void read_elements(const TomlDocument& document, SystemParameters& system) {
   const toml::node* node = document.root().get("element");
   if (node == nullptr) return;
-  if (!node->is_array_of_tables()) document.mismatch(*node, "element", expected_tables);
+  if (!node->is_array_of_tables()) document.mismatch(*node, "element", "tables [[element]]");
   const auto contacts = std::max<Index>(1, std::ssize(system.contacts));
   for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
     const TomlSection section(document, *node->as_array()->get(i)->as_table(), fmt::format("element[{}]", i));

@@ -21,17 +21,7 @@ using continuation::PointType;
 
 namespace {
 
-const std::string rods_peaks = R"([system]
-model = "rods"
-wave_number = 1
-elements = 12
-mass_ratio = 3.0
-frequency_ratio = 1.5
-interface_stiffness = 40.0
-damping = { base = 1e-2, damper = 2e-2 }
-force = 1.0
-preload = 0.3
-[branch]
+const std::string rods_peaks = case_texts::rods_under_force + R"([branch]
 curve = "peak"
 parameters = ["eta", "P"]
 window = [0.5, 5.0]

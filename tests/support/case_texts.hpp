@@ -28,6 +28,18 @@ from = 0.5
 to = 120.0
 )";
 
+inline const std::string rods_under_force = R"([system]
+model = "rods"
+wave_number = 1
+elements = 12
+mass_ratio = 3.0
+frequency_ratio = 1.5
+interface_stiffness = 40.0
+damping = { base = 1e-2, damper = 2e-2 }
+force = 1.0
+preload = 0.3
+)";
+
 inline Case read_text(const std::string& text, const std::vector<std::string>& settings = {}) {
   const TemporaryFolder folder;
   return read_case(folder.write("case.toml", text), settings);
