@@ -38,14 +38,15 @@ void make_odd(bool odd, std::vector<RingDisturbances::Disturbance>& all) {
 }
 
 /// The highest harmonic of the response by which one tells its error: four times as high, so that little of
-/// the error is left, where exponents then cost no more; else twice as high; half as high where that is none.
+/// the error is left, where exponents then cost no more; else twice as high; half as high where that is too
+/// many. Nearer ones tell nothing: what is left out does not fall from each harmonic to the next.
 int other_highest(const SystemParameters& parameters) {
   constexpr int most = 2 * most_harmonics - 1;
   const int highest = parameters.harmonics.back();
-  if (highest == most) return most / 2;
+  if (2 * highest + 1 > most) return highest / 2;
   const int wide = std::min(4 * highest + 3, most);
   const Index waves = parameters.elements / std::gcd(parameters.wave_number, parameters.elements);
-  return RingDisturbances::is_exact(waves, wide) ? wide : std::min(2 * highest + 1, most);
+  return RingDisturbances::is_exact(waves, wide) ? wide : 2 * highest + 1;
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ namespace arcslip::problems {
 class FloquetResponse : public HarmonicResponse {
  public:
   /// Observables beside those of HarmonicResponse, at their end: `growth`, the largest |mu| of a period;
-  /// `growth_error`, how far it is, by the response in the harmonics of `finer`, from what all harmonics
-  /// give, NaN without it and where there is no such response; `worst_wave`, of Worst;
+  /// `growth_error`, how far it is, estimated by the response in the harmonics of `finer`, from what all
+  /// harmonics give, NaN without it and where there is no such response; `worst_wave`, of Worst;
   /// `stable`, 1 or 0 where the error leaves no doubt, else NaN. Throws std::invalid_argument as
   /// HarmonicResponse and RingDisturbances do.
   FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
