@@ -165,8 +165,8 @@ LibraryModel lure_model() {
   const auto build = [](const LibraryModel::Values& values) -> std::unique_ptr<continuation::Problem> {
     return std::make_unique<LureCycle>(static_cast<Index>(values[2]));
   };
-  const auto guess = [](const continuation::Problem& problem, const LibraryModel::Values& values) {
-    return dynamic_cast<const LureCycle&>(problem).guess(parameters_of(values, 2));
+  const auto guess = [](const continuation::Problem& /*problem*/, const LibraryModel::Values& values) {
+    return LureCycle(static_cast<Index>(values[2])).guess(parameters_of(values, 2));
   };
   constexpr double most = std::numeric_limits<double>::max();
   return {"lure",

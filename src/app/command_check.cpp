@@ -60,7 +60,7 @@ std::string describe(const ProblemRequest& problem) {
 std::string fixed(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "";
-  const char* other = branch.options.parameter != "P" ? "P" : problem.is_limit_cycle() ? "zeta_B" : "eta";
+  const std::string other = branch.options.parameter != "P" ? "P" : problem.response->parameters.front();
   return fmt::format(" at {} = {:g}", other, fixed_value(problem, other));
 }
 
@@ -74,9 +74,10 @@ std::string describe(const CaseBranch& branch) {
   }
   std::string text =
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));
-  if (branch.problem.is_limit_cycle()) text += ", limit cycle";
-  if (branch.problem.is_mode()) text += fmt::format(", nonlinear mode near eta = {:g}", branch.problem.eta);
-  if (branch.problem.response == Response::one_way) text += ", base as if alone";
+  const ResponseKind& response = *branch.problem.response;
+  if (!response.remark.empty()) text += ", " + response.remark;
+  if (response.frequency == ResponseKind::Frequency::guessed)
+    text += fmt::format(" near eta = {:g}", branch.problem.eta);
   if (branch.start) text += fmt::format(", both ways from {:g}", *branch.start);
   if (branch.all_solutions) text += ", through every solution found there";
   if (branch.switching) text += ", with the branches that it meets";
@@ -97,7 +98,7 @@ std::map<continuation::Regime, std::vector<const continuation::BranchPoint*>> po
     const TracedBranch& traced) {
   std::map<continuation::Regime, std::vector<const continuation::BranchPoint*>> inside;
   for (const continuation::BranchPoint& point : traced.branch.points) {
-    if (depth(*traced.base, point) >= 0.01) inside[point.regime].push_back(&point);
+    if (depth(*traced.base.problem, point) >= 0.01) inside[point.regime].push_back(&point);
   }
   return inside;
 }
@@ -113,7 +114,7 @@ std::optional<continuation::DerivativeReport> check_derivatives(const TracedBran
     for (std::size_t i = 0; i < places; ++i) {
       const continuation::BranchPoint& point = *points[i * (points.size() - 1) / (places - 1)];
       reports.push_back(
-          continuation::check_derivatives(*traced.base, point.unknowns, point.parameters, regime));
+          continuation::check_derivatives(*traced.base.problem, point.unknowns, point.parameters, regime));
     }
     std::sort(reports.begin(), reports.end(), [](const auto& a, const auto& b) { return a.worst < b.worst; });
     if (!worst || reports[places / 2].worst > worst->worst) worst = reports[places / 2];
@@ -158,7 +159,7 @@ bool check_branches(const CaseFile& file, bool derivatives) {
       i = plan.count - 1;
     }
     const CaseBranch branch = plan.branch(i);
-    file.named("system", [&] { try_to_build(branch.problem); });
+    file.named("system", [&] { build(branch.problem); });
     const std::string values = arcslip::describe(branch.values);
     text += fmt::format("branch {}{}{}\n  {}\n  {}\n", i, values.empty() ? "" : ": ", values,
                         describe(branch), describe(branch.problem));
@@ -212,7 +213,7 @@ void check_study(const CaseFile& file) {
   for (const std::size_t i : {std::size_t{0}, study.count - 1}) {
     const StudyDesign design = study.design(i);
     const ProblemRequest problem = design.problem();
-    file.named("system", [&] { try_to_build(problem); });
+    file.named("system", [&] { build(problem); });
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",
                         arcslip::describe(design.values), describe(problem));
     if (problem.geometry) text += fmt::format("  {}\n", describe_units(problem));

@@ -94,7 +94,7 @@ class Run {
 
 int Run::execute() {
   require_provable(plan_, options_);
-  file_.named("system", [&] { try_to_build(plan_.branch(0).problem); });
+  file_.named("system", [&] { build(plan_.branch(0).problem); });
   const bool resumes = !options_.resume.empty();
   if (resumes) reached_ = read_checkpoint(options_.resume, plan_, journal_);
   const OutputFolder folder(resumes ? options_.resume : results_folder(options_.folder, options_.case_path));

@@ -121,7 +121,7 @@ int study_command(const StudyOptions& options) {
   try {
     const CaseFile file(options.case_path, options.settings);
     study = read_study(file);
-    file.named("system", [&] { try_to_build(study->design(0).problem()); });
+    file.named("system", [&] { build(study->design(0).problem()); });
   } catch (const std::exception& wrong) {
     error = wrong.what();
   }

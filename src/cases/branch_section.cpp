@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "arcslip/assembly/system_parameter.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/system_section.hpp"
 
@@ -19,11 +18,7 @@ using continuation::TraceOptions;
 std::vector<std::string> parameters_of(const ProblemRequest& problem) {
   if (problem.model != nullptr)
     return problem.model->build(problems::defaults(*problem.model))->parameter_names();
-  if (problem.is_mode()) return {"R"};
-  if (problem.is_limit_cycle()) return {"zeta_B", "P"};
-  std::vector<std::string> names = system_parameter_names();
-  names.insert(names.begin(), {"eta", "P"});
-  return names;
+  return problem.response->parameters;
 }
 
 bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
@@ -88,8 +83,8 @@ void read_extrema(CaseBranch& branch, const TomlSection& section) {
   if (section.has("extrema_of")) {
     observables = section.texts("extrema_of", {}, "an array of observables");
     if (curve && !ridge) section.fail("extrema_of", "only beside curves of peaks or troughs");
-  } else if (branch.problem.model == nullptr && !branch.problem.is_limit_cycle()) {
-    observables = {branch.problem.is_mode() ? "zeta" : "Y"};
+  } else if (branch.problem.model == nullptr && !branch.problem.response->extremum.empty()) {
+    observables = {branch.problem.response->extremum};
   }
   if (ridge && observables.empty()) section.require("extrema_of", expected);
   if (ridge && observables.size() != 1) section.mismatch("extrema_of", expected);
@@ -105,12 +100,13 @@ const KeyTable<CaseBranch>& branch_keys() {
   static const auto across = only("only beside curve", is_curve);
   static const auto friction = only("only for systems with friction", of_friction);
   static const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
+  static const auto responses = [] {
+    Choices<const ResponseKind*> all;
+    for (const ResponseKind& kind : response_kinds()) all.emplace_back(kind.name, &kind);
+    return all;
+  }();
   static const KeyTable<S> keys{
-      {K::choice("response", at(&S::problem, &ProblemRequest::response),
-                 {{"forced", Response::forced},
-                  {"one_way", Response::one_way},
-                  {"limit_cycle", Response::limit_cycle},
-                  {"nonlinear_mode", Response::nonlinear_mode}},
+      {K::choice("response", at(&S::problem, &ProblemRequest::response), responses,
                  "what is asked of a system with friction", "", friction),
        K::special("curve", one_of(curves), "a curve of such points in two parameters",
                   [](S& branch, const TomlSection& section) {

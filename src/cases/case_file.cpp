@@ -62,7 +62,8 @@ void check_extrema(const TomlSection& branch, const CaseBranch& first) {
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
 void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::vector<ListedKey>& listed,
                  const CaseBranch& common, const std::string& parameter) {
-  if (common.problem.is_limit_cycle() && (branch.has("eta") || for_each.sets("eta"))) {
+  if (common.problem.response->frequency == ResponseKind::Frequency::own &&
+      (branch.has("eta") || for_each.sets("eta"))) {
     branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
   }
   for (const ListedKey& key : listed) {
@@ -106,7 +107,7 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
     section.fail("stability", fmt::format("over eta, P and F, not over {}, with which the disturbances' own "
                                           "waves would change",
                                           system.varied));
-  if (problem.response != Response::forced) section.fail("stability", "only for the forced response");
+  if (!problem.response->in_time) section.fail("stability", "only for the forced response");
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
   if (system.sectors) {
@@ -133,7 +134,7 @@ void find_seed(const TomlSection& section, CaseBranch& branch) {
 /// The eta that the branches pass; 0 where they are unknown beforehand.
 std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
                                     const CaseBranch& common, const std::string& parameter) {
-  if (common.problem.is_free()) return {0, 0};
+  if (common.problem.response->has_own_frequency()) return {0, 0};
   if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
   if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
@@ -148,7 +149,7 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
 /// The parameter of the system beside eta and P that is continued, or "".
 std::string varied_parameter(const TomlSection& section, const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
-  if (problem.model != nullptr || problem.is_free()) return "";
+  if (problem.model != nullptr || problem.response->has_own_frequency()) return "";
   using Kind = SystemParameter::Kind;
   const std::string active = branch.curve ? branch.curve->active : "";
   const auto fail = [&](const std::string& why) {
@@ -202,7 +203,7 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   for_each_.emplace(*document_, section_, listed, ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, listed, common_, parameter_);
   use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
-  use_.is_free = common_.problem.is_free();
+  use_.is_free = common_.problem.response->has_own_frequency();
   if (use_.sectors)
     std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
 }
@@ -213,11 +214,12 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   branch.values = std::move(values);
   read_system(*document_, replacements, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
-  branch.problem.system.one_way = branch.problem.response == Response::one_way;
+  branch.problem.system.one_way = branch.problem.response->one_way;
   branch.problem.system.varied = varied_parameter(section_, branch);
-  if (branch.problem.harmonics_tolerance && branch.problem.is_free())
+  if (branch.problem.harmonics_tolerance && branch.problem.response->has_own_frequency())
     system.fail("harmonics", "\"auto\" is not for limit cycles and nonlinear modes");
-  if (model_ == nullptr && parameter_ != "eta" && !branch.problem.is_limit_cycle())
+  if (model_ == nullptr && parameter_ != "eta" &&
+      branch.problem.response->frequency != ResponseKind::Frequency::own)
     branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
   if (branch.curve) find_seed(section_, branch);
   check_stability(section_, branch);

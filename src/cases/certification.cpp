@@ -14,10 +14,8 @@ std::string why_not_certifiable(const CaseBranch& request) {
   if (request.curve)
     return fmt::format("a curve of {} points, which has a second equation for what its points are",
                        to_string(request.curve->type));
-  if (problem.is_limit_cycle()) return "limit cycles, whose frequency is a second unknown";
-  if (problem.response == Response::one_way)
-    return "a one-way response, from which the base's compliance, part of what it encloses, is left out";
-  if (problem.is_mode()) return "nonlinear modes, whose frequency and damping are unknowns beside R";
+  if (!problem.response->not_proven.empty())
+    return fmt::format("{}, {}", problem.response->title, problem.response->not_proven);
   if (problem.stability)
     return "branches with stability: exponents are eigenvalues, which it would leave unproven beside them";
   if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance)
@@ -39,10 +37,9 @@ std::string why_not_certifiable(const CaseBranch& request) {
 
 void certify(TracedBranch& traced) {
   const continuation::TraceOptions& options = traced.request->options;
-  const auto& problem = dynamic_cast<const problems::ForcedResponse&>(*traced.base);
   const auto parameter =
       options.parameter == "eta" ? problems::ForcedResponse::eta : problems::ForcedResponse::preload;
-  traced.certificate = problems::certify(problem, traced.branch, parameter,
+  traced.certificate = problems::certify(*traced.base.enclosed, traced.branch, parameter,
                                          {options.tolerance, options.max_step, options.go_on});
 }
 

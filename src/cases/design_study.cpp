@@ -36,8 +36,8 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
   if (!subject.failure.empty())
     throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", study.range.eta_low,
                                          study.range.to, subject.failure));
-  return problems::ResponsePeaks({subject.problem, "eta", "P", study.range.eta_low, study.range.eta_high,
-                                  study.objective, subject.guess, study.options});
+  return problems::ResponsePeaks({subject.built.problem, "eta", "P", study.range.eta_low,
+                                  study.range.eta_high, study.objective, subject.guess, study.options});
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {

@@ -6,19 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <type_traits>
 
 #include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
-#include "arcslip/problems/response/floquet_response.hpp"
-#include "arcslip/problems/response/forced_response.hpp"
-#include "arcslip/problems/response/harmonic_cycle.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
-#include "arcslip/problems/response/limit_cycle.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
-#include "arcslip/problems/response/nonlinear_mode.hpp"
-#include "arcslip/problems/response/one_way_response.hpp"
 
 namespace arcslip {
 namespace {
@@ -30,83 +23,22 @@ using continuation::PointType;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
-/// Guesses throw std::invalid_argument where there is no solution.
-template <class Guess>
-Subject guessed(std::shared_ptr<const continuation::Problem> problem, Guess guess) {
-  Subject subject{std::move(problem), {}, {}};
-  try {
-    subject.guess = guess();
-  } catch (const std::invalid_argument& error) {
-    subject.failure = error.what();
-  } catch (const continuation::Unfinished& error) {
-    subject.failure = error.what();
-    subject.stop = error.stop;
-  }
-  return subject;
-}
-
-Subject build_library(const ProblemRequest& request, const std::string& parameter, double value) {
-  problems::LibraryModel::Values settings = request.settings;
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    if (request.model->settings[i].name == parameter) settings[i] = value;
-  }
-  const std::shared_ptr<const continuation::Problem> problem = request.model->build(settings);
-  return guessed(problem, [&] { return request.model->guess(*problem, settings); });
-}
-
-/// The problem of a system with friction: of the type, which has the system's contacts and harmonics.
-template <class Type>
-std::shared_ptr<Type> build_problem(const SystemParameters& system) {
-  if constexpr (std::is_same_v<Type, problems::FloquetResponse>) {
-    return problems::build_floquet_response(system);
-  } else if constexpr (std::is_constructible_v<Type, HarmonicSystem>) {
-    return std::make_shared<Type>(build_harmonic_system(system));
-  } else {
-    return std::make_shared<Type>(build_system(system));
-  }
-}
-
-/// Calls `use` with the type of the problem of a system with friction.
-template <class Use>
-auto with_type(const ProblemRequest& request, const Use& use) {
-  if (request.is_mode()) return use(std::type_identity<problems::NonlinearMode>{});
-  if (request.stability) return use(std::type_identity<problems::FloquetResponse>{});
-  const bool balanced = needs_balance(request.system, request.harmonics_tolerance);
-  if (balanced && request.is_limit_cycle()) return use(std::type_identity<problems::HarmonicCycle>{});
-  if (balanced) return use(std::type_identity<problems::HarmonicResponse>{});
-  if (request.is_limit_cycle()) return use(std::type_identity<problems::LimitCycle>{});
-  if (request.response == Response::one_way) return use(std::type_identity<problems::OneWayResponse>{});
-  return use(std::type_identity<problems::ForcedResponse>{});
-}
-
-Subject build_friction(const ProblemRequest& request, const std::string& parameter, double value,
-                       const continuation::TraceOptions& limits) {
-  const auto value_of = [&](const std::string& name) {
-    return name == parameter ? value : fixed_value(request, name);
+Built build_library(const ProblemRequest& request) {
+  const problems::LibraryModel& model = *request.model;
+  const std::shared_ptr<const continuation::Problem> problem = model.build(request.settings);
+  const auto guess = [&model, problem](const Built::ValueOf& value,
+                                       const continuation::TraceOptions& /*limits*/) {
+    problems::LibraryModel::Values settings;
+    for (const Setting& setting : model.settings) settings.push_back(value(setting.name));
+    return model.guess(*problem, settings);
   };
-  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
-    const auto problem = build_problem<Type>(request.system);
-    return guessed(problem, [&] {
-      if constexpr (std::is_same_v<Type, problems::NonlinearMode>) {
-        return problem->guess(request.eta, value, value_of("P"));
-      } else if constexpr (std::is_base_of_v<problems::HarmonicResponse, Type>) {
-        const std::vector<std::string> names = problem->parameter_names();
-        Vector parameters(std::ssize(names));
-        std::transform(names.begin(), names.end(), parameters.begin(), value_of);
-        return problem->guess(parameters, limits);
-      } else if constexpr (std::is_same_v<Type, problems::HarmonicCycle>) {
-        return problem->guess(value_of("zeta_B"), value_of("P"), limits);
-      } else {
-        return problem->guess(value_of(request.is_limit_cycle() ? "zeta_B" : "eta"), value_of("P"));
-      }
-    });
-  });
+  return {problem, guess};
 }
 
 using Request = std::shared_ptr<const CaseBranch>;
 
 TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
-  TracedBranch none{request, subject.problem, nullptr, {}, 0};
+  TracedBranch none{request, subject.built, nullptr, {}, 0};
   none.branch.stop = subject.stop;
   none.branch.explanation = why;
   return none;
@@ -122,16 +54,16 @@ std::vector<continuation::Guess> solutions_around(const Subject& subject, const 
   if (guess.unknowns.size() <= small) {
     Vector scale(guess.unknowns.size());
     Vector parameter_scale(guess.parameters.size());
-    subject.problem->scale(guess.unknowns, guess.parameters, scale, parameter_scale);
+    subject.built.problem->scale(guess.unknowns, guess.parameters, scale, parameter_scale);
     options.lower = guess.unknowns - wide * scale;
     options.upper = guess.unknowns + wide * scale;
   }
-  return continuation::solve_all(*subject.problem, {guess}, options);
+  return continuation::solve_all(*subject.built.problem, {guess}, options);
 }
 
 std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
                                          const TimeBudget& time, const continuation::Observer& observer) {
-  const continuation::Problem& problem = *subject.problem;
+  const continuation::Problem& problem = *subject.built.problem;
   std::vector<Branch> branches;
   if (request->switching) {
     branches = continuation::trace_connected(problem, subject.guess, time.rest(), {}, observer);
@@ -144,13 +76,13 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   }
   std::vector<TracedBranch> traced;
   traced.reserve(branches.size());
-  for (Branch& branch : branches) traced.push_back({request, subject.problem, nullptr, std::move(branch), 0});
+  for (Branch& branch : branches) traced.push_back({request, subject.built, nullptr, std::move(branch), 0});
   return traced;
 }
 
 /// Whether a curve passes the special point of its base.
 bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
-  const Index parameter = continuation::index_of(traced.base->parameter_names(), second);
+  const Index parameter = continuation::index_of(traced.base.problem->parameter_names(), second);
   const auto same = [](const Vector& a, const Vector& b) {
     return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
   };
@@ -191,7 +123,7 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
   const CurveRequest& asked = *request->curve;
   continuation::TraceOptions seeking = seed_branch(*request).options;
   seeking.max_seconds = time.rest().max_seconds;
-  const Branch seeds = continuation::trace(*subject.problem, subject.guess, seeking);
+  const Branch seeds = continuation::trace(*subject.built.problem, subject.guess, seeking);
 
   continuation::TraceOptions options = request->options;
   const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
@@ -204,14 +136,14 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
     const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
     if (std::any_of(curves.begin(), curves.end(), known)) continue;
     continuation::CurveStart start =
-        continuation::curve_through(*subject.problem, asked.active, seed, observable);
+        continuation::curve_through(*subject.built.problem, asked.active, seed, observable);
     const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
     const Clock::time_point begun = Clock::now();
     options.max_seconds = time.rest().max_seconds;
     Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
     const std::chrono::duration<double> seconds = Clock::now() - begun;
     const bool interrupted = branch.stop == continuation::Stop::interrupted;
-    curves.push_back({request, subject.problem, curve, std::move(branch), seconds.count()});
+    curves.push_back({request, subject.built, curve, std::move(branch), seconds.count()});
     if (interrupted || time.is_spent()) break;
   }
   for (TracedBranch& curve : curves) {
@@ -225,15 +157,8 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
   return {unstarted(request, none,
                     fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
                                 asked.active, asked.from, asked.to, options.parameter, asked.seed,
-                                seeds.complete() ? why_none(*subject.problem, seeds, options.parameter)
+                                seeds.complete() ? why_none(*subject.built.problem, seeds, options.parameter)
                                                  : ": " + seeds.explanation))};
-}
-
-std::shared_ptr<const continuation::Problem> problem_of(const ProblemRequest& request) {
-  if (request.model != nullptr) return request.model->build(request.settings);
-  return with_type(request, [&]<class Type>(std::type_identity<Type>) {
-    return std::shared_ptr<const continuation::Problem>(build_problem<Type>(request.system));
-  });
 }
 
 }  // namespace
@@ -243,11 +168,13 @@ bool needs_balance(const SystemParameters& system, const std::optional<double>& 
          system.has_others() || !system.varied.empty();
 }
 
-void try_to_build(const ProblemRequest& request) { problem_of(request); }
+Built build(const ProblemRequest& request) {
+  return request.model != nullptr ? build_library(request) : request.response->build(request);
+}
 
 std::vector<std::string> tracked_observables(const ProblemRequest& request) {
   std::vector<std::string> names;
-  for (const continuation::Observable& observable : problem_of(request)->observables()) {
+  for (const continuation::Observable& observable : build(request).problem->observables()) {
     if (observable.has_gradient) names.push_back(observable.name);
   }
   return names;
@@ -267,8 +194,19 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter) 
 
 Subject build(const ProblemRequest& request, const std::string& parameter, double value,
               const continuation::TraceOptions& limits) {
-  return request.model != nullptr ? build_library(request, parameter, value)
-                                  : build_friction(request, parameter, value, limits);
+  Subject subject{build(request), {}, {}};
+  const auto value_of = [&](const std::string& name) {
+    return name == parameter ? value : fixed_value(request, name);
+  };
+  try {
+    subject.guess = subject.built.guess(value_of, limits);
+  } catch (const std::invalid_argument& error) {
+    subject.failure = error.what();
+  } catch (const continuation::Unfinished& error) {
+    subject.failure = error.what();
+    subject.stop = error.stop;
+  }
+  return subject;
 }
 
 CaseBranch seed_branch(const CaseBranch& request) {

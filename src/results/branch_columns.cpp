@@ -7,8 +7,7 @@ namespace arcslip {
 
 Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
     : problem_(traced.problem()), request_(*traced.request) {
-  if (detail == BranchTable::Detail::drawn)
-    without_verdict_ = dynamic_cast<const problems::FloquetResponse*>(&problem_);
+  if (detail == BranchTable::Detail::drawn && !traced.curve) without_verdict_ = traced.base.disturbed.get();
   names_ = problem_.parameter_names();
   parameters_ = static_cast<Index>(names_.size());
   if (traced.curve) moved_ = traced.curve->active();

@@ -65,7 +65,8 @@ std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, De
   for (const std::string& name : names_) places.push_back(columns.find(name));
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
-    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type), traced.base->describe(point.regime));
+    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
+                   traced.base.problem->describe(point.regime));
     const std::vector<double>& values = columns.values(point);
     for (const Index place : places)
       number_to(place < 0 ? std::nan("") : values[static_cast<std::size_t>(place)]);

@@ -86,12 +86,11 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   add_geometry(traced.request->problem, summary);
   if (const SystemParameters& system = traced.request->problem.system; system.sectors)
     summary[is_full(system) ? "full_solves" : "reduction"] = modes_to_json(system);
-  if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(*traced.base);
+  if (traced.request->problem.model == nullptr) summary["harmonics"] = traced.base.harmonics;
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   if (why_not_verifiable(*traced.request).empty()) {
-    const std::optional<problems::BalanceErrors> errors =
-        problems::largest_errors(traced.request->problem.system, harmonics_of(*traced.base), traced.branch,
-                                 traced.request->options.go_on);
+    const std::optional<problems::BalanceErrors> errors = problems::largest_errors(
+        traced.request->problem.system, traced.base.harmonics, traced.branch, traced.request->options.go_on);
     summary["power_error"] = errors ? ordered_json(errors->power) : ordered_json(nullptr);
     summary["power_cancellation"] = errors ? ordered_json(errors->cancellation) : ordered_json(nullptr);
     summary["motion_error"] = errors ? ordered_json(errors->motion) : ordered_json(nullptr);
@@ -182,13 +181,8 @@ ordered_json modes_to_json(const SystemParameters& system) {
   return parts;
 }
 
-std::vector<int> harmonics_of(const continuation::Problem& problem) {
-  const auto* several = dynamic_cast<const problems::HarmonicProblem*>(&problem);
-  return several != nullptr ? several->system().orders : std::vector<int>{1};
-}
-
 std::string describe_harmonics(const TracedBranch& traced) {
-  const std::vector<int> orders = harmonics_of(*traced.base);
+  const std::vector<int> orders = traced.base.harmonics;
   if (orders.size() == 1) return "";
   return fmt::format("{} harmonics, up to {}\n", orders.size(), orders.back());
 }

@@ -14,7 +14,7 @@ using continuation::BranchPoint;
 using continuation::PointType;
 
 const problems::FloquetResponse* response(const TracedBranch& traced) {
-  return traced.curve ? nullptr : dynamic_cast<const problems::FloquetResponse*>(traced.base.get());
+  return traced.curve ? nullptr : traced.base.disturbed.get();
 }
 
 bool is_change(const BranchPoint& point) {

@@ -32,9 +32,7 @@ std::string largest(const VerifiedBranch& branch, double Verification::*other) {
 std::string why_not_verifiable(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "a model of the library";
-  if (problem.is_limit_cycle()) return "limit cycles";
-  if (problem.is_mode()) return "nonlinear modes";
-  if (problem.response == Response::one_way) return "one-way responses";
+  if (!problem.response->in_time) return problem.response->title;
   return branch.curve ? "curves" : "";
 }
 
@@ -47,7 +45,7 @@ VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::
     return progress(point, chosen);
   };
   verified.points =
-      problems::verify(traced.request->problem.system, harmonics_of(*traced.base), traced.branch, options);
+      problems::verify(traced.request->problem.system, traced.base.harmonics, traced.branch, options);
   return verified;
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("Ten elements a sector with dofs inside give the branches of a fifty-d
     const BranchPoint& found = traced.branch.points[i];
     const BranchPoint& known = expected.points[i];
     CHECK(found.type == known.type);
-    traced.base->observe(found.unknowns, found.parameters, found.regime, values);
+    traced.base.problem->observe(found.unknowns, found.parameters, found.regime, values);
     problem.observe(known.unknowns, known.parameters, known.regime, expected_values);
     worst = std::max(worst, std::abs(found.parameters(0) / known.parameters(0) - 1));
     for (const Index column : {0, 3, 4})

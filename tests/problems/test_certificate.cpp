@@ -229,7 +229,7 @@ TEST_CASE("What --certify does not cover is refused in one line before anything 
       {{"enz", "", "the model enz, whose"},
        {"ridge", "", "a curve of peak points, which"},
        {"limit_cycle", "", "limit cycles, whose"},
-       {"one_way", "", "a one-way response, from which"},
+       {"one_way", "", "one-way responses, from which"},
        {"cubic_response", "", "cubic springs, which"},
        {"cubic_fold_curve", "", "a curve of fold points, which"},
        {"figure_8", " --set branch.stability=true", "with stability: exponents are"},

@@ -61,8 +61,8 @@ inline double value(const TracedBranch& traced, const BranchPoint& point, const 
 /// Largest entry of F at a point of a curve, whose own residual has the curve's conditions, in other units.
 inline double residual_of_base(const TracedBranch& traced, const BranchPoint& point) {
   const auto at = traced.curve->split(point.unknowns, point.parameters, point.regime);
-  Vector residual(traced.base->size());
-  if (!traced.base->evaluate(at.unknowns, at.parameters, at.regime, {&residual})) return INFINITY;
+  Vector residual(traced.base.problem->size());
+  if (!traced.base.problem->evaluate(at.unknowns, at.parameters, at.regime, {&residual})) return INFINITY;
   return residual.lpNorm<Eigen::Infinity>();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arcslip/assembly/physical_scale.hpp"
+#include "arcslip/cases/response_kind.hpp"
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/keys/input_error.hpp"
 #include "arcslip/problems/library/library.hpp"
@@ -26,28 +27,19 @@ struct CurveRequest {
   double seed = 0;                   ///< value of the second parameter at which they are looked for
 };
 
-/// What is asked of a system with friction: its response to the force, the damper's to a base that moves as
-/// if alone, self-excited vibration, or a mode of vibration over its amplitude.
-enum class Response { forced, one_way, limit_cycle, nonlinear_mode };
-
 /// The problem that a branch belongs to: one of the library's, or a system with friction.
 struct ProblemRequest {
-  const problems::LibraryModel* model = nullptr;  ///< null for a system with friction
-  problems::LibraryModel::Values settings;        ///< the library model's
-  SystemParameters system;                        ///< unless it is one of the library's
-  std::optional<Geometry> geometry;               ///< where the system is given in SI units
-  Response response = Response::forced;           ///< what is asked of it
+  const problems::LibraryModel* model = nullptr;                ///< null for a system with friction
+  problems::LibraryModel::Values settings;                      ///< the library model's
+  SystemParameters system;                                      ///< unless it is one of the library's
+  std::optional<Geometry> geometry;                             ///< where the system is given in SI units
+  const ResponseKind* response = find_response_kind("forced");  ///< what is asked of a system with friction
   double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
 
   /// Where harmonics are added while tracing: the largest one left out, relative to R.
   std::optional<double> harmonics_tolerance;
 
   bool stability = false;  ///< whether its points come with their Floquet exponents
-
-  /// Which response it is.
-  bool is_limit_cycle() const { return response == Response::limit_cycle; }
-  bool is_mode() const { return response == Response::nonlinear_mode; }
-  bool is_free() const { return is_limit_cycle() || is_mode(); }  ///< whether eta is an unknown
 };
 
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.

@@ -16,7 +16,7 @@ namespace arcslip {
 
 /// A problem with a guess of one of its solutions.
 struct Subject {
-  std::shared_ptr<const continuation::Problem> problem;    ///< may be shared by threads
+  Built built;                                             ///< the problem
   continuation::Guess guess;                               ///< only where `failure` is empty
   std::string failure;                                     ///< why there is no guess, or empty
   continuation::Stop stop = continuation::Stop::no_start;  ///< what ended the search for it
@@ -35,10 +35,10 @@ CaseBranch seed_branch(const CaseBranch& request);
 /// its modes.
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance);
 
-/// Builds the problem and leaves it, for what that may throw: no system fits what was asked for.
-void try_to_build(const ProblemRequest& request);
+/// Builds the problem. Throws if no system fits what was asked for.
+Built build(const ProblemRequest& request);
 
-/// Builds the problem, with a guess where `parameter` has this value and all else is as requested;
+/// The same with a guess where `parameter` has this value and all else is as requested;
 /// max_seconds and go_on of the limits may end the search for it.
 Subject build(const ProblemRequest& request, const std::string& parameter, double value,
               const continuation::TraceOptions& limits = {});
@@ -46,7 +46,7 @@ Subject build(const ProblemRequest& request, const std::string& parameter, doubl
 /// A branch, or a curve of special points, with the problem that it solves.
 struct TracedBranch {
   std::shared_ptr<const CaseBranch> request;                   ///< what was asked for
-  std::shared_ptr<const continuation::Problem> base;           ///< the problem that was built
+  Built base;                                                  ///< the problem that was built
   std::shared_ptr<const continuation::ExtendedProblem> curve;  ///< null of a branch
   continuation::Branch branch;                                 ///< of the curve, if it is one
   double seconds = 0;                                          ///< wall clock
@@ -54,7 +54,7 @@ struct TracedBranch {
 
   /// That of which the branch holds solutions.
   const continuation::Problem& problem() const {
-    return curve ? static_cast<const continuation::Problem&>(*curve) : *base;
+    return curve ? static_cast<const continuation::Problem&>(*curve) : *base.problem;
   }
 };
 

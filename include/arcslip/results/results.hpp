@@ -76,9 +76,6 @@ nlohmann::ordered_json modes_to_json(const SystemParameters& system);
 /// Rows of special points, as AUTO prints them; `number` is the branch's.
 std::string special_table(std::size_t number, const TracedBranch& traced);
 
-/// The harmonics in which friction is balanced.
-std::vector<int> harmonics_of(const continuation::Problem& problem);
-
 /// How many harmonics friction is balanced in, one line, or nothing where it is one.
 std::string describe_harmonics(const TracedBranch& traced);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The problems with published answers, by the names that case files give them: [system] model = "bratu".
+// The problems with published answers, by the names that case files give them: [system] model = "bratu". Each
+// is one file in problems/library: NAME.cpp defines `LibraryModel NAME_model()`, and the build finds it.
 
 #include <functional>
 #include <memory>

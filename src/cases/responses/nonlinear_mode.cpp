@@ -1,0 +1,31 @@
+// A mode of vibration over its amplitude.
+
+#include "arcslip/problems/response/nonlinear_mode.hpp"
+
+#include "cases/built.hpp"
+
+namespace arcslip {
+namespace {
+
+Built build_nonlinear_mode(const ProblemRequest& request) {
+  const auto problem = std::make_shared<const problems::NonlinearMode>(build_harmonic_system(request.system));
+  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
+    return problem->guess(value("eta"), value("R"), value("P"));
+  };
+  return {problem, guess, problem->system().orders};
+}
+
+}  // namespace
+
+ResponseKind nonlinear_mode_response() {
+  return {.name = "nonlinear_mode",
+          .title = "nonlinear modes",
+          .parameters = {"R"},
+          .frequency = ResponseKind::Frequency::guessed,
+          .extremum = "zeta",
+          .not_proven = "whose frequency and damping are unknowns beside R",
+          .remark = "nonlinear mode",
+          .build = build_nonlinear_mode};
+}
+
+}  // namespace arcslip
