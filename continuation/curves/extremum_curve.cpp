@@ -12,7 +12,7 @@ Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const Tra
                      const CurveWindow& window, const Observer& observer) {
   const long before = problem.evaluations();
   const auto nearest = nearest_border(problem.base(), problem.active(), start, start.regime);
-  const bool corner = nearest && std::abs(nearest->distance) <= on_border;
+  const bool corner = nearest && std::abs(nearest->distance) <= options.tolerances.together;
   std::optional<LocatedPoint> located;
   if (corner) {
     BorderProblem edge(problem.base(), problem.active(), nearest->border);

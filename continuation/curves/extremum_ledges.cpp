@@ -22,13 +22,18 @@ std::vector<BranchPoint> ExtremumTracer::step_off(BorderProblem& edge, const Bas
   return std::move(step.points);
 }
 
+/// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
+double ExtremumTracer::rounding_of(double left) const {
+  return options_.tolerances.no_slope + 10 * std::abs(left);
+}
+
 /// So far that a slope which vanishes at the place is no rounding.
 std::vector<BranchPoint> ExtremumTracer::surely_off(BorderProblem& edge, const BasePoint& from, bool up,
                                                     const std::optional<Regime>& vanishing) {
   const Side side =
       vanishing == slopes_.regime(CornerSlopes::leaving) ? CornerSlopes::leaving : CornerSlopes::arriving;
-  constexpr double plainly = 1e-8;  // of points that are known to rounding, also where the response is sharp
-  const double level = vanishing ? plainly + rounding_of(slopes_.slope(from, side)) : 0;
+  const double level =
+      vanishing ? options_.tolerances.plain_slope + rounding_of(slopes_.slope(from, side)) : 0;
   std::vector<BranchPoint> step;
   for (double way = shortest_way; way <= longest_way; way *= 10) {
     step = step_off(edge, from, up, way);
@@ -79,7 +84,7 @@ std::vector<ExtremumLedge> ExtremumTracer::ledges(const Place& place) {
     for (int b = 0; b < base_.border_count(at.regime); ++b) {
       const double value = base_.border(at.unknowns, at.parameters, at.regime, b, nullptr);
       const auto beyond = base_.regime_beyond(at.regime, b);
-      if (!(std::abs(value) <= on_border) || !beyond) continue;
+      if (!(std::abs(value) <= options_.tolerances.together) || !beyond) continue;
       const auto known = std::find(regimes.begin(), regimes.end(), *beyond);
       const bool was_seen_from_there = known < regimes.begin() + static_cast<std::ptrdiff_t>(i);
       if (!was_seen_from_there) add_ledges(at, b, place, all);
@@ -92,14 +97,13 @@ std::vector<ExtremumLedge> ExtremumTracer::ledges(const Place& place) {
 /// The side beyond a border on both sides of which the response has one slope where the curve comes to it:
 /// there nothing but the regime changes.
 std::optional<CornerSlopes::Side> ExtremumTracer::smooth_side(const Place& place) {
-  constexpr double same = 1e-7;  // of slopes of which one vanishes
   const Regime& regime = place.at.regime;
   for (int b = 0; b < base_.border_count(regime); ++b) {
     const double value = base_.border(place.at.unknowns, place.at.parameters, regime, b, nullptr);
-    if (!(std::abs(value) <= on_border) || !slopes_.begin(place.at, b)) continue;
+    if (!(std::abs(value) <= options_.tolerances.together) || !slopes_.begin(place.at, b)) continue;
     const double before = slopes_.slope(place.at, CornerSlopes::arriving);
     const double behind = slopes_.slope(place.at, CornerSlopes::leaving);
-    if (!(std::max(std::abs(before), std::abs(behind)) <= same)) continue;
+    if (!(std::max(std::abs(before), std::abs(behind)) <= options_.tolerances.same_slope)) continue;
     border_ = b;
     return slopes_.regime(CornerSlopes::leaving) == regime ? CornerSlopes::arriving : CornerSlopes::leaving;
   }

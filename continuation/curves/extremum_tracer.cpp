@@ -78,6 +78,7 @@ TraceOptions ExtremumTracer::freely(double way) const {
   TraceOptions free;
   free.parameter = options_.parameter;
   free.tolerance = options_.tolerance;
+  free.tolerances = options_.tolerances;
   const double far = 1 + 2 * std::max(std::abs(options_.from), std::abs(options_.to));
   free.from = -far;
   free.to = far;
@@ -225,10 +226,9 @@ void ExtremumTracer::turn(Vector tangent, const Regime& regime) {
     add(std::move(point));
   };
   if (here.arrival(last) * tangent(last) < 0) add_as(PointType::corner_fold);
-  constexpr double level = 1e-9;  // the rate is rounding
   const double before = observable_rate(curve_.points.back(), here.arrival);
   const double behind = observable_rate(curve_.points.back(), tangent);
-  const bool told = std::min(std::abs(before), std::abs(behind)) > level;
+  const bool told = std::min(std::abs(before), std::abs(behind)) > options_.tolerances.no_rate;
   if (told && before * behind < 0) add_as(before > 0 ? PointType::peak : PointType::trough);
 }
 
@@ -243,11 +243,12 @@ double ExtremumTracer::observable_rate(const BranchPoint& at, const Vector& dire
 
 /// Whether it has come back to its start, behind which it is cut.
 bool ExtremumTracer::came_back() {
-  constexpr double same = 1e-7;
   const BranchPoint& start = curve_.points.front();
   for (std::size_t i = std::max<std::size_t>(seen_, 1); seen_ > 0 && i < curve_.points.size(); ++i) {
     BranchPoint& point = curve_.points[i];
-    if (point.regime != start.regime || !(steps(way(start, point), start).norm() < same)) continue;
+    if (point.regime != start.regime ||
+        !(steps(way(start, point), start).norm() < options_.tolerances.same_point))
+      continue;
     point.type = PointType::end;
     curve_.points.resize(i + 1);
     stop(Stop::closed_loop, "the branch came back to its start");

@@ -40,13 +40,12 @@ bool ExtremumTracer::finish(double value) {
 /// The sense in which the parameter has changed up to the last row, by rows so far away that its rounding and
 /// the attempts at a corner do not count.
 double ExtremumTracer::way_so_far(double scale) const {
-  constexpr double surely_apart = 1e-7;
   const double here = curve_.points.back().parameters(parameter_);
   double sense = 1;
   for (std::size_t i = curve_.points.size(); i-- > 0;) {
     const BranchPoint& point = curve_.points[i];
     const double change = here - point.parameters(parameter_);
-    if (std::abs(change) > surely_apart * scale) return change > 0 ? sense : -sense;
+    if (std::abs(change) > options_.tolerances.same_point * scale) return change > 0 ? sense : -sense;
     if (point.type == PointType::fold || point.type == PointType::corner_fold) sense = -sense;
   }
   return curve_.points.back().tangent(problem_.size()) > 0 ? 1 : -1;
@@ -72,12 +71,11 @@ bool ExtremumTracer::smoothly_on(const BasePoint& here, double sense) {
 /// Whether the curve has turned where it stands before, a while ago: then it goes back on itself.
 bool ExtremumTracer::has_turned_here() const {
   constexpr std::size_t while_ago = 5;  // rows
-  constexpr double same = 1e-6;
   const BranchPoint& here = curve_.points.back();
   for (std::size_t i = 0; i + while_ago < curve_.points.size(); ++i) {
     const BranchPoint& point = curve_.points[i];
     const bool turns = point.type == PointType::corner_fold || point.type == PointType::fold;
-    if (turns && steps(way(point, here), here).norm() < same) return true;
+    if (turns && steps(way(point, here), here).norm() < options_.tolerances.same_solution) return true;
   }
   return false;
 }
@@ -87,8 +85,8 @@ bool ExtremumTracer::has_turned_here() const {
 std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, bool& peak) {
   constexpr std::size_t most_back = 100;  // rows that may lie on none
   constexpr std::size_t most_beside = 20;
-  constexpr double beside = 1e-8;  // on the response, in the scale: still the row's
-  constexpr double same = 1e-10;   // the same: as well as points are located
+  const double beside = options_.tolerances.beside_extremum;
+  const double same = options_.tolerances.on_extremum;
   const auto nearest = [&](bool as_peak) {
     const BasePoint at = split(curve_.points.back());
     return extrema.begin(at) ? extrema.next_to(at, as_peak, beside) : std::nullopt;

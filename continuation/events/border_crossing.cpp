@@ -8,8 +8,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double on_border = 1e-13;  // of a border function where it vanishes
-
 /// A function of the branch within the step: positive before its zero and negative behind it, or the other
 /// way round.
 struct Bracket {
@@ -51,6 +49,7 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
 /// Of a step that begins on the border and goes nowhere inside, it is where the value leaves rounding.
 Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) {
   const double at_zero = stepper.from()[m].value;
+  const double on_border = stepper.tolerances().on_border;
   const auto where_it_is = [&](double level) {
     return locate(stepper, {upper, at_zero - level, -1, value - level},
                   [=](Stepper& s) { return s.probed()[m].value - level; });
@@ -65,6 +64,7 @@ Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) 
 Zero border_crossing(Stepper& stepper, Index border) {
   const auto m = static_cast<std::size_t>(stepper.tracked_count() + border);
   const double touch = stepper.tolerance();
+  const double on_border = stepper.tolerances().on_border;
   const Monitor from = stepper.from()[m];
   const Monitor to = stepper.to()[m];
   double upper = stepper.distance();

@@ -1,19 +1,17 @@
 #include "arcslip/continuation/events/corner.hpp"
 
 #include <algorithm>
-#include <functional>
 
 namespace arcslip::continuation {
 namespace {
-
-constexpr double leaves = -1e-12;  // the rate of a border that is left, above the rounding of rates
 
 /// A border that is reached at the corner, and its rate along the piece's direction.
 struct Reached {
   int border;
   double rate;
+  double least;  // of a rate that is not rounding
 
-  bool is_left() const { return rate < leaves; }
+  bool is_left() const { return rate < -least; }
 };
 
 /// One piece that meets the corner, with one of its two directions.
@@ -24,7 +22,8 @@ struct Piece {
   std::vector<Reached> borders;
 
   bool leaves_corner() const {
-    return !borders.empty() && std::all_of(borders.begin(), borders.end(), std::mem_fn(&Reached::is_left));
+    return !borders.empty() && std::all_of(borders.begin(), borders.end(),
+                                           [](const Reached& reached) { return reached.is_left(); });
   }
   void turn() {
     direction = -direction;
@@ -36,10 +35,10 @@ struct Piece {
 /// The pieces that meet at a corner.
 class Pieces {
  public:
-  Pieces(const Problem& problem, Index parameter, const Guess& corner, double tolerance)
+  Pieces(const Problem& problem, Index parameter, const Guess& corner, const Tolerances& tolerances)
       : problem_(problem),
         parameter_(parameter),
-        tolerance_(tolerance),
+        tolerances_(tolerances),
         corrector_(problem, parameter, {}),
         point_(corrector_.make_point()),
         gradient_{Vector::Zero(problem.size()), Vector::Zero(corner.parameters.size())} {
@@ -54,8 +53,8 @@ class Pieces {
     std::vector<int> borders;
     for (int b = 0; b < problem_.border_count(regime); ++b) {
       const double value = problem_.border(point_.unknowns, point_.parameters, regime, b, nullptr);
-      if (value > tolerance_) return std::nullopt;
-      if (value >= -tolerance_) borders.push_back(b);
+      if (value > tolerances_.together) return std::nullopt;
+      if (value >= -tolerances_.together) borders.push_back(b);
     }
     return borders;
   }
@@ -70,11 +69,12 @@ class Pieces {
     Correction result = Correction::singular;
     for (Index k = n; k >= 0 && result == Correction::singular; --k)
       result = corrector_.linearise(point_, Vector::Unit(n + 1, k));
-    if (result != Correction::converged || !(point_.residual <= tolerance_)) return std::nullopt;
+    if (result != Correction::converged || !(point_.residual <= tolerances_.together)) return std::nullopt;
     Piece piece{regime, corrector_.direction().normalized(), corrector_.orientation(), {}};
     for (const int b : *borders) {
       problem_.border(point_.unknowns, point_.parameters, regime, b, &gradient_);
-      piece.borders.push_back({b, rate(gradient_, parameter_, point_.scale, piece.direction)});
+      piece.borders.push_back(
+          {b, rate(gradient_, parameter_, point_.scale, piece.direction), tolerances_.leaves});
     }
     return piece;
   }
@@ -99,7 +99,7 @@ class Pieces {
  private:
   const Problem& problem_;
   Index parameter_;
-  double tolerance_;
+  Tolerances tolerances_;
   Corrector corrector_;
   CurvePoint point_;
   Gradient gradient_;
@@ -144,8 +144,8 @@ std::optional<Piece> leaving_in(Pieces& pieces, double sense, const Regime& own,
 }  // namespace
 
 std::vector<Guess> leaving_pieces(const Problem& problem, Index parameter, const Guess& corner,
-                                  double tolerance) {
-  Pieces pieces(problem, parameter, corner, tolerance);
+                                  const Tolerances& tolerances) {
+  Pieces pieces(problem, parameter, corner, tolerances);
   const auto borders = pieces.reached(corner.regime);
   if (!borders) return {};
   std::vector<Guess> found;

@@ -12,13 +12,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double one_branch_point = 1e-9;  // of the step: branch points closer together are one
 constexpr double too_near = 1e-3;    // of the larger determinant at the ends: for other points to lean on
 constexpr double off_course = 0.05;  // of the way to its neighbours: a point is expected within
-constexpr double off_by_rounding = 1e-7;  // of the step: what rounding may add to that next to a branch point
-constexpr double widest = 0.05;           // of the step: from how far a branch point is looked at
-constexpr double nearest = 1e-6;          // the same, at the least
-constexpr double level = 1e-6;            // of mean rates around: the rate of a parameter that turns
+constexpr double widest = 0.05;      // of the step: from how far a branch point is looked at
 constexpr int most_narrowings = 10;
 constexpr double a_little_way = 1e-3;  // of the largest step: on it the determinant changes from that of a
 constexpr double much_less = 1e-5;     // branch point by much
@@ -83,7 +79,7 @@ bool Stepper::search_crossing() {
   const std::optional<Node> from = at(0);
   const std::optional<Node> to = at(distance_);
   if (!from || !to) return false;
-  const FirstZero found = first_zero(*from, *to, at, one_branch_point * distance_);
+  const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * distance_);
   if (found.kind == FirstZero::Kind::none) return true;
   return found.kind != FirstZero::Kind::unknown && locate_crossing(found.before, found.behind);
 }
@@ -115,7 +111,7 @@ bool Stepper::probe_between(double s) {
   if (!probe(s)) return false;
   corrector_.difference(probe_, here_, work_);
   const double error = (work_ - expected_).norm() / step_.norm();
-  return error <= off_course * width / distance_ + off_by_rounding;
+  return error <= off_course * width / distance_ + tolerances_.off_by_rounding;
 }
 
 /// Keeps the point last probed, from which others are found.
@@ -135,7 +131,7 @@ bool Stepper::locate_crossing(Node before, Node behind) {
   };
   const double sign_behind = changes ? behind.value : there_.orientation;
   double s = changes ? zero_of_cubic(before, behind) : 0.5 * (before.s + behind.s);
-  for (double radius = widest * distance_; radius > nearest * distance_; radius *= 0.25) {
+  for (double radius = widest * distance_; radius > tolerances_.nearest_look * distance_; radius *= 0.25) {
     if (changes && !narrow(before, behind, s, radius)) return false;
     const ZeroRange range{changes ? before.s : 0, changes ? behind.s : distance_, s, !changes, 0, distance_};
     const std::optional<RemoteZero> zero = remote_zero(value_at, range, radius);
@@ -189,7 +185,7 @@ bool Stepper::take_crossing(const RemoteZero& zero, double sign_behind) {
   double around = 0;
   for (std::size_t i = 0; i < RemoteZero::count; ++i)
     around = std::max(around, std::abs((parameters[i] - expected_(n)) / (zero.places[i] - zero.s)));
-  if (std::abs(rate) <= level * around) rate = 0;
+  if (std::abs(rate) <= tolerances_.turns * around) rate = 0;
   crossing.rate_behind = rate != 0 ? rate : behind != anchors_.end() ? behind->slope(n) : slope_to_(n);
   corrector_.set_scale(point);
   point.tangent = (crossing.slope.array() * here_.scale.array() / point.scale.array()).matrix().normalized();
@@ -204,7 +200,8 @@ std::optional<double> Stepper::passes(const CurvePoint& past) {
   if (past.regime != here_.regime) return std::nullopt;
   if (crossing_) {  // no probe finds a start that is the branch point itself
     corrector_.difference(past, crossing_->point, predicted_);
-    if (predicted_.norm() < 1e-7 && crossing_->point.tangent.dot(past.tangent) > 0) return crossing_->s;
+    if (predicted_.norm() < tolerances_.same_point && crossing_->point.tangent.dot(past.tangent) > 0)
+      return crossing_->s;
   }
   const double length = step_.norm();
   const Index parameter = corrector_.parameter();
@@ -218,7 +215,7 @@ std::optional<double> Stepper::passes(const CurvePoint& past) {
   corrector_.difference(past, probe_, predicted_);
   work_ = probe_slope_.cwiseProduct(here_.scale).cwiseQuotient(past.scale);
   const bool same_way = work_.dot(past.tangent) > 0;
-  if (!(predicted_.norm() < 1e-7) || !same_way) return std::nullopt;
+  if (!(predicted_.norm() < tolerances_.same_point) || !same_way) return std::nullopt;
   return s;
 }
 

@@ -11,15 +11,7 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double one_place = 1e-12;   // of the step: events closer together fall on one point
-constexpr double vanishes = 1e-10;    // the same, at another event: as well as both are located
-constexpr double on_axis = 1e-12;     // of the largest eigenvalue: a real part that is rounding all along
-constexpr double rough = 1e-10;       // the same: one in which rounding may show
-constexpr double significant = 1e-6;  // the same: more than what the values differ by from those of the flow
-constexpr double coincides = 1e-8;    // of the way of its real part: another eigenvalue on the axis with one
-constexpr double surely_imaginary = 1e-4;  // of the largest: rounding parts no two real ones as far
-constexpr double aside = 1e-3;             // of the step: where the pair of a smaller one must be, too
-constexpr double as_cusp = 1e-6;           // of the step: how far second derivatives may mislay a cusp
+constexpr double aside = 1e-3;  // of the step: where the pair of a smaller one must be, too
 constexpr double plainly = 10;  // times what it falls by to a zero that it passes straight: its value
 
 bool any_of_type(const std::vector<Event>& events, std::initializer_list<PointType> types) {
@@ -34,6 +26,7 @@ class Search {
       : stepper_(stepper),
         watch_(watch),
         signs_(signs),
+        tolerances_(stepper.tolerances()),
         functions_at_end_(watch.functions()),
         eigenvalues_at_end_(watch.eigenvalues()),
         readings_(stepper, watch, functions_at_end_, eigenvalues_at_end_),
@@ -65,7 +58,7 @@ class Search {
 
   /// Keeps the events of the first place only; the others are looked for up to there.
   void note(Event event) {
-    const double near = one_place * stepper_.distance();
+    const double near = tolerances_.one_place * stepper_.distance();
     if (event.s > upper_ + near) return;
     if (event.s < upper_ - near) {
       result_.events.clear();
@@ -137,12 +130,12 @@ class Search {
       const std::optional<Node> there = readings_.node(which, upper_);
       if (!here || !there) return {Zero::State::failed};
       const double fall = -sign * there->slope;  // where it only touches zero there is none
-      at_cusp = std::abs(there->value) <= as_cusp * fall * stepper_.distance() &&
+      at_cusp = std::abs(there->value) <= tolerances_.as_cusp * fall * stepper_.distance() &&
                 std::abs(*here) < plainly * fall * upper_;
     }
     if (!changes && !at_cusp) return {Zero::State::absent};
-    const Zero zero =
-        zeros_.first(which, sign, 0, upper_, at_cusp ? std::numeric_limits<double>::infinity() : vanishes);
+    const Zero zero = zeros_.first(which, sign, 0, upper_,
+                                   at_cusp ? std::numeric_limits<double>::infinity() : tolerances_.located);
     return at_cusp && zero.state == Zero::State::absent ? Zero{Zero::State::found, upper_} : zero;
   }
 
@@ -172,7 +165,7 @@ class Search {
     const bool changes = before != 0 && before != sign_of(after);
     if (!changes && !watch_.function_may_vanish(i, chord(), after)) return;
     note(Event::Kind::function, watch_.type(i), index,
-         zeros_.first(readings_.function(index), before, 0, upper_, vanishes));
+         zeros_.first(readings_.function(index), before, 0, upper_, tolerances_.located));
   }
 
   /// Eigenvalues on the imaginary axis. In descending order each real part is continuous along the branch;
@@ -181,7 +174,7 @@ class Search {
     const Index count = eigenvalues_at_end_.size();
     if (signs_.unstable < 0 || count == 0) return;
     Index unstable = unstable_at_start();
-    zeros_.least_touched = significant * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    zeros_.least_touched = tolerances_.significant * eigenvalues_at_end_.cwiseAbs().maxCoeff();
     double from = 0;
     for (Index tries = 0; tries < count; ++tries) {
       Zero next;
@@ -208,7 +201,8 @@ class Search {
     double way = 0;
     for (Index i = 0; i < both; ++i)
       way = std::max(way, std::abs(eigenvalues_at_end_(i).real() - here[static_cast<std::size_t>(i)]));
-    const double near = std::max(rough * eigenvalues_at_end_.cwiseAbs().maxCoeff(), coincides * way);
+    const double near =
+        std::max(tolerances_.rough * eigenvalues_at_end_.cwiseAbs().maxCoeff(), tolerances_.coincides * way);
     const auto above = [&](double bound) {
       return std::count_if(here.begin(), here.end(), [=](double rate) { return rate > bound; });
     };
@@ -219,9 +213,9 @@ class Search {
     const std::size_t which = readings_.real_part(i);
     const std::optional<double> a = readings_.value(which, from);
     const std::optional<double> b = readings_.value(which, upper_);
-    const double floor = rough * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    const double floor = tolerances_.rough * eigenvalues_at_end_.cwiseAbs().maxCoeff();
     if (!a || !b || std::max(std::abs(*a), std::abs(*b)) > floor)
-      return zeros_.first(which, sign, from, upper_, just_passed);
+      return zeros_.first(which, sign, from, upper_, tolerances_.just_passed);
     return zeros_.by_sign({from, *a, 0}, {upper_, *b, 0}, sign, which);
   }
 
@@ -229,7 +223,7 @@ class Search {
     const auto k = static_cast<std::size_t>(i);
     const double end = at_upper(readings_.real_part(i), eigenvalues_at_end_(i).real());
     const auto& here = watch_.kept().front().rates;
-    const double rounding = on_axis * eigenvalues_at_end_.cwiseAbs().maxCoeff();
+    const double rounding = tolerances_.on_axis * eigenvalues_at_end_.cwiseAbs().maxCoeff();
     if (k < here.size() && std::abs(here[k]) <= rounding && std::abs(end) <= rounding) return false;
     return sign_of(end) != sign || watch_.rate_may_vanish(k, chord(), end);
   }
@@ -250,7 +244,7 @@ class Search {
       };
       return std::max(std::abs(part(0)), std::abs(part(is_whole() ? upper_ : stepper_.distance())));
     };
-    const double near = std::max(10 * std::abs(values(i).real()), coincides * way_of(i));
+    const double near = std::max(10 * std::abs(values(i).real()), tolerances_.coincides * way_of(i));
     int pairs = 0;
     bool real = false;
     for (Index j = 0; j < values.size(); ++j) {
@@ -272,7 +266,7 @@ class Search {
   bool is_imaginary(const ComplexVector& values, Index i, double s) {
     const double size = std::abs(values(i).imag());
     const double largest = std::max(values.cwiseAbs().maxCoeff(), eigenvalues_at_end_.cwiseAbs().maxCoeff());
-    if (size == 0 || size > surely_imaginary * largest) return size != 0;
+    if (size == 0 || size > tolerances_.surely_imaginary * largest) return size != 0;
     for (const double way : {-1.0, 1.0}) {
       const double place = s + way * aside * stepper_.distance();
       if (place < 0 || place > stepper_.distance()) continue;
@@ -287,6 +281,7 @@ class Search {
   Stepper& stepper_;
   Watch& watch_;
   const Signs& signs_;
+  const Tolerances& tolerances_;
   std::vector<double> functions_at_end_;
   ComplexVector eigenvalues_at_end_;
   Readings readings_;

@@ -8,7 +8,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double least = 1e-9;        // of the step: zeros of one function closer together are one
 constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
 constexpr double left_over = 0.01;    // of its values around: more is left of a function only where it jumps
 
@@ -50,7 +49,7 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
   const double change = std::max({std::abs(a.value), std::abs(b.value), std::abs(a.slope) * width});
   Divisor divisor;
   const bool is_beyond = sign != 0 && sign_of(a.value) == -sign;
-  const bool is_small = is_beyond || std::abs(a.value) <= just_passed * change;
+  const bool is_small = is_beyond || std::abs(a.value) <= stepper_.tolerances().just_passed * change;
   const bool vanishes_here = is_small && (jumps_count || is_left_over(a, b, which));
   if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
   if (vanishes_here) {
@@ -69,7 +68,7 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
   };
   const Node from = divisor.divide(a);
   const Node to = divisor.divide(b);
-  const FirstZero found = first_zero(from, to, at, least * stepper_.distance());
+  const FirstZero found = first_zero(from, to, at, stepper_.tolerances().one_zero * stepper_.distance());
   switch (found.kind) {
     case FirstZero::Kind::unknown: return {Zero::State::failed};
     case FirstZero::Kind::unclear:

@@ -11,6 +11,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double converges = 1e-6;  // of a correction: what is left is its square, rounding
 
 /// Newton's method with work space of its own and with known solutions taken out: with
 /// m(u) = prod_i (1 + 1/|u - u_i|^2) the correction of m F = 0 is that of F = 0, stretched.
@@ -42,10 +43,10 @@ class Newton {
       const bool stagnant = solution.residual >= 0.5 * last || solution.residual == 0;
       const bool good =
           solution.residual <= options_.tolerance || solution.residual <= level(solution.unknowns);
-      if (good && length <= 1e-6 && stagnant) return ended(solution, Correction::converged);
+      if (good && length <= converges && stagnant) return ended(solution, Correction::converged);
       if (solution.iterations >= options_.max_iterations)
         return ended(solution,
-                     good && length <= 1e-6 ? Correction::converged : Correction::too_many_iterations);
+                     good && length <= converges ? Correction::converged : Correction::too_many_iterations);
       last = solution.residual;
       if (!correct(solution, guess, known, length)) return ended(solution, Correction::singular);
     }
@@ -101,9 +102,7 @@ class Newton {
   Vector correction_;
 };
 
-constexpr double on_border = 1e-9;  // solutions on a border belong to both of its sides
-
-bool inside(const Problem& problem, const Guess& solution) {
+bool inside(const Problem& problem, const Guess& solution, double on_border) {
   return crossed_border(problem, solution.unknowns, solution.parameters, solution.regime, on_border) < 0;
 }
 
@@ -151,7 +150,7 @@ class Collector {
     for (const Guess& other : known_) {
       if (other.regime == found.regime &&
           (found.unknowns - other.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
-              options_.distinct) {
+              options_.tolerances.same_solution) {
         return false;
       }
     }
@@ -174,6 +173,7 @@ Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& 
 std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& guesses,
                              const SolveAllOptions& options) {
   if (guesses.empty()) throw std::invalid_argument("solve_all: at least one guess is needed");
+  const double on_border = options.tolerances.both_sides;
   Collector collector(problem, options);
   for (const Guess& guess : guesses) collector.exhaust(guess);
   if (options.lower.size() == problem.size()) {
@@ -190,11 +190,11 @@ std::vector<Guess> solve_all(const Problem& problem, const std::vector<Guess>& g
     Vector near = again.unknowns;
     near.array() += 1e-3 * (1 + near.array().abs());
     collector.exhaust({near, again.parameters, again.regime, {}});
-    if (!inside(problem, again)) collector.exhaust(in_its_regime(problem, again));
+    if (!inside(problem, again, on_border)) collector.exhaust(in_its_regime(problem, again));
   }
   std::vector<Guess> solutions;
   for (const Guess& solution : collector.known()) {
-    if (inside(problem, solution)) solutions.push_back(solution);
+    if (inside(problem, solution, on_border)) solutions.push_back(solution);
   }
   return solutions;
 }

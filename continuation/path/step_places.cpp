@@ -62,7 +62,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
 }
 
 /// What is still unlike a curve on so short a step is rounding, or a corner.
-bool Stepper::is_tiny(double s) const { return s * slope_from_.norm() < 1e-7 * max_step_; }
+bool Stepper::is_tiny(double s) const { return s * slope_from_.norm() < tolerances_.tiny_step * max_step_; }
 
 /// By the cubic between the nearest points of the branch that are known.
 void Stepper::interpolate(double s, Vector& out) const {

@@ -8,12 +8,13 @@
 namespace arcslip::continuation {
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-                 bool pairs)
+                 bool pairs, const Tolerances& tolerances)
     : problem_(problem),
       corrector_(corrector),
       tracked_(std::move(tracked)),
       max_step_(max_step),
       pairs_(pairs),
+      tolerances_(tolerances),
       here_(corrector.make_point()),
       there_(corrector.make_point()),
       probe_(corrector.make_point()),
@@ -117,8 +118,8 @@ Correction Stepper::enter(const Regime& regime) {
   Correction result = corrector_.linearise(here_, normal_);
   // Where the branch is all but tangent to the border its gradient does not tell the way. As F is continuous
   // across, the determinant that t closes does: it keeps its sign.
-  constexpr double tangential = 1e-3;
-  const bool vague = result == Correction::singular || tangential * corrector_.direction().norm() > 1;
+  const bool vague =
+      result == Correction::singular || tolerances_.tangential * corrector_.direction().norm() > 1;
   if (vague && here_.orientation != 0) {
     normal_ = result == Correction::singular ? here_.tangent : corrector_.direction().normalized();
     result = corrector_.linearise(here_, normal_);
@@ -303,7 +304,7 @@ void Stepper::settle_on_border(int border) {
     const Correction result = corrector_.correct_once(there_, here_, work_, -value);
     corrector_.difference(there_, probe_, work_);
     // No rounding is left: where the branch all but touches the border, a step onto it may lead anywhere.
-    const bool far = !(work_.norm() <= 1e-8 && std::abs(work_(n)) <= 1e-12);
+    const bool far = !(work_.norm() <= tolerances_.settled && std::abs(work_(n)) <= tolerances_.last_bits);
     if (result == Correction::converged && !far) continue;
     std::swap(there_, probe_);
     return;

@@ -10,10 +10,6 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double same_place = 1e-7;     ///< in the problem's scale; branch points are located to 1e-10
-constexpr double same_solution = 1e-6;  ///< in the problem's scale, by entries
-constexpr double same_way = 1e-4;       ///< between unit directions
-
 /// A direction from a point, of unit length in the problem's scale there.
 struct Way {
   Vector place;  ///< (u, p_a) over the scale
@@ -23,7 +19,8 @@ struct Way {
 /// Remembers the ways that were gone already.
 class Map {
  public:
-  Map(const Problem& problem, Index parameter) : problem_(problem), parameter_(parameter) {}
+  Map(const Problem& problem, Index parameter, const Tolerances& tolerances)
+      : problem_(problem), parameter_(parameter), tolerances_(tolerances) {}
 
   Way way(const Vector& unknowns, const Vector& parameters, const Vector& direction) const {
     const Index n = unknowns.size();
@@ -42,8 +39,8 @@ class Map {
 
   bool gone(const Way& way) const {
     return std::any_of(gone_.begin(), gone_.end(), [&](const Way& other) {
-      return (other.place - way.place).norm() < same_place &&
-             (other.direction - way.direction).norm() < same_way;
+      return (other.place - way.place).norm() < tolerances_.same_point &&
+             (other.direction - way.direction).norm() < tolerances_.same_direction;
     });
   }
 
@@ -59,6 +56,7 @@ class Map {
  private:
   const Problem& problem_;
   Index parameter_;
+  Tolerances tolerances_;
   std::vector<Way> gone_;
 };
 
@@ -68,13 +66,13 @@ bool meets_others(const BranchPoint& point) {
 
 }  // namespace
 
-std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter,
-                              const BranchPoint& point) {
+std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
+                              const Tolerances& tolerances) {
   const Index active = index_of(problem.parameter_names(), parameter);
   const Guess at{point.unknowns, point.parameters, point.regime, {}};
   std::vector<Guess> ways;
   if (point.type == PointType::branch_point) {
-    const auto form = branch_point_form(problem, active, at);
+    const auto form = branch_point_form(problem, active, at, tolerances);
     if (!form) return {};
     for (const Vector& direction : form->directions) {
       if (direction.size() == 0) continue;
@@ -82,9 +80,9 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
       ways.push_back({at.unknowns, at.parameters, at.regime, -direction});
     }
   } else if (point.type == PointType::regime_switch) {
-    ways = leaving_pieces(problem, active, at);
+    ways = leaving_pieces(problem, active, at, tolerances);
   }
-  Map map(problem, active);
+  Map map(problem, active, tolerances);
   map.pass(point);
   std::erase_if(ways, [&](const Guess& guess) {
     return map.gone(map.way(guess.unknowns, guess.parameters, guess.direction));
@@ -95,7 +93,7 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow, const Observer& observer) {
   const TimeBudget time(options);
-  Map map(problem, index_of(problem.parameter_names(), options.parameter));
+  Map map(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances);
   std::vector<Branch> branches;
   std::deque<Guess> waiting;
   bool interrupted = false;
@@ -106,7 +104,8 @@ std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, 
     }
     for (const BranchPoint& point : branch.points) {
       if (!meets_others(point)) continue;
-      for (Guess& way : other_ways(problem, options.parameter, point)) waiting.push_back(std::move(way));
+      for (Guess& way : other_ways(problem, options.parameter, point, options.tolerances))
+        waiting.push_back(std::move(way));
     }
     branches.push_back(std::move(branch));
   };
@@ -134,7 +133,7 @@ std::vector<Branch> trace_through(const Problem& problem, const std::vector<Gues
     const auto here = [&](const BranchPoint& point) {
       return point.parameters(active) == solution.parameters(active) && point.regime == solution.regime &&
              (point.unknowns - solution.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
-                 same_solution;
+                 options.tolerances.same_solution;
     };
     return std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
       return std::any_of(branch.points.begin(), branch.points.end(), here);

@@ -40,7 +40,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       parameter_(index_of(problem.parameter_names(), options.parameter)),
       corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
-               options.branch_point_pairs),
+               options.branch_point_pairs, options.tolerances),
       watch_(problem, options.events),
       targets_(problem, parameter_, options) {
   state_.distance = 0.1 * options.max_step;
@@ -204,7 +204,7 @@ bool Tracer::find_events() {
   if (closing_) events_.clear();
   if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there(), 0);
   const double s = closing_ ? *closing_ : events_.front().s;
-  return stepper_.probe(s) && !passes_target(stepper_.probed_point(), same_value);
+  return stepper_.probe(s) && !passes_target(stepper_.probed_point(), options_.tolerances.same_value);
 }
 
 void Tracer::use(Hold hold) {
@@ -217,7 +217,7 @@ void Tracer::use(Hold hold) {
 /// further step could land.
 bool Tracer::leaves_range() const {
   const double beyond = stepper_.there().parameters(parameter_);
-  const double same = same_value * parameter_scale();
+  const double same = options_.tolerances.same_value * parameter_scale();
   const auto [low, high] = std::minmax(options_.from, options_.to);
   return (beyond < low && value() <= low + same) || (beyond > high && value() >= high - same);
 }
@@ -241,7 +241,7 @@ void Tracer::take() {
   state_.last_chord = stepper_.chord();
   state_.arclength += state_.last_chord;
   stepper_.advance();
-  targets_.keep_taken(value(), same_value * parameter_scale());
+  targets_.keep_taken(value(), options_.tolerances.same_value * parameter_scale());
   if (whole) state_.distance *= factor;
   const Signs before = state_.signs;
   watch_.look(stepper_.here());
@@ -262,7 +262,7 @@ bool Tracer::on_several_borders() const {
   int reached = 0;
   for (int border = 0; border < problem_.border_count(here.regime); ++border) {
     const double value = problem_.border(here.unknowns, here.parameters, here.regime, border, nullptr);
-    reached += static_cast<int>(std::abs(value) <= same_border);
+    reached += static_cast<int>(std::abs(value) <= options_.tolerances.together);
   }
   return reached > 1;
 }
@@ -279,7 +279,7 @@ Correction Tracer::leave(int border, bool several) {
   const Guess corner{here.unknowns, here.parameters, here.regime, {}};
   const Guess* best = nullptr;
   double straightest = -0.999999;  // the piece that the branch came on is none of them
-  const std::vector<Guess> pieces = leaving_pieces(problem_, parameter_, corner);
+  const std::vector<Guess> pieces = leaving_pieces(problem_, parameter_, corner, options_.tolerances);
   for (const Guess& piece : pieces) {
     const double along = piece.direction.cwiseQuotient(here.scale).normalized().dot(arrival);
     if (along > straightest) {

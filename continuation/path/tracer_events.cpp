@@ -43,7 +43,7 @@ void Tracer::take_event(const Event& event, const Signs& before) {
 /// By how many the unstable eigenvalues are more behind a fold or a branch point: those that are zero have
 /// another sign there.
 int Tracer::real_crossings(const Signs& before) const {
-  constexpr double zero = 1e-7;  // of the largest eigenvalue
+  const double zero = options_.tolerances.zero_eigenvalue;
   if (before.unstable < 0) return 0;
   const ComplexVector& values = watch_.eigenvalues();
   int more = 0;

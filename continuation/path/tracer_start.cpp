@@ -39,7 +39,7 @@ void Tracer::start(const Guess& guess, double forward) {
                             guess.parameters(parameter_), reason(result)));
   }
   for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
-    if (stepper_.at_here()[b].value > 1e-12) {
+    if (stepper_.at_here()[b].value > options_.tolerances.outside) {
       return stop(Stop::no_start, fmt::format("the start lies outside the regime '{}' that was given for it",
                                               problem_.describe(guess.regime)));
     }
@@ -49,11 +49,12 @@ void Tracer::start(const Guess& guess, double forward) {
   watch_.begin();
   state_.signs = signs_at_start(stepper_, watch_);
   // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.
-  if (std::abs(stepper_.parameter_slope(Hold::tangent)) < 1e-9) state_.signs.parameter = 0;
+  if (std::abs(stepper_.parameter_slope(Hold::tangent)) < options_.tolerances.no_rate)
+    state_.signs.parameter = 0;
   state_.start = stepper_.here();
   store(PointType::start);
   if (guess.direction.size() > 0) take_where_it_starts();
-  const double same = same_value * parameter_scale();
+  const double same = options_.tolerances.same_value * parameter_scale();
   const double low = std::min(options_.from, options_.to);
   const double high = std::max(options_.from, options_.to);
   if (!(value() >= low - same && value() <= high + same))
@@ -68,7 +69,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   const BasePoint near{guess.unknowns, guess.parameters, guess.regime, {}};
   const auto is_there = [&](const BasePoint& point) {
     return std::abs(point.parameters(parameter_) - guess.parameters(parameter_)) <=
-           1e-8 * std::max(1.0, std::abs(guess.parameters(parameter_)));
+           options_.tolerances.start_moves * std::max(1.0, std::abs(guess.parameters(parameter_)));
   };
   BasePoint unfolded = near;
   unfolded.extras = Vector::Zero(1);
@@ -79,7 +80,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   if (located_branch_point && is_there(located_branch_point->point)) {
     const BasePoint& there = located_branch_point->point;
     const Guess at{there.unknowns, there.parameters, guess.regime, {}};
-    const auto form = branch_point_form(problem_, parameter_, at);
+    const auto form = branch_point_form(problem_, parameter_, at, options_.tolerances);
     if (form) evaluations += form->evaluations;
     if (form && form->directions[0].size() > 0) {
       const double rate = form->directions[0](corrector_.size());

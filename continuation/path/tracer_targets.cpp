@@ -8,16 +8,11 @@
 #include "arcslip/continuation/path/tracer.hpp"
 
 namespace arcslip::continuation {
-namespace {
-
-constexpr double on_target = 1e-13;  // of the parameter, in its scale
-
-}  // namespace
-
 /// A start on a special point lies on a value but for rounding, and no step of that length can be made from
 /// it.
 void Tracer::take_where_it_starts() {
-  for (const Target* target : targets_.around(value(), on_target * parameter_scale())) targets_.take(*target);
+  for (const Target* target : targets_.around(value(), options_.tolerances.on_target * parameter_scale()))
+    targets_.take(*target);
 }
 
 bool Tracer::try_landing() {
@@ -40,10 +35,10 @@ bool Tracer::try_landing() {
 /// tried once whether it lies there at last. From a scale that shrinks with the parameter 0 is in no other
 /// reach.
 const Target* Tracer::next_target(double reach, double direction) const {
-  const double least = on_target * parameter_scale();
+  const double least = options_.tolerances.on_target * parameter_scale();
   const Target* next = targets_.ahead(value(), direction, reach, least);
   if (next != nullptr || landing_failed_) return next;
-  const double near = same_value * std::max(parameter_scale(), start_scale());
+  const double near = options_.tolerances.same_value * std::max(parameter_scale(), start_scale());
   next = targets_.ahead(value(), direction, near, least);
   return next != nullptr && only_approaches(*next) ? next : nullptr;
 }
@@ -55,14 +50,15 @@ bool Tracer::only_approaches(const Target& target) const {
   constexpr double long_step = 0.01;
   const double gap = std::abs(target.value - value());
   const double scale = target.value == 0 ? start_scale() : parameter_scale();
-  return gap <= same_value * scale && gap >= most_of_it * std::abs(target.value - state_.last_value) &&
-         state_.last_chord >= long_step;
+  return gap <= options_.tolerances.same_value * scale &&
+         gap >= most_of_it * std::abs(target.value - state_.last_value) && state_.last_chord >= long_step;
 }
 
 /// Where no step lands on a value that is within rounding, the branch has reached it; one that it only
 /// approaches it never will.
 void Tracer::rest_before(const Target& target) {
-  if (std::abs(target.value - value()) <= on_target * parameter_scale()) return take_target(target);
+  if (std::abs(target.value - value()) <= options_.tolerances.on_target * parameter_scale())
+    return take_target(target);
   if (!only_approaches(target)) return;
   // A branch may climb beside a landmark as if it never reached it, and needs no point on it.
   if (target.kind == Target::Kind::landmark) return targets_.take(target);
@@ -75,17 +71,17 @@ void Tracer::rest_before(const Target& target) {
 /// step has to land on it first.
 bool Tracer::passes_target(const CurvePoint& point, double tolerance) const {
   return targets_.between(value(), point.parameters(parameter_), tolerance * parameter_scale(),
-                          same_value * parameter_scale());
+                          options_.tolerances.same_value * parameter_scale());
 }
 
 /// Takes the values at an event on which no point will be put: those that it lies on, that the step has
 /// passed, or that lie beyond a turn.
 void Tracer::take_targets_around(bool turns) {
-  if (turns) targets_.keep_taken(value(), on_target * parameter_scale());
-  for (const Target* target : targets_.around(value(), same_value * parameter_scale())) {
+  if (turns) targets_.keep_taken(value(), options_.tolerances.on_target * parameter_scale());
+  for (const Target* target : targets_.around(value(), options_.tolerances.same_value * parameter_scale())) {
     const double beyond = target->value - value();
     const bool is_bound = target->kind == Target::Kind::bound;
-    const bool is_here = std::abs(beyond) <= on_target * parameter_scale();
+    const bool is_here = std::abs(beyond) <= options_.tolerances.on_target * parameter_scale();
     const bool is_passed = (target->value - state_.last_value) * beyond < 0;
     const bool is_missed = turns && !is_bound && beyond * (value() - state_.last_value) > 0;
     if (is_passed || is_missed || (is_here && !(is_bound && turns))) take_target(*target);

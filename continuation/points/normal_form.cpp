@@ -25,7 +25,8 @@ bool settle(ExtendedProblem& problem, const BasePoint& point) {
 std::vector<Eigen::Vector2d> null_directions(const Eigen::Matrix2d& form, bool& degenerate) {
   const double size = form.cwiseAbs().maxCoeff();
   const double discriminant = form(0, 1) * form(0, 1) - form(0, 0) * form(1, 1);
-  degenerate = !(std::abs(discriminant) > 1e-12 * size * size);
+  constexpr double rounding = 1e-12;  // of products of second derivatives by differences
+  degenerate = !(std::abs(discriminant) > rounding * size * size);
   if (degenerate || discriminant < 0) return {};
   const double root = std::sqrt(discriminant);
   // a x^2 + 2 b x y + c y^2 = 0 without cancellation: x : y = -q : a and c : -q, q = b + sign(b) root
@@ -148,7 +149,7 @@ std::string_view to_string(BranchPointKind kind) {
 }
 
 std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
-                                                 const Guess& branch_point) {
+                                                 const Guess& branch_point, const Tolerances& tolerances) {
   BranchPointProblem extended(problem, parameter);
   const BasePoint point = base_point(branch_point, 1);
   if (!settle(extended, point)) return std::nullopt;
@@ -192,7 +193,7 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
     std::swap(result.slopes[0], result.slopes[1]);
     std::swap(rates[0], rates[1]);
   }
-  result.kind = rates[1] < 1e-6 ? BranchPointKind::pitchfork : BranchPointKind::transcritical;
+  result.kind = rates[1] < tolerances.turns ? BranchPointKind::pitchfork : BranchPointKind::transcritical;
   if (result.kind == BranchPointKind::pitchfork) {
     result.slopes[1] = 0;
     const Vector v =

@@ -13,9 +13,6 @@
 
 namespace arcslip::continuation {
 
-/// Borders closer than this are reached together.
-inline constexpr double on_border = 1e-8;
-
 /// The border that a point is nearest to among those of a regime but `except`, relative to the border's slope
 /// in the problem's scale; none where it has no others.
 struct NearestBorder {
@@ -25,9 +22,6 @@ struct NearestBorder {
 [[nodiscard]] std::optional<NearestBorder> nearest_border(const Problem& base, Index active,
                                                           const BasePoint& point, const Regime& regime,
                                                           int except = -1);
-
-/// Of a slope that vanishes but for what is left of it: larger ones are surely no rounding.
-inline double rounding_of(double left) { return 1e-10 + 10 * std::abs(left); }
 
 /// The observable's slope over the active parameter on either side of a border, at points of it.
 class CornerSlopes {

@@ -76,6 +76,7 @@ class ExtremumTracer {
   BasePoint at_value(const BasePoint& next, int border, double value) const;
   BasePoint refined(const BasePoint& point, int border, Side side);
   double distance(const BasePoint& point) const;
+  double rounding_of(double left) const;
   double observable_rate(const BranchPoint& at, const Vector& direction) const;
   std::optional<Place> meeting();
   std::optional<Place> meeting_beside(const BranchPoint& last, const NearestBorder& nearest);

@@ -6,9 +6,6 @@
 
 namespace arcslip::continuation {
 
-/// Borders closer than this are reached together.
-inline constexpr double same_border = 1e-8;
-
 /// As many borders that are reached together are told apart by trying all patterns of their switches.
 inline constexpr int most_exact = 8;
 
@@ -23,6 +20,6 @@ inline constexpr int most_exact = 8;
 /// pieces turn the same way [Murty 1974], as a rule in as many rounds as borders; it is given up after the
 /// square of that.
 [[nodiscard]] std::vector<Guess> leaving_pieces(const Problem& problem, Index parameter, const Guess& corner,
-                                                double tolerance = same_border);
+                                                const Tolerances& tolerances = {});
 
 }  // namespace arcslip::continuation

@@ -9,9 +9,6 @@
 
 namespace arcslip::continuation {
 
-/// Of its change over the step: what a function is just behind a zero.
-inline constexpr double just_passed = 1e-7;
-
 /// Keeps references to both, which must outlive it.
 class ZeroSearch {
  public:

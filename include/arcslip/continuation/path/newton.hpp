@@ -30,12 +30,12 @@ Solution solve(const Problem& problem, const Guess& guess, const NewtonOptions& 
 
 /// Where `solve_all` looks, and for what.
 struct SolveAllOptions {
-  double tolerance = 1e-10;  ///< on the largest entry of F
-  Vector lower;              ///< n, a box in which starts are taken beside the given guesses; empty: none
-  Vector upper;              ///< n
-  int starts = 100;          ///< how many are taken in the box, each in its regime
-  std::uint64_t seed = 1;    ///< of the starts in the box
-  double distinct = 1e-6;    ///< solutions nearer than this, in the problem's scale, are the same
+  double tolerance = 1e-10;    ///< on the largest entry of F
+  Vector lower;                ///< n, a box in which starts are taken beside the given guesses; empty: none
+  Vector upper;                ///< n
+  int starts = 100;            ///< how many are taken in the box, each in its regime
+  std::uint64_t seed = 1;      ///< of the starts in the box
+  Tolerances tolerances = {};  ///< what is the same solution, and what lies on a border
   std::function<bool()> go_on = {};  ///< asked before each start; false ends the search
 };
 

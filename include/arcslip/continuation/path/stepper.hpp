@@ -15,6 +15,7 @@
 #include "arcslip/continuation/path/checkpoint.hpp"
 #include "arcslip/continuation/path/corrector.hpp"
 #include "arcslip/continuation/path/step_control.hpp"
+#include "arcslip/continuation/path/tolerances.hpp"
 
 namespace arcslip::continuation {
 
@@ -25,7 +26,9 @@ class Stepper {
   /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
   /// Without `pairs` no two branch points are looked for that one step may pass.
   Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-          bool pairs = true);
+          bool pairs = true, const Tolerances& tolerances = {});
+
+  const Tolerances& tolerances() const { return tolerances_; }
 
   /// Where the step begins, and its end once it is kept.
   const CurvePoint& here() const { return here_; }
@@ -183,6 +186,7 @@ class Stepper {
   std::vector<double> scales_;  // of those tracked
   double max_step_;
   bool pairs_;  // of branch points are looked for
+  Tolerances tolerances_;
   StepLimits limits_;
 
   CurvePoint here_;

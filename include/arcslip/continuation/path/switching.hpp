@@ -11,7 +11,8 @@ namespace arcslip::continuation {
 /// The ways that leave a special point of a branch, other than the branch's own: at a branch point both ways
 /// along the other branch, at a switch all further pieces that meet on its borders. Guesses with a direction,
 /// as `trace` takes them; none where nothing leaves.
-std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point);
+std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
+                              const Tolerances& tolerances = {});
 
 /// What bounds the search.
 struct FollowOptions {

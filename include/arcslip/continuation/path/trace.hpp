@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/continuation/path/tolerances.hpp"
 #include "arcslip/continuation/problem/guess.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 
@@ -61,6 +62,7 @@ struct TraceOptions {
   double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
   /// Asked before each evaluation of F; false ends the branch as `interrupted`.
   std::function<bool()> go_on = {};
+  Tolerances tolerances = {};
   /// Where the branches are kept, to be had again by the same work done anew; null: nowhere.
   Journal* journal = nullptr;
 };

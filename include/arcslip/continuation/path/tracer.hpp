@@ -14,9 +14,6 @@
 
 namespace arcslip::continuation {
 
-constexpr double same_value =
-    1e-10;  ///< of the parameter, in its scale: as well as special points are located
-
 /// Half a sentence that says why a correction ended.
 std::string_view reason(Correction correction);
 

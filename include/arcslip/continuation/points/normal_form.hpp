@@ -53,6 +53,7 @@ struct BranchPointForm {
 };
 /// Locates the branch point next to a guess of it first; none where that fails.
 [[nodiscard]] std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index parameter,
-                                                               const Guess& branch_point);
+                                                               const Guess& branch_point,
+                                                               const Tolerances& tolerances = {});
 
 }  // namespace arcslip::continuation
