@@ -50,7 +50,7 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
   Divisor divisor;
   const bool is_beyond = sign != 0 && sign_of(a.value) == -sign;
   const bool is_small = is_beyond || std::abs(a.value) <= stepper_.tolerances().just_passed * change;
-  const bool vanishes_here = is_small && (jumps_count || is_left_over(a, b, which));
+  const bool vanishes_here = is_small && (options_.jumps_count || is_left_over(a, b, which));
   if (is_beyond && !vanishes_here) sign = -sign;  // it has jumped there
   if (vanishes_here) {
     if (sign != 0 && sign_of(a.slope) == -sign)  // it is just ahead, but for rounding
@@ -75,9 +75,9 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
       return a.value * b.value < 0 || stepper_.is_least() ? by_sign(a, b, sign, which)
                                                           : Zero{Zero::State::failed};
     case FirstZero::Kind::touch:
-      return {
-          divisor.low || divisor.high || change < least_touched ? Zero::State::absent : Zero::State::found,
-          found.before.s};
+      return {divisor.low || divisor.high || change < options_.least_touched ? Zero::State::absent
+                                                                             : Zero::State::found,
+              found.before.s};
     case FirstZero::Kind::change:
       return locate(found.before, found.behind, std::max(std::abs(from.value), std::abs(to.value)), value_at);
     case FirstZero::Kind::none: break;
@@ -110,7 +110,7 @@ Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt
   const double s = zero_between(value, a.s, b.s, a.value, b.value);
   const bool jumps = std::abs(value(s)) > left_over * size;
   if (!solved) return {Zero::State::failed};
-  return {jumps && !jumps_count ? Zero::State::absent : Zero::State::found, s};
+  return {jumps && !options_.jumps_count ? Zero::State::absent : Zero::State::found, s};
 }
 
 }  // namespace arcslip::continuation

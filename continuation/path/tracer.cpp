@@ -234,7 +234,7 @@ void Tracer::take() {
   if (!events_.empty() || closing_) {
     stepper_.cut();
     for (const Event& event : events_) {
-      if (event.kind == Event::Kind::border) stepper_.settle_on_border(static_cast<int>(event.index));
+      if (event.kind->ends_regime) stepper_.settle_on_border(static_cast<int>(event.index));
     }
   }
   state_.last_value = value();

@@ -9,11 +9,19 @@
 
 namespace arcslip::continuation {
 
+/// What counts as a zero.
+struct ZeroOptions {
+  bool jumps_count = true;  ///< where it jumps across zero: a derivative does so at a corner
+  /// What a function must come from for a zero that it only touches to count.
+  double least_touched = std::numeric_limits<double>::infinity();
+};
+
 /// Keeps references to both, which must outlive it.
 class ZeroSearch {
  public:
   /// Of the step that the stepper has attempted.
-  ZeroSearch(const Stepper& stepper, Readings& readings) : stepper_(stepper), readings_(readings) {}
+  ZeroSearch(const Stepper& stepper, Readings& readings, const ZeroOptions& options = {})
+      : stepper_(stepper), readings_(readings), options_(options) {}
 
   /// In (from, to]; `sign` is that before the zero, 0 if unknown. At `to` a value below `tolerance` of the
   /// change is zero.
@@ -21,10 +29,6 @@ class ZeroSearch {
 
   /// A zero that the signs at both ends tell of, where rounding hides all others.
   Zero by_sign(const Node& a, const Node& b, int sign, std::size_t which);
-
-  bool jumps_count = true;  ///< where it jumps across zero: a derivative does so at a corner
-  /// What a function must come from for a zero that it only touches to count.
-  double least_touched = std::numeric_limits<double>::infinity();
 
  private:
   using ValueAt = std::function<std::optional<double>(double s)>;
@@ -35,6 +39,7 @@ class ZeroSearch {
 
   const Stepper& stepper_;
   Readings& readings_;
+  ZeroOptions options_;
 };
 
 }  // namespace arcslip::continuation

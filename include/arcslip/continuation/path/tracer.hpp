@@ -63,8 +63,6 @@ class Tracer {
   void take();
   void take_events(const Signs& before);
   void take_targets_around(bool turns);
-  void take_event(const Event& event, const Signs& before);
-  int real_crossings(const Signs& before) const;
   void take_target(const Target& target);
   void cross(int border, bool several);
   bool turn_back();

@@ -1,8 +1,9 @@
-#include "arcslip/continuation/events/border_crossing.hpp"
+// The end of a regime.
 
 #include <cmath>
+#include <vector>
 
-#include "arcslip/continuation/path/watch.hpp"
+#include "arcslip/continuation/events/step_search.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
@@ -59,8 +60,8 @@ Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) 
   return at_once && value > on_border ? where_it_is(on_border) : zero;
 }
 
-}  // namespace
-
+/// Where the branch crosses a border of its regime. A branch that comes beyond it by less than the tolerance,
+/// as where it all but touches it, stays inside.
 Zero border_crossing(Stepper& stepper, Index border) {
   const auto m = static_cast<std::size_t>(stepper.tracked_count() + border);
   const double touch = stepper.tolerance();
@@ -84,5 +85,25 @@ Zero border_crossing(Stepper& stepper, Index border) {
   // Beyond the border, yet nowhere across it.
   return zero.state == Zero::State::absent ? Zero{Zero::State::failed} : zero;
 }
+
+void search_borders(StepSearch& step) {
+  Stepper& stepper = step.stepper;
+  const auto count = static_cast<Index>(stepper.to().size()) - stepper.tracked_count();
+  std::vector<Event> reached;
+  for (Index b = 0; b < count; ++b) {
+    const Zero zero = border_crossing(stepper, b);
+    if (zero.state == Zero::State::failed) return step.fail();
+    if (zero.state == Zero::State::found)
+      reached.push_back({&border_crossings, PointType::regime_switch, b, zero.s});
+  }
+  if (reached.empty()) return;
+  for (const Event& event : reached) step.note(event);
+  if (!stepper.probe(step.upper()) || !stepper.resolved(step.upper(), stepper.probed())) step.fail();
+}
+
+}  // namespace
+
+/// The next piece has signs of its own.
+const EventKind border_crossings{search_borders, [](const Event&, const Passage&) {}, {}, true};
 
 }  // namespace arcslip::continuation

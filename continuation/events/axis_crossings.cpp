@@ -1,0 +1,146 @@
+// Eigenvalues on the imaginary axis. In descending order each real part is continuous along the branch; the
+// first to vanish is that of the last unstable one or of the first stable one.
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/events/step_search.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double aside = 1e-3;  // of the step: where the pair of a smaller one must be, too
+
+/// In one step.
+class AxisSearch {
+ public:
+  explicit AxisSearch(StepSearch& step)
+      : step_(step),
+        at_end_(step.eigenvalues_at_end),
+        here_(step.watch.kept().front().rates),
+        largest_(at_end_.cwiseAbs().maxCoeff()),
+        zeros_(step.stepper, step.readings,
+               {.jumps_count = false, .least_touched = step.tolerances.significant * largest_}) {}
+
+  void run() {
+    const Index count = at_end_.size();
+    Index unstable = unstable_at_start();
+    double from = 0;
+    for (Index tries = 0; tries < count; ++tries) {
+      Zero next;
+      Index crosses = 0;
+      for (const Index i : {unstable - 1, unstable}) {
+        if (i < 0 || i >= count || (from == 0 && !may_cross(i, i < unstable ? 1 : -1))) continue;
+        const Zero zero = cross(i, i < unstable ? 1 : -1, from);
+        if (zero.state == Zero::State::failed) return step_.fail();
+        if (zero.state == Zero::State::absent || (next.state == Zero::State::found && zero.s >= next.s))
+          continue;
+        next = zero;
+        crosses = i;
+      }
+      if (next.state != Zero::State::found || note(crosses, crosses < unstable, next.s)) return;
+      unstable += crosses < unstable ? -1 : 1;
+      from = next.s;
+    }
+  }
+
+ private:
+  /// As was counted, where the step begins on the axis; else the values themselves tell.
+  Index unstable_at_start() const {
+    const Index both = std::min(at_end_.size(), static_cast<Index>(here_.size()));
+    double way = 0;
+    for (Index i = 0; i < both; ++i)
+      way = std::max(way, std::abs(at_end_(i).real() - here_[static_cast<std::size_t>(i)]));
+    const double near = std::max(step_.tolerances.rough * largest_, step_.tolerances.coincides * way);
+    const auto above = [&](double bound) {
+      return std::count_if(here_.begin(), here_.end(), [=](double rate) { return rate > bound; });
+    };
+    return std::clamp<Index>(step_.signs.unstable, above(near), above(-near));
+  }
+
+  bool may_cross(Index i, int sign) {
+    const auto k = static_cast<std::size_t>(i);
+    const double end = step_.at_upper(step_.readings.real_part(i), at_end_(i).real());
+    const double rounding = step_.tolerances.on_axis * largest_;
+    if (k < here_.size() && std::abs(here_[k]) <= rounding && std::abs(end) <= rounding) return false;
+    return sign_of(end) != sign || step_.watch.rate_may_vanish(k, step_.chord(), end);
+  }
+
+  Zero cross(Index i, int sign, double from) {
+    const std::size_t which = step_.readings.real_part(i);
+    const double upper = step_.upper();
+    const std::optional<double> a = step_.readings.value(which, from);
+    const std::optional<double> b = step_.readings.value(which, upper);
+    if (!a || !b || std::max(std::abs(*a), std::abs(*b)) > step_.tolerances.rough * largest_)
+      return zeros_.first(which, sign, from, upper, step_.tolerances.just_passed);
+    return zeros_.by_sign({from, *a, 0}, {upper, *b, 0}, sign, which);
+  }
+
+  /// How far the j-th real part is from zero at the end where it is farther.
+  double way_of(Index j) {
+    const auto part = [&](double place) {
+      return std::abs(step_.readings.value(step_.readings.real_part(j), place).value_or(0));
+    };
+    return std::max(part(0), part(step_.stepper.distance()));
+  }
+
+  /// Names what vanishes with the i-th real part at s. False if it is nothing: a real eigenvalue that the
+  /// branch has no name for.
+  bool note(Index i, bool falls, double s) {
+    if (!step_.stepper.probe(s)) {
+      step_.fail();
+      return true;
+    }
+    step_.watch.look(step_.stepper.probed_point());
+    const ComplexVector values = step_.watch.eigenvalues();
+    if (i >= values.size()) return true;
+    const double near = std::max(10 * std::abs(values(i).real()), step_.tolerances.coincides * way_of(i));
+    int pairs = 0;
+    bool real = false;
+    for (Index j = 0; j < values.size(); ++j) {
+      const bool lies_there = std::abs(values(j).real()) <= near && (j == i || way_of(j) > 1e3 * near);
+      if (!lies_there) continue;
+      const bool is_pair = is_imaginary(values, j, s);
+      pairs += static_cast<int>(is_pair && values(j).imag() > 0);
+      real = real || !is_pair;
+    }
+    const int way = falls ? -1 : 1;
+    const bool named = step_.watch.real_crossing() != PointType::regular;
+    if (pairs > 0) step_.note({&axis_crossings, step_.watch.pair_crossing(), i, s, true, 2 * way * pairs});
+    if (real && named) step_.note({&axis_crossings, step_.watch.real_crossing(), i, s, true, way});
+    return pairs > 0 || (real && named) || (step_.ends_at_event() && s == step_.upper());
+  }
+
+  /// Whether an eigenvalue on the axis is one of a pair, and not of two real ones that meet in zero, where
+  /// rounding parts them.
+  bool is_imaginary(const ComplexVector& values, Index i, double s) {
+    const double size = std::abs(values(i).imag());
+    const double largest = std::max(values.cwiseAbs().maxCoeff(), largest_);
+    if (size == 0 || size > step_.tolerances.surely_imaginary * largest) return size != 0;
+    for (const double way : {-1.0, 1.0}) {
+      const double place = s + way * aside * step_.stepper.distance();
+      if (place < 0 || place > step_.stepper.distance()) continue;
+      if (!step_.stepper.probe(place)) return false;
+      step_.watch.look(step_.stepper.probed_point());
+      const ComplexVector& there = step_.watch.eigenvalues();
+      if (i >= there.size() || std::abs(std::abs(there(i).imag()) - size) > 0.5 * size) return false;
+    }
+    return true;
+  }
+
+  StepSearch& step_;
+  const ComplexVector& at_end_;
+  const std::vector<double>& here_;  // real parts where the step begins
+  double largest_;
+  ZeroSearch zeros_;
+};
+
+}  // namespace
+
+const EventKind axis_crossings{
+    [](StepSearch& step) {
+      if (step.signs.unstable >= 0 && step.eigenvalues_at_end.size() > 0) AxisSearch(step).run();
+    },
+    [](const Event& event, const Passage& passage) { passage.behind.unstable += event.unstable; }};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,28 @@
+// Branch points, which the step itself looks for: see crossing.cpp.
+
+#include "arcslip/continuation/events/step_search.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+void search_branch_point(StepSearch& step) {
+  const auto& crossing = step.stepper.crossing();
+  if (crossing) step.note({&branch_points, PointType::branch_point, 0, crossing->s});
+}
+
+/// An eigenvalue only touches zero where the branch turns.
+void pass_branch_point(const Event& event, const Passage& passage) {
+  passage.behind.parameter = sign_of(passage.stepper.crossing()->rate_behind);
+  if (event.told && passage.behind.parameter == passage.before.parameter)
+    passage.behind.unstable += passage.real_crossings();
+}
+
+}  // namespace
+
+/// Where Hopf points meet a zero eigenvalue, or at a cusp, curves of them may cross.
+const EventKind branch_points{
+    search_branch_point,
+    pass_branch_point,
+    {PointType::cusp, PointType::bogdanov_takens, PointType::zero_hopf, PointType::hopf_hopf}};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,42 @@
+// Zeros of functions without derivatives: of the problem's tests and of the user's.
+
+#include <cmath>
+
+#include "arcslip/continuation/events/step_search.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
+  const double end = step.functions_at_end[i];
+  const auto index = static_cast<Index>(i);
+  const std::size_t which = step.readings.function(index);
+  if (!std::isfinite(end) || !std::isfinite(step.watch.kept().front().functions[i]))
+    return;  // no zero is told
+  if (!step.is_whole() && !step.readings.value(which, step.upper())) return;
+  const int before = step.signs.functions[i];
+  const double after = step.at_upper(which, end);
+  const bool changes = before != 0 && before != sign_of(after);
+  if (!changes && !step.watch.function_may_vanish(i, step.chord(), after)) return;
+  ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false});
+  step.note(kind, step.watch.type(i), index,
+            zeros.first(which, before, 0, step.upper(), step.tolerances.located));
+}
+
+void search_functions(StepSearch& step, const EventKind& kind) {
+  const bool of_user = &kind == &user_events;
+  for (std::size_t i = 0; i < step.functions_at_end.size() && step.solved(); ++i)
+    if ((step.watch.type(i) == PointType::event) == of_user) search_function(step, kind, i);
+}
+
+void pass_zero(const Event& event, const Passage& passage) {
+  const auto i = static_cast<std::size_t>(event.index);
+  passage.behind.functions[i] = -passage.before.functions[i];
+}
+
+}  // namespace
+
+const EventKind test_zeros{[](StepSearch& step) { search_functions(step, test_zeros); }, pass_zero};
+const EventKind user_events{[](StepSearch& step) { search_functions(step, user_events); }, pass_zero};
+
+}  // namespace arcslip::continuation
