@@ -51,33 +51,17 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
   return all;
 }
 
-/// A half of a curve, which `trace` traces with an observer.
-Branch follow_half(ExtendedProblem& problem, const Observer& observer,
-                   const std::function<Branch(const Observer& follow)>& trace) {
-  Branch half = follow_curve(problem, observer, trace);
+/// One that has come to the last point of its kind goes no further.
+void settle(const ExtendedProblem& problem, Branch& half) {
   if (half.stop == Stop::requested && half.points.back().type == problem.last_of_curve())
     half.checkpoint.reset();
-  return half;
 }
 
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
                   const Observer& observer) {
-  const TraceOptions own = without_journal(options);
-  const auto begin = [&]() -> Branch {
-    if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
-    return follow_half(problem, observer, [&](const Observer& follow) {
-      return trace_one_way(problem, start, towards_to, own, follow);
-    });
-  };
-  return kept_half(problem, options.journal, begin, [&](Branch begun) {
-    problem.set_borders(begun.checkpoint->ahead->borders);
-    const long before = begun.work.evaluations;
-    Branch half = follow_half(problem, observer, [&](const Observer& follow) {
-      return go_on_with(problem, std::move(begun), own, follow);
-    });
-    half.work.evaluations += before;
-    return half;
-  });
+  if (!problem.adapt(problem.split(start.unknowns, start.parameters, start.regime))) return {};
+  return trace_part(problem, start, towards_to, options, observer,
+                    [&](Branch& half) { settle(problem, half); });
 }
 
 Branch told(Branch curve, const CurveWindow& window) {
@@ -160,9 +144,10 @@ Branch resume(ExtendedProblem& problem, const Checkpoint& checkpoint, const Trac
     Checkpoint half;
     half.of = checkpoint.of;
     half.ahead = progress;
-    Branch rest = follow_half(problem, observer, [&](const Observer& follow) {
+    Branch rest = follow_curve(problem, observer, [&](const Observer& follow) {
       return resume(as_branch, half, time.rest(), follow);
     });
+    settle(problem, rest);
     why_first_ended = rest.explanation;
     return rest;
   };

@@ -32,12 +32,7 @@ Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const Tra
   problem.join(located->point, guess.unknowns, guess.parameters);
   guess.regime = start.regime;
   const auto half = [&](bool towards_to, const TraceOptions& rest) {
-    const auto begin = [&] {
-      return ExtremumTracer(problem, without_journal(rest), window, observer)
-          .half(located->point, corner, towards_to);
-    };
-    // One that was interrupted is short, and made of many pieces: it is traced anew.
-    return kept_half(problem, rest.journal, begin, [&](const Branch&) { return begin(); });
+    return ExtremumTracer(problem, rest, window, observer).half(located->point, corner, towards_to);
   };
   Branch curve = trace_parts([&] { return half(true, options); },
                              [&] {

@@ -136,30 +136,44 @@ void ExtremumTracer::append(Branch piece, std::size_t skipped) {
   }
 }
 
+/// A piece within a regime or along a border. `sees` gets all of its points in their order, also of those
+/// that the journal knows, and ends it where it returns true.
+Branch ExtremumTracer::piece(ExtendedProblem& problem, const Guess& from, bool towards_to,
+                             const TraceOptions& options, const Observer& sees) {
+  near_ = false;
+  const Observer watch = [&](const BranchPoint& point) {
+    const bool goes_on = !observer_ || observer_(point);
+    near_ = sees(point) && goes_on;
+    return goes_on && !near_;
+  };
+  const auto ended = [&](Branch& part) {
+    if (near_) part.stop = Stop::requested;  // to the journal it is whole
+  };
+  Branch part = trace_part(problem, from, towards_to, options, watch, ended,
+                           [&](const BranchPoint& point) { near_ = sees(point); });
+  if (near_) part.stop = Stop::interrupted;
+  return part;
+}
+
 /// Traces a piece within a regime, which is left before a border that it comes near to.
 void ExtremumTracer::smooth(const Guess& guess, bool towards_to, std::size_t skipped) {
   mode_ = Mode::smooth;
   near_ = false;
   double last = -1;
-  const Observer watch = [&](const BranchPoint& point) {
+  const Observer comes_near = [&](const BranchPoint& point) {
     const auto border = nearest_border(base_, problem_.active(), split(point), point.regime);
     const double distance = border ? border->distance : 1;
-    const bool goes_on = !observer_ || observer_(point);
     passes_ = passes_ && distance < near;
-    near_ = goes_on && !passes_ && distance < near && distance < last && point.type == PointType::regular;
+    const bool nears = !passes_ && distance < near && distance < last && point.type == PointType::regular;
     last = distance;
-    return goes_on && !near_;
+    return nears;
   };
   TraceOptions options = rest();
   options.turns_at_corners = false;
   const std::size_t before = curve_.points.size();
   if (!problem_.adapt(problem_.split(guess.unknowns, guess.parameters, guess.regime)))
     return stop(Stop::no_value, "the problem has no value where the curve goes on");
-  append(follow_curve(problem_, watch,
-                      [&](const Observer& follow) {
-                        return trace_one_way(problem_, guess, towards_to, options, follow);
-                      }),
-         skipped);
+  append(piece(problem_, guess, towards_to, options, comes_near), skipped);
   constexpr std::size_t well = 10;  // rows
   if (curve_.points.size() > before + well) patience_ = 3;
 }
@@ -197,20 +211,18 @@ void ExtremumTracer::along(const Ledge& ledge, const std::optional<Regime>& vani
     options.events.push_back({name, slope_at});
     options.stop_after.push_back({PointType::event, 1, name});
   }
-  const Observer watch = [&](const BranchPoint& point) {
+  Branch traced = piece(edge, from, true, options, [&](const BranchPoint& point) {
     slopes_.follow(split(point));
-    return !observer_ || observer_(point);
-  };
-  Branch piece = follow_curve(
-      edge, watch, [&](const Observer& follow) { return trace_one_way(edge, from, true, options, follow); });
-  if (!curve_.points.empty() && !piece.points.empty()) {
+    return false;
+  });
+  if (!curve_.points.empty() && !traced.points.empty()) {
     BranchPoint& here = curve_.points.back();
-    here.tangent = piece.points.front().tangent;
+    here.tangent = traced.points.front().tangent;
     if (here.arrival.size() > 0) turn(here.tangent, ledge.from.regime);
     if (told_to_end_) return;
   }
   const bool begins = curve_.points.empty();
-  append(std::move(piece), begins ? 0 : 1);
+  append(std::move(traced), begins ? 0 : 1);
 }
 
 /// Rows of what the curve turns at, where it goes on in another direction than that in which it came.

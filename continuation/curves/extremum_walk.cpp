@@ -57,6 +57,7 @@ bool ExtremumTracer::smoothly_on(const BasePoint& here, double sense) {
   constexpr std::size_t enough = 5;  // rows
   const std::size_t before = curve_.points.size();
   smooth(guess_at(here, curve_.points.back().tangent), true, 1);
+  if (is_unfinished(curve_.stop) && !near_) return true;
   const std::size_t added = curve_.points.size() - before;
   const std::size_t seen = before + std::min(added, enough) - 1;
   const bool ahead = added > 0 && (curve_.points[seen].parameters(parameter_) - value(here)) * sense > 0;
@@ -163,6 +164,10 @@ bool ExtremumTracer::walk() {
   walk.step = first_step;
   walk.rate = Vector::Zero(problem_.size());
   while (std::ssize(curve_.points) < options_.max_points) {
+    if (!time_.goes_on()) {
+      stop(time_.is_spent() ? Stop::time_limit : Stop::interrupted, "left at " + place());
+      return false;
+    }
     const double from = value(walk.here);
     const double to = next_value(from, from + walk.sense * walk.step * scale);
     if (to == from) return finish(from);

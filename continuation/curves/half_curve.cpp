@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/path/journal.hpp"
@@ -43,19 +44,38 @@ Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
   return part;
 }
 
-TraceOptions without_journal(const TraceOptions& options) {
+Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
+                  const Observer& observer, const std::function<void(Branch&)>& ended,
+                  const std::function<void(const BranchPoint&)>& again) {
   TraceOptions own = options;
   own.journal = nullptr;
-  return own;
-}
-
-Branch kept_half(ExtendedProblem& problem, Journal* journal, const std::function<Branch()>& begin,
-                 const std::function<Branch(Branch begun)>& go_on) {
-  if (journal == nullptr) return begin();
-  const auto with_borders = [&](Branch half) { return JournalEntry{std::move(half), problem.borders()}; };
-  JournalEntry entry =
-      journal->next([&] { return with_borders(begin()); },
-                    [&](JournalEntry begun) { return with_borders(go_on(std::move(begun.branch))); });
+  bool is_known = true;
+  const auto see_again = [&](const Branch& known) {
+    if (again) std::for_each(known.points.begin(), known.points.end(), again);
+  };
+  const auto followed = [&](const std::function<Branch(const Observer& follow)>& trace) {
+    is_known = false;
+    JournalEntry entry{follow_curve(problem, observer, trace), {}};
+    ended(entry.branch);
+    entry.borders = problem.borders();
+    return entry;
+  };
+  const auto begin = [&] {
+    return followed(
+        [&](const Observer& follow) { return trace_one_way(problem, start, towards_to, own, follow); });
+  };
+  const auto go_on = [&](JournalEntry begun) {
+    see_again(begun.branch);
+    problem.set_borders(begun.branch.checkpoint->ahead->borders);
+    const long before = begun.branch.work.evaluations;
+    JournalEntry entry = followed(
+        [&](const Observer& follow) { return go_on_with(problem, std::move(begun.branch), own, follow); });
+    entry.branch.work.evaluations += before;
+    return entry;
+  };
+  if (options.journal == nullptr) return begin().branch;
+  JournalEntry entry = options.journal->next(begin, go_on);
+  if (is_known) see_again(entry.branch);
   problem.set_borders(entry.borders);
   return std::move(entry.branch);
 }

@@ -18,17 +18,17 @@ JournalEntry Journal::next(const std::function<JournalEntry()>& begin,
     const std::scoped_lock lock(mutex_);
     if (next_ < entries_.size()) known = entries_[next_];
   }
-  const bool done = known && known->branch.stop != Stop::interrupted;
-  JournalEntry entry = done ? std::move(*known) : known ? go_on(std::move(*known)) : begin();
-  const bool has_more = entry.branch.stop == Stop::interrupted;
+  const bool done = known && !is_unfinished(known->branch.stop);
+  const bool begun = known && !known->branch.points.empty() && known->branch.checkpoint;
+  JournalEntry entry = done ? std::move(*known) : begun ? go_on(std::move(*known)) : begin();
   const std::scoped_lock lock(mutex_);
-  if (has_more ? entry.branch.points.empty() || !entry.branch.checkpoint : !keeps_whole_) return entry;
+  if (!is_unfinished(entry.branch.stop) && !keeps_whole_) return entry;
   if (next_ == entries_.size()) {
     entries_.push_back(entry);
   } else if (!done) {
     entries_[next_] = entry;
   }
-  if (!has_more) ++next_;
+  ++next_;
   return entry;
 }
 

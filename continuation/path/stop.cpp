@@ -27,4 +27,6 @@ bool is_end(Stop stop) {
          stop == Stop::requested || stop == Stop::left_regime;
 }
 
+bool is_unfinished(Stop stop) { return stop == Stop::interrupted || stop == Stop::time_limit; }
+
 }  // namespace arcslip::continuation

@@ -98,7 +98,7 @@ std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, 
   std::deque<Guess> waiting;
   bool interrupted = false;
   const auto collect = [&](Branch branch) {
-    interrupted = branch.stop == Stop::interrupted || branch.stop == Stop::time_limit;
+    interrupted = is_unfinished(branch.stop);
     for (const BranchPoint& point : branch.points) {
       if (meets_others(point)) map.pass(point);
     }

@@ -85,13 +85,13 @@ Branch Tracer::finished(const Begin& begin) {
     if (!branch_.points.empty()) forget_tries();
     halt(ended.reason);
   }
-  if (!branch_.points.empty() && branch_.stop != Stop::interrupted && branch_.stop != Stop::time_limit)
+  if (!branch_.points.empty() && !is_unfinished(branch_.stop))
     look_at_derivatives(stepper_.here().unknowns, stepper_.here().parameters, stepper_.here().regime);
   if (!branch_.warning.empty()) branch_.explanation += "; " + branch_.warning;
   branch_.work = corrector_.work();
   branch_.work.spectra = spectra_before_ + watch_.spectra();
-  const bool further = branch_.stop == Stop::max_points || branch_.stop == Stop::time_limit ||
-                       branch_.stop == Stop::interrupted || branch_.stop == Stop::requested;
+  const bool further =
+      branch_.stop == Stop::max_points || branch_.stop == Stop::requested || is_unfinished(branch_.stop);
   if (further && !branch_.points.empty()) {
     state_.taken = targets_.taken();
     state_.here = stepper_.here();

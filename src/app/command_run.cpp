@@ -12,7 +12,6 @@
 #include "app/progress.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/certification.hpp"
-#include "arcslip/continuation/path/journal.hpp"
 #include "arcslip/results/results.hpp"
 #include "keys/printable.hpp"
 #include "results/certificate_results.hpp"
@@ -35,6 +34,12 @@ std::string complaint(const continuation::Branch& branch) {
   return "";
 }
 
+/// Whether it would go on where it was left.
+bool has_more(const TracedBranch& traced) {
+  const auto& first = traced.branch.first_stop;
+  return is_unfinished(traced.branch.stop) || (first && is_unfinished(*first));
+}
+
 /// Refuses what cannot be verified or what no certificate covers.
 void require_provable(const CaseBranch& branch, const RunOptions& options) {
   std::string why = options.verify ? why_not_verifiable(branch) : "";
@@ -55,6 +60,8 @@ void require_provable(const CasePlan& plan, const RunOptions& options) {
   for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
 }
 
+constexpr std::size_t most_kept = 1'000'000;  // points; branches with more are traced again
+
 /// One run of the program.
 class Run {
  public:
@@ -74,8 +81,9 @@ class Run {
   void verify_branch(const TracedBranch& traced, RunFiles& files);
   void show(const std::string& text);
   void say_interrupted() const;
-  void note(const RunFiles& files, std::size_t requests, bool has_several);
-  void settle(const std::string& folder, bool is_whole);
+  continuation::Journal& journal_of(const RunFiles& files, std::size_t request, bool has_several);
+  void forget(std::size_t request, std::size_t points);
+  void settle(const std::string& folder, bool is_cut_short);
 
   const RunOptions& options_;
   CaseFile file_;
@@ -88,15 +96,17 @@ class Run {
   bool complete_ = true;
   std::string unprinted_;  ///< why standard output cannot be written
   std::mutex mutex_;
-  RunCheckpoint reached_;          ///< before the request under way
-  continuation::Journal journal_;  ///< of the request under way
+  RunCheckpoint reached_;  ///< before the first request that has a journal
+  /// Of the first request that had no time to be whole, of those behind it, and of the one under way.
+  Journals journals_;
+  std::size_t kept_points_ = 0;  ///< of branches behind it that are whole
 };
 
 int Run::execute() {
   require_provable(plan_, options_);
   file_.named("system", [&] { build(plan_.branch(0).problem); });
   const bool resumes = !options_.resume.empty();
-  if (resumes) reached_ = read_checkpoint(options_.resume, plan_, journal_);
+  if (resumes) reached_ = read_checkpoint(options_.resume, plan_, journals_);
   const OutputFolder folder(resumes ? options_.resume : results_folder(options_.folder, options_.case_path));
   RunFiles files(folder.path(), plan_, options_.verify);
   files.take_over(reached_.branches, reached_.header);
@@ -107,7 +117,7 @@ int Run::execute() {
   {
     const BeforeTheEnd write_what_there_is([&] {
       files.finish(seconds_since(start_), true);
-      settle(folder.path(), false);
+      settle(folder.path(), true);
       say_interrupted();
     });
     try {
@@ -117,9 +127,9 @@ int Run::execute() {
       throw;
     }
   }
-  const bool is_whole = !interrupted() || (ended_ == plan_.count && complete_);
-  files.finish(seconds_since(start_), !is_whole);
-  settle(folder.path(), is_whole);
+  const bool is_cut_short = interrupted() && !(ended_ == plan_.count && complete_);
+  files.finish(seconds_since(start_), is_cut_short);
+  settle(folder.path(), is_cut_short);
   show(fmt::format("\n{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
                    plural(files.count(), "branch", "es"), points_, seconds_since(start_), folder.path()));
   if (ended_ < plan_.count) say_interrupted();
@@ -132,10 +142,10 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
   require_provable(request, options_);
   const bool has_several = request.curve || request.switching || request.all_solutions || request.start ||
                            request.problem.harmonics_tolerance || options_.verify || options_.certify;
-  if (i != reached_.requests || options_.resume.empty()) note(files, i, has_several);
-  request.options.journal = &journal_;
+  request.options.journal = &journal_of(files, i, has_several);
   request.options.go_on = [] { return !interrupted(); };
   begun_ = i + 1;
+  const std::size_t points_before = points_;
   ProgressLine line(!options_.quiet);
   std::size_t points = 0;
   const auto watch = [&](const continuation::BranchPoint& point) {
@@ -167,20 +177,33 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
     if (options_.verify) verify_branch(one, files);
   }
   ended_ = i + 1;
+  if (!interrupted() && std::none_of(traced.begin(), traced.end(), has_more))
+    forget(i, points_ - points_before);
 }
 
-/// Where the run stands before a request.
-void Run::note(const RunFiles& files, std::size_t requests, bool has_several) {
+/// Drops the journal of a request that is whole, but for some behind one that is not.
+void Run::forget(std::size_t request, std::size_t points) {
   const std::scoped_lock lock(mutex_);
-  reached_ = {requests, files.count(), points_, complete_, files.header()};
-  journal_.begin(has_several);
+  const bool is_first = journals_.begin()->first == request;
+  if (!is_first) kept_points_ += points;
+  if (is_first || kept_points_ > most_kept) journals_.erase(request);
+}
+
+/// Notes where the run stands before a request, unless one before is to be gone on with.
+continuation::Journal& Run::journal_of(const RunFiles& files, std::size_t request, bool has_several) {
+  const std::scoped_lock lock(mutex_);
+  if (journals_.empty() || journals_.begin()->first >= request)
+    reached_ = {request, files.count(), points_, complete_, files.header()};
+  const auto [place, is_new] = journals_.try_emplace(request);
+  if (is_new) place->second.begin(has_several || place != journals_.begin());
+  return place->second;
 }
 
 /// Leaves a checkpoint of what is not done.
-void Run::settle(const std::string& folder, bool is_whole) {
-  if (is_whole) return remove_checkpoint(folder);
+void Run::settle(const std::string& folder, bool is_cut_short) {
   const std::scoped_lock lock(mutex_);
-  write_checkpoint(folder, plan_, reached_, journal_);
+  if (!is_cut_short && journals_.empty()) return remove_checkpoint(folder);
+  write_checkpoint(folder, plan_, reached_, journals_);
 }
 
 void Run::report(const TracedBranch& traced, std::size_t number) {

@@ -37,7 +37,8 @@ Exit status
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/curves.csv (more rows in between, for pictures), DIR/summary.json
 (special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
-as interrupted, with DIR/run.checkpoint, from which --resume DIR goes on to the same tables.
+as interrupted, with DIR/run.checkpoint, from which --resume DIR goes on to the same tables; so it does where max_seconds
+were too few.
 
 A curve of peaks in two parameters: curve = "peak", parameters = ["eta", "P"], window = [0.5, 120.0] of eta, from = 0.1 and
 to = 100.0 of P. A case file has these keys, of which `arcslip help KEY` tells more; problems/figure_8.toml is one:
@@ -72,7 +73,7 @@ CLI::App* add_run_command(CLI::App& app, arcslip::RunOptions& options) {
   CLI::Option* output =
       run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
           ->type_name("DIR");
-  run->add_option("--resume", options.resume, "Go on with the interrupted run of this case in DIR")
+  run->add_option("--resume", options.resume, "Go on with the interrupted run of this case in DIR, or one that had no time")
       ->type_name("DIR")
       ->excludes(output);
   add_settings(run, options.settings);

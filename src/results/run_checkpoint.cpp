@@ -20,8 +20,11 @@ constexpr const char* signature = "arcslip-run-checkpoint-1";
 
 std::string path_in(const std::string& folder) { return folder + "/run.checkpoint"; }
 
-/// Where two cases differ first.
-std::string difference(const nlohmann::json& then, const nlohmann::json& now) {
+/// Where two cases differ first, but for the time that they have.
+std::string difference(nlohmann::json then, nlohmann::json now) {
+  for (nlohmann::json* input : {&then, &now}) {
+    if (input->contains("continuation")) input->at("continuation").erase("max_seconds");
+  }
   const nlohmann::json all = nlohmann::json::diff(then, now);
   return all.empty() ? "" : printable(all.front().value("path", "").substr(1));
 }
@@ -29,24 +32,26 @@ std::string difference(const nlohmann::json& then, const nlohmann::json& now) {
 }  // namespace
 
 void write_checkpoint(const std::string& folder, const CasePlan& plan, const RunCheckpoint& checkpoint,
-                      const continuation::Journal& journal) {
+                      const Journals& journals) {
+  std::vector<std::size_t> left;
+  for (const auto& [request, journal] : journals) left.push_back(request);
   const ordered_json head = {{"arcslip", release},
                              {"case", plan.resolved},
                              {"requests", checkpoint.requests},
                              {"branches", checkpoint.branches},
                              {"points", checkpoint.points},
                              {"complete", checkpoint.complete},
-                             {"header", checkpoint.header}};
+                             {"header", checkpoint.header},
+                             {"left", left}};
   std::ostringstream text;
   text << signature << '\n' << head.dump() << '\n';
-  journal.write(text);
+  for (const auto& [request, journal] : journals) journal.write(text);
   AtomicFile file(path_in(folder));
   file.write(text.view());
   file.commit();
 }
 
-RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan,
-                              continuation::Journal& journal) {
+RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan, Journals& journals) {
   const auto refuse = [&](const std::string& why) {
     return InputError(
         fmt::format("{}: --resume: {}; without --resume the run is begun anew", path_in(folder), why));
@@ -65,7 +70,8 @@ RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan,
       throw refuse(fmt::format("it was begun by arcslip {}, this is {}", printable(version), release));
     const auto other = difference(head.at("case"), nlohmann::json::parse(ordered_json(plan.resolved).dump()));
     if (!other.empty()) throw refuse(fmt::format("it is a run of another case, which differs in {}", other));
-    journal.read(file);
+    for (const std::size_t request : head.at("left").get<std::vector<std::size_t>>())
+      journals[request].read(file);
     return {head.at("requests"), head.at("branches"), head.at("points"), head.at("complete"),
             head.at("header")};
   } catch (const InputError&) {

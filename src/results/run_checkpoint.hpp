@@ -1,7 +1,8 @@
 #pragma once
 
-// run.checkpoint: from where a run that was interrupted goes on.
+// run.checkpoint: from where a run goes on that was interrupted, or had branches without time to be whole.
 
+#include <map>
 #include <string>
 
 #include "arcslip/cases/case_file.hpp"
@@ -9,7 +10,7 @@
 
 namespace arcslip {
 
-/// What a run had done when it began with what it was then doing.
+/// What a run had done when it began with the first that is not whole.
 struct RunCheckpoint {
   std::size_t requests = 0;  ///< of the plan
   std::size_t branches = 0;  ///< in the results of these
@@ -18,13 +19,16 @@ struct RunCheckpoint {
   std::string header;        ///< of the table of branches by then
 };
 
-/// With the journal of what was being done. Throws OutputError.
-void write_checkpoint(const std::string& folder, const CasePlan& plan, const RunCheckpoint& checkpoint,
-                      const continuation::Journal& journal);
+/// Of the requests that are not whole, by their number in the plan.
+using Journals = std::map<std::size_t, continuation::Journal>;
 
-/// Throws InputError where the folder has no interrupted run of this plan by this version of arcslip.
-RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan,
-                              continuation::Journal& journal);
+/// Throws OutputError.
+void write_checkpoint(const std::string& folder, const CasePlan& plan, const RunCheckpoint& checkpoint,
+                      const Journals& journals);
+
+/// Throws InputError where the folder has no run to go on with of this plan, but for its `max_seconds`, by
+/// this version of arcslip.
+RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan, Journals& journals);
 
 void remove_checkpoint(const std::string& folder);
 

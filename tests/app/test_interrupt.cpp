@@ -210,6 +210,36 @@ TEST_CASE("An interrupted run goes on to the tables of one that was not", "[inte
   }
 }
 
+TEST_CASE("A run whose branches had no time to be whole goes on to the tables of one that had",
+          "[interrupt]") {
+  const auto check = [](const std::string& command, const char* first) {
+    const TemporaryFolder folder;
+    const std::string run = "run " + command + " --quiet ";
+    const Outcome whole = arcslip_program(run + "-o " + folder.path("whole"));
+    CHECK(whole.status == 0);
+    Outcome part =
+        arcslip_program(run + "-o " + folder.path("r") + " --set continuation.max_seconds=" + first);
+    CHECK(part.status == 3);
+    CHECK_THAT(part.err, ContainsSubstring("time_limit"));
+    CHECK(names_in(folder.path("r")).contains("run.checkpoint"));
+    double seconds = 0.01;
+    for (; part.status == 3 && seconds < 1000; seconds *= 3)
+      part = arcslip_program(run + "--resume " + folder.path("r") +
+                             fmt::format(" --set continuation.max_seconds={}", seconds));
+    INFO(part.err);
+    CHECK(part.status == 0);
+    CHECK(names_in(folder.path("r")) == run_results);
+    for (const char* name : {"/branches.csv", "/curves.csv"})
+      CHECK(read(folder.path("r") + name) == read(folder.path("whole") + name));
+  };
+  SECTION("several branches, of which some are whole") {
+    check(figure_8_case + " --set branch.for_each.preload=[0.5,50.0,5.0] --set continuation.max_step=0.01",
+          "3e-3");
+  }
+  SECTION("a curve in two parameters") { check(case_named("lorenz84_hopf_curve"), "1e-3"); }
+  SECTION("a curve of peaks") { check(case_named("ridge"), "0.01"); }
+}
+
 TEST_CASE("Only an interrupted run of the same case is gone on with", "[interrupt]") {
   const TemporaryFolder folder;
   const std::string r = folder.path("r");

@@ -6,6 +6,7 @@
 #include "branches.hpp"
 #include "catch.hpp"
 #include "scalar_problem.hpp"
+#include "unfinished_work.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
@@ -189,4 +190,25 @@ TEST_CASE("Where a peak vanishes on a corner that no border tells of its curve g
   const HiddenEdge problem(1, 0);
   const Branch curve = curve_of(problem, PointType::peak, 1.5, over("q", -3, 2));
   check_turns_back(curve);
+}
+
+TEST_CASE("A curve of peaks goes on in the midst of its pieces", "[resume]") {
+  const Edge edge(-1, -1);
+  const HiddenEdge hidden(-1, -1);
+  const bool is_hidden = GENERATE(false, true);
+  const double q = is_hidden ? 1.5 : -0.5;  // of the seed
+  const Problem& problem = is_hidden ? static_cast<const Problem&>(hidden) : edge;
+  TraceOptions options = over("p", -5, 5);
+  options.extrema_of = {"Y"};
+  const auto peak =
+      of_type(trace(problem, {vector_of({-5}), vector_of({-5, q}), Edge::before}, options), PointType::peak);
+  REQUIRE(!peak.empty());
+  const Tracing work = [&](const TraceOptions& o) {
+    const CurveStart start = curve_through(problem, "p", peak[0], "Y");
+    return Branches{trace_curve(*start.problem, start.point, o)};
+  };
+  TraceOptions along = over("q", -3, 2);
+  along.extrema_of = {"Y"};
+  check_interrupted(work, along);
+  check_out_of_time(work, along);
 }

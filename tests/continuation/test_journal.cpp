@@ -1,24 +1,20 @@
 // Work that is interrupted, at whatever moment, and done again: it gives what it would have given.
 
 #include <cmath>
-#include <sstream>
 
 #include "arcslip/continuation/curves/curve.hpp"
-#include "arcslip/continuation/path/journal.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
-#include "same_points.hpp"
 #include "scalar_problem.hpp"
+#include "unfinished_work.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
 using namespace arcslip::testing;
 
 namespace {
-
-using Branches = std::vector<Branch>;
 
 /// u (p - u^2) = 0 and a corner: at p = 0 a straight branch meets a parabola.
 ScalarProblem branching() {
@@ -34,43 +30,6 @@ ScalarProblem cusp_of_two() {
           [](double x, const Vector& p) { return p(0) + p(1) * x - x * x * x; },
           [](double x, const Vector& p) { return p(1) - 3 * x * x; },
           {[](double, const Vector&) { return 1.0; }, [](double x, const Vector&) { return x; }}};
-}
-
-/// `work` with options that are interrupted when they have been asked so often, whether to go on; then again
-/// with a journal that was written and read, once more and without an end.
-void check_interrupted(const std::function<Branches(const TraceOptions&)>& work, TraceOptions options) {
-  long asked = 0;
-  options.go_on = [&] { return ++asked > 0; };
-  const Branches whole = work(options);
-  const long all = asked;
-  REQUIRE(all > 50);
-  for (long first = 1; first <= all; first += 1 + all / 97) {
-    CAPTURE(first, all);
-    std::string kept;
-    Branches again;
-    for (const long end : {first, first / 2 + 3, 1000000L}) {
-      Journal journal;
-      if (!kept.empty()) {
-        std::stringstream text(kept);
-        journal.read(text);
-      }
-      options.journal = &journal;
-      long left = end;
-      options.go_on = [&] { return --left > 0; };
-      again = work(options);
-      std::stringstream text;
-      journal.write(text);
-      kept = text.str();
-    }
-    REQUIRE(again.size() == whole.size());
-    for (std::size_t b = 0; b < whole.size(); ++b) {
-      CHECK(again[b].stop == whole[b].stop);
-      CHECK(again[b].explanation == whole[b].explanation);
-      REQUIRE(again[b].points.size() == whole[b].points.size());
-      for (std::size_t i = 0; i < whole[b].points.size(); ++i)
-        check_same(again[b].points[i], whole[b].points[i]);
-    }
-  }
 }
 
 }  // namespace
@@ -108,16 +67,29 @@ TEST_CASE("Connected branches that were interrupted are all found again", "[resu
       over("p", -1, 1));
 }
 
-TEST_CASE("A curve in two parameters goes on where it was interrupted", "[resume]") {
+TEST_CASE("A curve in two parameters goes on where it was left", "[resume]") {
   const ScalarProblem problem = cusp_of_two();
   BranchPoint fold;
   fold.type = PointType::fold;
   fold.unknowns = vector_of({std::sqrt(1.0 / 3)});
   fold.parameters = vector_of({-2 / std::sqrt(27.0), 1});
-  check_interrupted(
-      [&](const TraceOptions& o) {
-        CurveStart start = curve_through(problem, "mu", fold);
-        return Branches{trace_curve(*start.problem, start.point, o, {-0.5, 0.7})};
+  const Tracing work = [&](const TraceOptions& o) {
+    CurveStart start = curve_through(problem, "mu", fold);
+    return Branches{trace_curve(*start.problem, start.point, o, {-0.5, 0.7})};
+  };
+  check_interrupted(work, over("lambda", -1, 3));
+  check_out_of_time(work, over("lambda", -1, 3));
+}
+
+TEST_CASE("Branches that had no time to be whole are gone on with", "[resume]") {
+  check_out_of_time(
+      [](const TraceOptions& o) {
+        return Branches{trace_both(FreudensteinRoth(), {vector_of({15, -2}), vector_of({0})}, o)};
       },
-      over("lambda", -1, 3));
+      over("x3", -1, 2));
+  check_out_of_time(
+      [](const TraceOptions& o) {
+        return trace_connected(branching(), {vector_of({0}), vector_of({-1})}, o);
+      },
+      over("p", -1, 1));
 }

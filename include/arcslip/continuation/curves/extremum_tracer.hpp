@@ -94,6 +94,8 @@ class ExtremumTracer {
   Inside next_inside(const BasePoint& corner, Side side);
   bool fill(int border, const BasePoint& corner, double from, double to, Side side);
 
+  Branch piece(ExtendedProblem& problem, const Guess& from, bool towards_to, const TraceOptions& options,
+               const Observer& sees);
   void smooth(const Guess& guess, bool towards_to, std::size_t skipped);
   void along(const Ledge& ledge, const std::optional<Regime>& vanishing);
   void append(Branch piece, std::size_t skipped);

@@ -22,11 +22,12 @@ TraceOptions within_window(const TraceOptions& options, const CurveWindow& windo
 Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
                     const std::function<Branch(const Observer& follow)>& trace);
 
-TraceOptions without_journal(const TraceOptions& options);
-
-/// Half a curve, begun or gone on with as the journal knows it, if there is one.
-Branch kept_half(ExtendedProblem& problem, Journal* journal, const std::function<Branch()>& begin,
-                 const std::function<Branch(Branch begun)>& go_on);
+/// Part of a curve as `trace_one_way` and `follow_curve` trace it from where the problem has been adapted to;
+/// begun, or gone on with, as the options' journal knows it, if there is one. `again` sees the points that
+/// the journal knows, `ended` the part before the journal has it. The problem is left as at the part's end.
+Branch trace_part(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,
+                  const Observer& observer, const std::function<void(Branch&)>& ended,
+                  const std::function<void(const BranchPoint&)>& again = {});
 
 /// Of two reasons why the halves of a curve ended, the one that a user has to know is the curve's.
 Branch most_telling(Branch curve, const std::string& why_first_ended);

@@ -17,16 +17,16 @@ struct JournalEntry {
   std::vector<double> borders;
 };
 
-/// The branches in the order that they were begun in, which has to be the same whenever the work is done. The
-/// last one may have been interrupted.
+/// The branches in the order that they were begun in, which has to be the same whenever the work is done.
+/// From the first that was interrupted, or had no more time, none has gone on.
 class Journal {
  public:
-  /// Of work with a single branch that one is kept only where it was interrupted: once it is whole the work
-  /// is done.
+  /// Of work with a single branch that one is kept only where it is unfinished: once it is whole the work is
+  /// done.
   void begin(bool has_several);
 
-  /// The next branch: as it is known, gone on with if it was interrupted, else begun. One that is interrupted
-  /// before it has a point is as if it had not been begun.
+  /// The next branch: as it is known, gone on with if it is unfinished, else begun. One that was left before
+  /// it had a point is as if it had not been begun.
   JournalEntry next(const std::function<JournalEntry()>& begin,
                     const std::function<JournalEntry(JournalEntry begun)>& go_on);
 

@@ -30,4 +30,7 @@ std::string_view to_string(Stop stop);
 /// Whether a branch that stops so has come to an end of its own or to one that was asked for.
 bool is_end(Stop stop);
 
+/// Whether it would go on where it was left.
+bool is_unfinished(Stop stop);
+
 }  // namespace arcslip::continuation
