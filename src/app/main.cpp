@@ -73,7 +73,8 @@ CLI::App* add_run_command(CLI::App& app, arcslip::RunOptions& options) {
   CLI::Option* output =
       run->add_option("-o,--output", options.folder, "Folder for the results; out/<case> if not given")
           ->type_name("DIR");
-  run->add_option("--resume", options.resume, "Go on with the interrupted run of this case in DIR, or one that had no time")
+  run->add_option("--resume", options.resume,
+                  "Go on with the interrupted run of this case in DIR, or one that had no time")
       ->type_name("DIR")
       ->excludes(output);
   add_settings(run, options.settings);
