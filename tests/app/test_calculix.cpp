@@ -118,7 +118,7 @@ void check_frequencies(const Workshop& workshop, const std::string& deck, Index 
 }  // namespace
 
 TEST_CASE("The guide's commands lead from a mesh to a case whose modes are those that CalculiX finds",
-          "[export][numbers]") {
+          "[export][numbers][outside]") {
   const std::string guide = read(exports + "/README.md");
   const std::vector<std::string> shown = indented(guide);
   REQUIRE(shown.size() >= 3);
@@ -141,7 +141,7 @@ TEST_CASE("The guide's commands lead from a mesh to a case whose modes are those
     CHECK(modes(sectors_of(input).damper()->sector, n).free_squares.size() == (n < 2 ? 2 : 0));
 }
 
-TEST_CASE("At rest the same deck gives the matrices of the unstressed structure", "[export]") {
+TEST_CASE("At rest the same deck gives the matrices of the unstressed structure", "[export][outside]") {
   const std::vector<std::string> shown = indented(read(exports + "/README.md"));
   const Workshop workshop;
   const std::string rest = replaced(read(exports + "/rotor.inp"), "CENTRIF, 1e6", "CENTRIF, 0");
@@ -151,7 +151,7 @@ TEST_CASE("At rest the same deck gives the matrices of the unstressed structure"
   check_frequencies(workshop, rest, 3, 3);
 }
 
-TEST_CASE("What a deck holds in the step that stores the matrices is refused", "[export]") {
+TEST_CASE("What a deck holds in the step that stores the matrices is refused", "[export][outside]") {
   const auto [from, to] =
       GENERATE(table<std::string, std::string>({{", CYCMPC=INACTIVE", ""}, {"*BOUNDARY, OP=NEW\n", ""}}));
   const std::vector<std::string> shown = indented(read(exports + "/README.md"));

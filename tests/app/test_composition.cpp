@@ -333,17 +333,17 @@ TEST_CASE("All tasks compose with a contact to ground", "[composition]") { check
 TEST_CASE("All tasks compose with negative damping", "[composition]") { check_kind("negative damping"); }
 TEST_CASE("All tasks compose with structural damping", "[composition]") { check_kind("structural damping"); }
 TEST_CASE("All tasks compose with a growing preload", "[composition]") { check_kind("growing preload"); }
-TEST_CASE("All tasks compose with cubic springs in five harmonics", "[composition]") {
+TEST_CASE("All tasks compose with cubic springs in five harmonics", "[composition][numbers]") {
   check_kind("cubic, five harmonics");
 }
 TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
-TEST_CASE("All tasks compose with a sector of three contacts", "[composition]") {
+TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers]") {
   check_kind("three contacts");
 }
 TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition][numbers]") {
   check_kind("three contacts, five harmonics");
 }
-TEST_CASE("All tasks compose with the full path of a sector", "[composition]") {
+TEST_CASE("All tasks compose with the full path of a sector", "[composition][numbers]") {
   check_kind("`path = \"full\"`");
 }
 

@@ -99,7 +99,8 @@ Matrix matrix(const testing::TemporaryFolder& folder, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Stored matrices of CalculiX come out in cylindrical directions, with boundaries in pairs") {
+TEST_CASE("Stored matrices of CalculiX come out in cylindrical directions, with boundaries in pairs",
+          "[outside]") {
   const testing::TemporaryFolder folder;
   write_job(folder);
   const testing::Outcome outcome =
@@ -124,7 +125,7 @@ TEST_CASE("Stored matrices of CalculiX come out in cylindrical directions, with 
   CHECK_THAT(imaginary, WithinAbs(-std::sqrt(0.5), 1e-14));
 }
 
-TEST_CASE("Held dofs are left out of the matrices and of the boundaries") {
+TEST_CASE("Held dofs are left out of the matrices and of the boundaries", "[outside]") {
   const testing::TemporaryFolder folder;
   write_job(folder);
   REQUIRE(convert(folder, "--hold HUB --hold GROOVE:r --contact GROOVE:z --name ring").status == 0);
@@ -136,7 +137,7 @@ TEST_CASE("Held dofs are left out of the matrices and of the boundaries") {
   CHECK(read(folder.path("out/ring_contact.txt")) == "2\n4\n");
 }
 
-TEST_CASE("The case file is written once, and takes the damper's table") {
+TEST_CASE("The case file is written once, and takes the damper's table", "[outside]") {
   const testing::TemporaryFolder folder;
   write_job(folder);
   const std::string numbers = " --contact-stiffness 2e9 --preload 12.5 --eta 0.01 3";
@@ -160,7 +161,7 @@ TEST_CASE("The case file is written once, and takes the damper's table") {
   CHECK(read(path) == text);
 }
 
-TEST_CASE("What the case file still wants stands in it as a comment") {
+TEST_CASE("What the case file still wants stands in it as a comment", "[outside]") {
   const testing::TemporaryFolder folder;
   write_job(folder);
   CHECK(convert(folder, "--contact LEFT:z --load GROOVE:z").status == 0);
@@ -169,7 +170,7 @@ TEST_CASE("What the case file still wants stands in it as a comment") {
     CHECK_THAT(text, ContainsSubstring(fmt::format("\n# {} = ?", key)));
 }
 
-TEST_CASE("Matrices pass through the script without being held in memory") {
+TEST_CASE("Matrices pass through the script without being held in memory", "[outside]") {
   // A ring of 2000 nodes, each tied to eight before it: 9 MB of stiffness.
   constexpr int count = 2000;
   const testing::TemporaryFolder folder;
@@ -200,7 +201,7 @@ TEST_CASE("Matrices pass through the script without being held in memory") {
   CHECK(std::stol(outcome.out.substr(outcome.out.find('\n') + 1)) < 40'000);
 }
 
-TEST_CASE("Entries out of order, given twice or of unknown dofs are named with their line") {
+TEST_CASE("Entries out of order, given twice or of unknown dofs are named with their line", "[outside]") {
   struct Example {
     std::string entries;
     const char* message;
@@ -222,7 +223,8 @@ TEST_CASE("Entries out of order, given twice or of unknown dofs are named with t
   CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
-TEST_CASE("Of a mesh the volume elements stay, and what is held but for the right face becomes a set") {
+TEST_CASE("Of a mesh the volume elements stay, and what is held but for the right face becomes a set",
+          "[outside]") {
   const testing::TemporaryFolder folder;
   const std::string head =
       "*Heading\n mesh\n*NODE\n1, 1, 0, 0\n2, 1, 0, 1\n3, 0, 1, 0\n****** E L E M E N T S\n";
@@ -250,7 +252,7 @@ TEST_CASE("Of a mesh the volume elements stay, and what is held but for the righ
   CHECK_THAT(unknown.err, ContainsSubstring("the deck has no set of nodes RIM; it has HUB, RIGHT"));
 }
 
-TEST_CASE("What cannot be converted is named in one line") {
+TEST_CASE("What cannot be converted is named in one line", "[outside]") {
   struct Example {
     std::string options;
     const char* message;
@@ -273,7 +275,7 @@ TEST_CASE("What cannot be converted is named in one line") {
   CHECK_FALSE(std::filesystem::exists(folder.path("out")));
 }
 
-TEST_CASE("Matrices of code_aster come out in the same form") {
+TEST_CASE("Matrices of code_aster come out in the same form", "[outside]") {
   const testing::TemporaryFolder folder;
   // What the script asks of code_aster's objects, for a mesh of two nodes with one group.
   folder.write("study.py", R"(

@@ -59,7 +59,7 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
   CHECK(outcome.out == listed);
 }
 
-TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots]") {
+TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw_case("preload_response", folder.path("r"));
@@ -69,7 +69,7 @@ TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots]")
   CHECK_THAT(svg, ContainsSubstring(">P<") && ContainsSubstring(">η<") && ContainsSubstring("3.68"));
 }
 
-TEST_CASE("plot names all of a few branches and some of many", "[plots]") {
+TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   const auto drawn = [&](int branches) {
@@ -89,7 +89,7 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots]") {
   CHECK(named(drawn(30)) == 6);
 }
 
-TEST_CASE("plot draws what there is of a run that was cut short", "[plots]") {
+TEST_CASE("plot draws what there is of a run that was cut short", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const std::size_t rows = GENERATE(1, 2, 3, 700);
   CAPTURE(rows);
@@ -105,7 +105,7 @@ TEST_CASE("plot draws what there is of a run that was cut short", "[plots]") {
   require_pictures(folder.path("r"), 2'000, pictures, run_results);
 }
 
-TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]") {
+TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");  // no slip: nothing is dissipated
@@ -116,7 +116,7 @@ TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]
 }
 
 TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and leaves nothing behind",
-          "[plots]") {
+          "[plots][outside]") {
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");
   const auto fails = [&](const std::string& path, const std::string& message) {
@@ -167,7 +167,7 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
   CHECK_THAT(outcome.err, ContainsSubstring(folder.path("none")));
 }
 
-TEST_CASE("plot draws the branches of every problem of the library", "[plots]") {
+TEST_CASE("plot draws the branches of every problem of the library", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const std::string problem =
       GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing");
@@ -189,7 +189,7 @@ TEST_CASE("plot draws the branches of every problem of the library", "[plots]") 
 }
 
 TEST_CASE("plot gives the branches that one request led to no names, and those of several theirs",
-          "[plots]") {
+          "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw(folder, "[system]\nmodel = 'enz'\n[branch]\nparameter = 's0'\nfrom = 0\nto = 60\nswitching = true\n",
@@ -203,7 +203,7 @@ TEST_CASE("plot gives the branches that one request led to no names, and those o
   CHECK_THAT(read(folder.path("r/branch.svg")), ContainsSubstring("−1") && ContainsSubstring(">λ<"));
 }
 
-TEST_CASE("plot draws a curve of special points in the plane of its two parameters", "[plots]") {
+TEST_CASE("plot draws a curve of special points in the plane of its two parameters", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw(folder,
@@ -228,7 +228,7 @@ TEST_CASE(
        {"curve", "amplitude"});
 }
 
-TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots]") {
+TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw(folder,
@@ -241,7 +241,7 @@ TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots]") 
   CHECK_THAT(svg, ContainsSubstring(">ζ<") && ContainsSubstring(">η<") && ContainsSubstring(">fold<"));
 }
 
-TEST_CASE("plot draws responses that fold, and marks the folds", "[plots]") {
+TEST_CASE("plot draws responses that fold, and marks the folds", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   draw(folder,
@@ -251,7 +251,7 @@ TEST_CASE("plot draws responses that fold, and marks the folds", "[plots]") {
   CHECK_THAT(read(folder.path("r/amplitude.svg")), ContainsSubstring(">fold<"));
 }
 
-TEST_CASE("plot leaves out a key that would be empty", "[plots]") {
+TEST_CASE("plot leaves out a key that would be empty", "[plots][outside]") {
   if (!has_gnuplot()) return;
   const TemporaryFolder folder;
   const auto height = [&](const std::string& lambda) {
