@@ -13,6 +13,7 @@
 #include "arcslip/continuation/points/extremum_problem.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
+#include "arcslip/continuation/points/level_problem.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
@@ -99,6 +100,38 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
           fmt::format("curve_through: no curve is made of points of type {}", to_string(point.type)));
   }
   return start;
+}
+
+double above(const Level& level, const Problem& problem, const Vector& u, const Vector& p,
+             const Regime& regime) {
+  const Index which = index_of(observable_names(problem), level.observable);
+  Vector values;
+  problem.observe(u, p, regime, values);
+  return problem.observables()[static_cast<std::size_t>(which)].near(values(which), level.value) -
+         level.value;
+}
+
+UserEvent event_at(const Level& level, const Problem& problem) {
+  const Index which = index_of(observable_names(problem), level.observable);
+  const double period = problem.observables()[static_cast<std::size_t>(which)].period;
+  return {level.observable, [=, &problem](const Vector& u, const Vector& p, const Regime& regime) {
+            const double difference = above(level, problem, u, p, regime);
+            return period > 0 ? std::sin(two_pi / period * difference) : difference;
+          }};
+}
+
+bool is_at(const Level& level, const Problem& problem, const BranchPoint& event) {
+  const Index which = index_of(observable_names(problem), level.observable);
+  const double period = problem.observables()[static_cast<std::size_t>(which)].period;
+  const double difference = above(level, problem, event.unknowns, event.parameters, event.regime);
+  return event.label == level.observable && (period == 0 || std::abs(difference) < 0.25 * period);
+}
+
+CurveStart curve_at(const Level& level, const Problem& base, const std::string& active,
+                    const BranchPoint& point) {
+  return {std::make_unique<LevelProblem>(base, index_of(base.parameter_names(), active),
+                                         index_of(observable_names(base), level.observable), level.value),
+          {point.unknowns, point.parameters, point.regime, {}}};
 }
 
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,

@@ -48,7 +48,7 @@ bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
   for (std::size_t i = 0; i < from_.size(); ++i) {
     const Monitor& a = from_[i];
     const Monitor& b = at_s[i];
-    const double change = b.value - a.value;
+    const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
     const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
     // No more than a factor of two at a time: the observable is wanted as a curve, too.
     if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;

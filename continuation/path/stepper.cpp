@@ -27,7 +27,7 @@ Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index
   gradient_.unknowns.setZero(corrector.size());
   gradient_.parameters.setZero(here_.parameters.size());
   const std::vector<Observable> observables = problem.observables();
-  for (const Index which : tracked_) scales_.push_back(observables[static_cast<std::size_t>(which)].scale);
+  for (const Index which : tracked_) observed_.push_back(observables[static_cast<std::size_t>(which)]);
   past_.reserve(most_past);
   for (std::vector<Monitor>* m : {&at_here_, &from_, &to_, &probed_, &at_beside_})
     m->reserve(tracked_.size() + 8);

@@ -83,8 +83,13 @@ class Checker {
     const std::vector<Observable> observables = problem_.observables();
     for (std::size_t i = 0; i < observables.size(); ++i) {
       if (!observables[i].has_gradient) continue;
-      check_scalar(" " + observables[i].name, [this, i](const Vector& u, const Vector& p, Gradient& g) {
+      const auto value = [this, i](const Vector& u, const Vector& p, Gradient& g) {
         return problem_.observe(u, p, regime_, static_cast<Index>(i), g);
+      };
+      Gradient unused{Vector(u_.size()), Vector(p_.size())};
+      const double here = value(u_, p_, unused);
+      check_scalar(" " + observables[i].name, [&](const Vector& u, const Vector& p, Gradient& g) {
+        return observables[i].near(value(u, p, g), here);
       });
     }
     return report_;
@@ -170,9 +175,16 @@ class Checker {
   template <class Along>
   static Vector errors_of(const Vector& exact, const Along& along) {
     const auto central = [&](double h) -> Vector { return (along(h) - along(-h)) / (2 * h); };
-    constexpr double h = 5e-5;
-    const Vector difference = (4 * central(h) - central(2 * h)) / 3;
-    return (exact - difference).array().abs() / (1 + exact.array().abs());
+    const auto errors_by = [&](double h) -> Vector {
+      const Vector difference = (4 * central(h) - central(2 * h)) / 3;
+      return (exact - difference).array().abs() / (1 + exact.array().abs());
+    };
+    constexpr double wide = 5e-5;
+    constexpr double narrow = 5e-6;  // where the function bends within the wide one, at the price of rounding
+    constexpr double close = 1e-8;
+    Vector errors = errors_by(wide);
+    if (errors.allFinite() && errors.maxCoeff() > close) errors = errors.cwiseMin(errors_by(narrow));
+    return errors;
   }
 
   /// What is not a number is worst.

@@ -235,12 +235,13 @@ std::optional<std::string> find_wrong_derivative(const Problem& problem, const V
     scalar(u, p, gradient);
     return comparison.run(scalar_of(name, gradient, unused, scalar));
   };
-  const std::vector<std::string> names = observable_names(problem);
+  const std::vector<Observable> all = problem.observables();
   for (const Index which : observables) {
-    auto found = compare(names[static_cast<std::size_t>(which)],
-                         [&](const Vector& at_u, const Vector& at_p, Gradient& g) {
-                           return problem.observe(at_u, at_p, regime, which, g);
-                         });
+    const Observable& observable = all[static_cast<std::size_t>(which)];
+    const double here = problem.observe(u, p, regime, which, unused);
+    auto found = compare(observable.name, [&](const Vector& at_u, const Vector& at_p, Gradient& g) {
+      return observable.near(problem.observe(at_u, at_p, regime, which, g), here);
+    });
     if (found) return found;
   }
   for (int border = 0; border < problem.border_count(regime); ++border) {

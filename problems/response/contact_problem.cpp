@@ -20,6 +20,10 @@ double lag(Complex z) {
   return angle <= -pi ? pi : angle;
 }
 
+continuation::Observable angle(const std::string& name) {
+  return {.name = name, .has_gradient = true, .scale = 1, .period = two_pi};
+}
+
 BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse& damper,
                              const HarmonicCoefficient& law, const LogThreshold& threshold) {
   const double k = system.contact_stiffness;

@@ -32,6 +32,10 @@ std::vector<continuation::Observable> ForcedResponse::observables() const {
   std::vector<continuation::Observable> all = ContactProblem::observables();
   for (const Index one : {R, S, R_over_S, Y, U, dissipated})
     all[static_cast<std::size_t>(one)].has_gradient = true;
+  for (const Index one : {beta, alpha, psi}) {
+    continuation::Observable& phase = all[static_cast<std::size_t>(one)];
+    phase = angle(phase.name);
+  }
   for (const ContactOutput& output : system_.outputs) all.push_back({output.name, true});
   return all;
 }
@@ -85,17 +89,23 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, const continuat
   const State at = state(u(0), p, regime);
   const Change log_ratio{1, -at.threshold.by_eta, -at.threshold.by_preload};
   const Change force = system_.contact_stiffness * at.law.phi_log * log_ratio;
-  const auto of = [&](double factor, const Change& change) { (factor * change).put(gradient); };
+  const Complex c = at.base.compliance + at.damper.compliance;
+  const Complex c_eta = at.base.compliance_eta + at.damper.compliance_eta;
+  const Change log_closed = 1.0 / (1.0 + at.force * c) * (c * force + Change{0, at.force * c_eta, 0});
+  const Change log_r = Change{0, at.base.free_eta / at.base.free, 0} + -1.0 * log_closed;
+  const Complex over_r = at.force * at.damper.compliance;  // -u/r
+  const Change by_damper = at.damper.compliance * force + Change{0, at.force * at.damper.compliance_eta, 0};
+  const Change log_over_r = over_r == 0.0 ? Change{} : 1.0 / over_r * by_damper;
+  const auto of = [&](Complex factor, const Change& change) { (factor * change).put(gradient); };
+  constexpr Complex turn(0, 1);  // a lag is -Im of a logarithm
   switch (which) {
     case R: of(values(R), {1, 0, 0}); break;
     case S: of(values(S), {0, at.threshold.by_eta, at.threshold.by_preload}); break;
     case R_over_S: of(values(R_over_S), log_ratio); break;
-    case U: {
-      const Complex over_r = at.force * at.damper.compliance;  // -u/r
-      const Change change = at.damper.compliance * force + Change{0, at.force * at.damper.compliance_eta, 0};
-      of(values(U), over_r == 0.0 ? Change{} : Change{1, 0, 0} + 1.0 / over_r * change);
-      break;
-    }
+    case U: of(values(U), Change{1, 0, 0} + log_over_r); break;
+    case beta: of(turn, log_r + 1.0 / (1.0 + over_r) * by_damper); break;
+    case alpha: of(over_r == 0.0 ? 0.0 : turn, log_r + log_over_r); break;
+    case psi: of(turn, log_r); break;
     case dissipated: of(regime[0] == slip ? 4 * values(R_over_S) : 0, log_ratio); break;
     default: {
       const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
@@ -105,15 +115,10 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, const continuat
       const Complex pull = side * receptance.compliance(1, 0) * r;
       const Complex by_eta = receptance.free_eta(1) + side * receptance.compliance_eta(1, 0) * at.force * r;
       const Complex z = receptance.free(1) + pull * at.force;
-      const Complex c = at.base.compliance + at.damper.compliance;
-      const Complex c_eta = at.base.compliance_eta + at.damper.compliance_eta;
-      const Change log_closed = 1.0 / (1.0 + at.force * c) * (c * force + Change{0, at.force * c_eta, 0});
-      const Change log_r = Change{0, at.base.free_eta / at.base.free, 0} + -1.0 * log_closed;
       // Of ln r the unknown gives the real part.
       const Change turned{Complex(1, log_r.by_log_R.imag()), Complex(0, log_r.by_eta.imag()),
                           Complex(0, log_r.by_preload.imag())};
-      (std::conj(z) / std::abs(z) * (Change{0, by_eta, 0} + pull * (force + at.force * turned)))
-          .put(gradient);
+      of(std::conj(z) / std::abs(z), Change{0, by_eta, 0} + pull * (force + at.force * turned));
     }
   }
   return values(which);

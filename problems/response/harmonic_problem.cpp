@@ -154,7 +154,7 @@ class HarmonicProblem::Observation {
       case Measure::threshold: return threshold(quantity.which, 1);
       case Measure::ratio: return ratio(quantity.which);
       case Measure::amplitude: return amplitude(quantity, 1);
-      case Measure::lag: return lag(phasor(quantity.of, quantity.which, quantity.order));
+      case Measure::lag: return lag_of(quantity);
       case Measure::dissipated: return dissipated(quantity.which);
       case Measure::greatest: return greatest(quantity.of);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
@@ -190,6 +190,12 @@ class HarmonicProblem::Observation {
     const double size = std::abs(z);
     if (size > 0) add(quantity.of, quantity.which, quantity.order, part / size * z);
     return size;
+  }
+
+  double lag_of(const Quantity& quantity) {
+    const Complex z = phasor(quantity.of, quantity.which, quantity.order);
+    if (z != 0.0) add(quantity.of, quantity.which, quantity.order, Complex(0, -1) / std::conj(z));
+    return lag(z);
   }
 
   /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics.
@@ -337,10 +343,11 @@ double HarmonicProblem::border(const Vector& u, const Vector& p, const continuat
 std::vector<continuation::Observable> HarmonicProblem::observables() const {
   std::vector<continuation::Observable> all;
   for (const Quantity& quantity : quantities_) {
+    const bool is_lag = quantity.measure == Measure::lag;
     const bool by_solves =
-        quantity.of == Body::output && system_.outputs[at(quantity.which)].modes.is_solved();
-    const bool is_told = quantity.measure == Measure::lag || quantity.measure == Measure::force;
-    all.push_back({quantity.name, !is_told && !by_solves});
+        quantity.of == Body::output && !is_lag && system_.outputs[at(quantity.which)].modes.is_solved();
+    all.push_back({quantity.name, quantity.measure != Measure::force && !by_solves});
+    if (is_lag) all.back() = angle(quantity.name);
   }
   return all;
 }

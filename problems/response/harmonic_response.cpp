@@ -36,7 +36,8 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                  {"dissipated", Measure::dissipated}};
   add_further_contacts();
   for (const ContactOutput& output : system_.outputs) {
-    quantities_.push_back({output.name, Measure::amplitude, Body::output, &output - system_.outputs.data()});
+    quantities_.push_back({output.name, output.is_lag ? Measure::lag : Measure::amplitude, Body::output,
+                           &output - system_.outputs.data()});
   }
   if (harmonics() == 1) return;
   quantities_.push_back({"R_peak", Measure::greatest});

@@ -69,8 +69,8 @@ std::string describe(const CaseBranch& branch) {
   if (branch.curve) {
     return fmt::format(
         "curve of {} points: {} from {:g} to {:g}, {} from {:g} to {:g}, looked for at {} = {:g}",
-        to_string(branch.curve->type), branch.curve->active, branch.curve->from, branch.curve->to,
-        options.parameter, options.from, options.to, options.parameter, branch.curve->seed);
+        branch.curve->name, branch.curve->active, branch.curve->from, branch.curve->to, options.parameter,
+        options.from, options.to, options.parameter, branch.curve->seed);
   }
   std::string text =
       fmt::format("{} from {:g} to {:g}{}", options.parameter, options.from, options.to, fixed(branch));

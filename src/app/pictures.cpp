@@ -123,9 +123,13 @@ class Decision {
 
   std::vector<Picture> of_curves() const {
     static const std::map<std::string, std::string, std::less<>> lines = {
-        {"fold", "folds"},       {"branch_point", "branch points"},
-        {"hopf", "Hopf points"}, {"peak", "peaks"},
-        {"trough", "troughs"},   {"switch", italic("R") + blank + "=" + blank + italic("S")}};
+        {"fold", "folds"},
+        {"branch_point", "branch points"},
+        {"hopf", "Hopf points"},
+        {"peak", "peaks"},
+        {"trough", "troughs"},
+        {"switch", italic("R") + blank + "=" + blank + italic("S")},
+        {"phase_resonance", "phase resonances"}};
     const Names pair = branch_.at("parameters").get<Names>();
     const std::string type = branch_.at("curve").get<std::string>();
     // Along a curve the parameter turns; extrema are those of the first parameter, or on a ridge its
@@ -138,8 +142,9 @@ class Decision {
       return fmt::format("{}{}of{}{}", kind, blank, blank,
                          is_ridge ? italic(height) : symbol(pair.at(0), is_friction_));
     };
-    const std::string names = quote_all({lines.at(type), "fold", second, "peak", extremum("peak"), "trough",
-                                         extremum("trough"), "user", is_requested_ ? "requested" : ""});
+    const std::string names = quote_all(
+        {type == "level" ? branch_.at("level_of").get<std::string>() : lines.at(type), "fold", second, "peak",
+         extremum("peak"), "trough", extremum("trough"), "user", is_requested_ ? "requested" : ""});
     const bool has_regimes =
         is_friction_ && type != "switch" && branch_.value("response", "") != "limit_cycle";
     const char* style = has_regimes ? "regimes" : "plain";

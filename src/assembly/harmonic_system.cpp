@@ -36,10 +36,12 @@ double static_compliance(const ContactModes& structure, Index dof) {
 ContactSystem build_wave(const SystemParameters& parameters) {
   if (parameters.sectors) return build_contact_system(parameters);
   const FrictionSystem system = build_system(parameters);
-  return {one_contact(system.base),
-          one_contact(system.damper),
-          {{system.contact_stiffness, system.slip_per_preload}},
-          system.outputs};
+  ContactSystem wave{one_contact(system.base),
+                     one_contact(system.damper),
+                     {{system.contact_stiffness, system.slip_per_preload}},
+                     system.outputs};
+  if (parameters.tells_lag) wave.outputs.push_back(driven_motion(wave.base.with_driven_motion()));
+  return wave;
 }
 
 void check(const HarmonicSystem& system) {
@@ -102,6 +104,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
       continue;
     }
     wave.force = 0;
+    wave.tells_lag = false;
     ContactSystem of_order = build_wave(wave);
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));

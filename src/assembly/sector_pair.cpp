@@ -164,6 +164,13 @@ struct Part {
                            });
   }
 
+  ContactModes driven() const {
+    const ContactModes modal = contacts().with_driven_motion();
+    if (solves == nullptr) return modal;
+    return modal.solved_by(
+        [solves = solves, force = force](double eta) { return solves->with_driven_motion(eta, force); });
+  }
+
   void add_outputs(std::vector<ContactOutput>& outputs) const {
     for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
       const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
@@ -232,6 +239,7 @@ ContactSystem build_contact_system(const SystemParameters& parameters) {
   ContactSystem system{base.contacts(), damper ? damper->contacts() : held, parameters.contacts};
   base.add_outputs(system.outputs);
   if (damper) damper->add_outputs(system.outputs);
+  if (parameters.tells_lag) system.outputs.push_back(driven_motion(base.driven()));
   return system;
 }
 

@@ -21,6 +21,10 @@ std::vector<std::string> parameters_of(const ProblemRequest& problem) {
   return problem.response->parameters;
 }
 
+std::vector<std::string> curve_names() {
+  return {"fold", "branch_point", "hopf", "peak", "trough", "switch", "level", "phase_resonance"};
+}
+
 bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
   return branch.problem.model == nullptr;
 }
@@ -35,8 +39,26 @@ void read_parameters(CaseBranch& branch, const TomlSection& section) {
   if (branch.problem.model == nullptr && pair[0] != "eta" && pair[0] != "P" && pair[1] != "eta" &&
       pair[1] != "P")
     section.mismatch("parameters", "\"eta\" or \"P\" as one of them");
+  if (branch.curve->is_backbone() && pair[0] != "eta")
+    section.mismatch("parameters", "\"eta\" and another one: phase resonances are looked for over eta");
   branch.curve->active = pair[0];
   branch.options.parameter = pair[1];
+}
+
+void read_curve(CaseBranch& branch, const TomlSection& section) {
+  static const std::vector<std::string> names = curve_names();
+  CurveRequest& curve = branch.curve.emplace();
+  curve.name = section.text("curve", names);
+  curve.type = continuation::point_type(curve.name).value_or(PointType::event);
+  if (curve.type == PointType::event) curve.level.emplace();
+  if (!curve.is_backbone()) return;
+  if (branch.problem.model != nullptr || branch.problem.response->has_own_frequency())
+    section.fail("curve", "phase_resonance is only of forced and one-way responses");
+  *curve.level = {"lag", 0.5 * pi};
+}
+
+bool is_level(const CaseBranch& branch, const TomlSection& /*section*/) {
+  return branch.curve && branch.curve->name == "level";
 }
 
 void read_window(CaseBranch& branch, const TomlSection& section) {
@@ -99,7 +121,7 @@ const KeyTable<CaseBranch>& branch_keys() {
       only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
   static const auto across = only("only beside curve", is_curve);
   static const auto friction = only("only for systems with friction", of_friction);
-  static const std::vector<std::string> curves = {"fold", "branch_point", "hopf", "peak", "trough", "switch"};
+  static const auto of_level = only("only beside curve = \"level\"", is_level);
   static const auto responses = [] {
     Choices<const ResponseKind*> all;
     for (const ResponseKind& kind : response_kinds()) all.emplace_back(kind.name, &kind);
@@ -108,10 +130,19 @@ const KeyTable<CaseBranch>& branch_keys() {
   static const KeyTable<S> keys{
       {K::choice("response", at(&S::problem, &ProblemRequest::response), responses,
                  "what is asked of a system with friction", "", friction),
-       K::special("curve", one_of(curves), "a curve of such points in two parameters",
-                  [](S& branch, const TomlSection& section) {
-                    branch.curve.emplace().type = *continuation::point_type(section.text("curve", curves));
-                  }),
+       K::special("curve", one_of(curve_names()), "a curve of such points in two parameters", read_curve),
+       K::special(
+           "level_of", "name", "the observable that has a given value along the curve",
+           [](S& branch, const TomlSection& section) {
+             branch.curve->level->observable = section.text("level_of", {});
+           },
+           required, of_level),
+       K::special(
+           "level", "number", "that value; of phases in radians",
+           [](S& branch, const TomlSection& section) {
+             branch.curve->level->value = section.number("level", any_number());
+           },
+           required, of_level),
        K::special(
            "parameter", "name",
            "what varies: eta, P, F, zeta_B, zeta_D, K_FD, M* or gamma, of limit cycles zeta_B or P, of "

@@ -59,6 +59,21 @@ void check_extrema(const TomlSection& branch, const CaseBranch& first) {
   branch.texts("extrema_of", names, fmt::format("names among \"{}\"", fmt::join(names, "\", \"")));
 }
 
+/// Whether a load does work, on a motion that lags behind it.
+bool may_tell_lag(const ProblemRequest& problem) {
+  return problem.model == nullptr && !problem.response->has_own_frequency();
+}
+
+/// Refuses levels of what the problem does not have.
+void check_level(const TomlSection& branch, const CaseBranch& first) {
+  if (!branch.has("level_of")) return;
+  ProblemRequest problem = first.problem;
+  problem.system.tells_lag = may_tell_lag(problem);
+  const std::vector<std::string> names = tracked_observables(problem);
+  if (names.empty()) branch.fail("level_of", "this model has no observables with levels to look for");
+  branch.text("level_of", names);
+}
+
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
 void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::vector<ListedKey>& listed,
                  const CaseBranch& common, const std::string& parameter) {
@@ -216,6 +231,8 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response->one_way;
   branch.problem.system.varied = varied_parameter(section_, branch);
+  branch.problem.system.tells_lag = may_tell_lag(branch.problem) && branch.curve && branch.curve->level &&
+                                    branch.curve->level->observable == "lag";
   if (branch.problem.harmonics_tolerance && branch.problem.response->has_own_frequency())
     system.fail("harmonics", "\"auto\" is not for limit cycles and nonlinear modes");
   if (model_ == nullptr && parameter_ != "eta" &&
@@ -238,6 +255,7 @@ CaseBranch BranchSource::checked() const {
   for (const std::size_t index : for_each_->samples()) branch(index);
   CaseBranch first = branch(0);
   check_extrema(section_, first);
+  check_level(section_, first);
   check_replaced();
   return first;
 }

@@ -13,7 +13,7 @@ std::string why_not_certifiable(const CaseBranch& request) {
     return fmt::format("the model {}, whose equations have no closed enclosure", problem.model->name);
   if (request.curve)
     return fmt::format("a curve of {} points, which has a second equation for what its points are",
-                       to_string(request.curve->type));
+                       request.curve->name);
   if (!problem.response->not_proven.empty())
     return fmt::format("{}, {}", problem.response->title, problem.response->not_proven);
   if (problem.stability)

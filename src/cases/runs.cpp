@@ -117,12 +117,25 @@ std::string why_none(const continuation::Problem& problem, const Branch& branch,
                      second);
 }
 
+/// Whether a point of the branch is one through which a curve is wanted: of phase resonances one at which the
+/// lag rises with eta, as it falls at antiresonances: by the point before, for none begins a branch.
+bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, const BranchPoint& point) {
+  if (point.type != asked.type) return false;
+  if (!asked.level) return true;
+  const auto above = [&](const BranchPoint& at) {
+    return continuation::above(*asked.level, problem, at.unknowns, at.parameters, at.regime);
+  };
+  if (!continuation::is_at(*asked.level, problem, point)) return false;
+  return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
+}
+
 /// The special points on the branch over the first parameter, then the curve through each, but once.
 std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject, const TimeBudget& time,
                                        const continuation::Observer& observer) {
   const CurveRequest& asked = *request->curve;
   continuation::TraceOptions seeking = seed_branch(*request).options;
   seeking.max_seconds = time.rest().max_seconds;
+  if (asked.level) seeking.events.push_back(continuation::event_at(*asked.level, *subject.built.problem));
   const Branch seeds = continuation::trace(*subject.built.problem, subject.guess, seeking);
 
   continuation::TraceOptions options = request->options;
@@ -132,11 +145,12 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
   options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
   std::vector<TracedBranch> curves;
   for (const BranchPoint& seed : seeds.points) {
-    if (seed.type != asked.type) continue;
+    if (!is_seed(asked, *subject.built.problem, seed)) continue;
     const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
     if (std::any_of(curves.begin(), curves.end(), known)) continue;
     continuation::CurveStart start =
-        continuation::curve_through(*subject.built.problem, asked.active, seed, observable);
+        asked.level ? continuation::curve_at(*asked.level, *subject.built.problem, asked.active, seed)
+                    : continuation::curve_through(*subject.built.problem, asked.active, seed, observable);
     const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
     const Clock::time_point begun = Clock::now();
     options.max_seconds = time.rest().max_seconds;
@@ -155,7 +169,7 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
   Subject none = subject;
   if (!seeds.complete()) none.stop = seeds.stop;
   return {unstarted(request, none,
-                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", to_string(asked.type),
+                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", asked.name,
                                 asked.active, asked.from, asked.to, options.parameter, asked.seed,
                                 seeds.complete() ? why_none(*subject.built.problem, seeds, options.parameter)
                                                  : ": " + seeds.explanation))};
@@ -165,17 +179,17 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
 
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance) {
   return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance ||
-         system.has_others() || !system.varied.empty();
+         system.has_others() || !system.varied.empty() || system.tells_lag;
 }
 
 Built build(const ProblemRequest& request) {
   return request.model != nullptr ? build_library(request) : request.response->build(request);
 }
 
-std::vector<std::string> tracked_observables(const ProblemRequest& request) {
+std::vector<std::string> tracked_observables(const ProblemRequest& request, bool with_phases) {
   std::vector<std::string> names;
   for (const continuation::Observable& observable : build(request).problem->observables()) {
-    if (observable.has_gradient) names.push_back(observable.name);
+    if (observable.has_gradient && (with_phases || observable.period == 0)) names.push_back(observable.name);
   }
   return names;
 }

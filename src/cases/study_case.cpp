@@ -95,7 +95,7 @@ StudyCase read_study(const CaseFile& file) {
   for (const std::size_t index : source->for_each->samples()) study.design(index);
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
   if (section.has("objective"))
-    study.objective = section.text("objective", tracked_observables(study.design(0).problem()));
+    study.objective = section.text("objective", tracked_observables(study.design(0).problem(), false));
   study.resolved = resolve(*source, study);
   return study;
 }

@@ -16,7 +16,21 @@ SectorResponse not_finite(Index contacts, Index outputs) {
           ComplexMatrix::Constant(outputs, contacts, unknown),
           ComplexVector::Constant(outputs, unknown),
           ComplexMatrix::Constant(contacts + 1, contacts + 1, unknown),
+          ComplexVector::Constant(contacts + 1, unknown),
           ComplexVector::Constant(contacts + 1, unknown)};
+}
+
+/// With room for a further motion.
+ContactReceptance with_one_more(const SectorResponse& found, double force) {
+  const Index m = found.free.size();
+  ContactReceptance receptance{
+      ContactMatrix::Constant(m + 1, m + 1, unknown), ContactMatrix::Constant(m + 1, m + 1, unknown),
+      ContactVector::Constant(m + 1, unknown), ContactVector::Constant(m + 1, unknown)};
+  receptance.compliance.topLeftCorner(m, m) = found.compliance;
+  receptance.compliance_eta.topLeftCorner(m, m) = found.compliance_eta;
+  receptance.free.head(m) = force * found.free;
+  receptance.free_eta.head(m) = force * found.free_eta;
+  return receptance;
 }
 
 }  // namespace
@@ -42,12 +56,20 @@ ContactReceptance FullReceptance::at(double eta, double force) const {
 ContactReceptance FullReceptance::with_output(Index output, double eta, double force) const {
   const SectorResponse found = response(eta);
   const Index m = found.free.size();
-  ContactReceptance receptance{ContactMatrix::Constant(m + 1, m + 1, unknown),
-                               ContactMatrix::Constant(m + 1, m + 1, unknown), ContactVector(m + 1),
-                               ContactVector::Constant(m + 1, unknown)};
-  receptance.compliance.topLeftCorner(m, m) = found.compliance;
+  ContactReceptance receptance = with_one_more(found, force);
   receptance.compliance.row(m).head(m) = found.output_compliance.row(output);
-  receptance.free << force * found.free, force * found.output_free(output);
+  receptance.free(m) = force * found.output_free(output);
+  return receptance;
+}
+
+ContactReceptance FullReceptance::with_driven_motion(double eta, double force) const {
+  const SectorResponse found = response(eta);
+  const Index m = found.free.size();
+  ContactReceptance receptance = with_one_more(found, force);
+  receptance.compliance.row(m).head(m) = force * found.load_motion.head(m).transpose();
+  receptance.compliance_eta.row(m).head(m) = force * found.load_motion_eta.head(m).transpose();
+  receptance.free(m) = force * force * found.load_motion(m);
+  receptance.free_eta(m) = force * force * found.load_motion_eta(m);
   return receptance;
 }
 

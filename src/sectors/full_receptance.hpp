@@ -26,6 +26,10 @@ class FullReceptance {
   /// does nor any derivative: these are nan.
   ContactReceptance with_output(Index output, double eta, double force) const;
 
+  /// The same with the motion F^H d that the load does work on after the contacts, and its derivatives; what
+  /// a force on it does is nan.
+  ContactReceptance with_driven_motion(double eta, double force) const;
+
   /// Of that response under `forces` on the contacts as well.
   CycleWork work(double eta, double force, const ContactVector& forces) const;
 

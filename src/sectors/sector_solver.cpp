@@ -19,7 +19,7 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
   const auto p = std::ssize(outputs_);
   right_.resize(reduction_.size(), m + 1);
   product_.resize(reduction_.size(), m + 1);
-  left_.resize(reduction_.size(), m);
+  left_.resize(reduction_.size(), m + 1);
   response_ = {ComplexMatrix(m, m),
                ComplexMatrix(m, m),
                ComplexVector(m),
@@ -27,6 +27,7 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
                ComplexMatrix(p, m),
                ComplexVector(p),
                ComplexMatrix(m + 1, m + 1),
+               ComplexVector(m + 1),
                ComplexVector(m + 1)};
   factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
 }
@@ -57,13 +58,14 @@ void SectorSolver::assemble(double eta) {
 
 void SectorSolver::set_right_hand_sides() {
   left_.setZero();
-  for (Index i = 0; i < left_.cols(); ++i) left_(contacts_[static_cast<std::size_t>(i)], i) = 1;
-  right_.leftCols(left_.cols()) = left_;
+  for (Index i = 0; i < contacts(); ++i) left_(contacts_[static_cast<std::size_t>(i)], i) = 1;
+  right_ = left_;
   right_.rightCols<1>() = reduction_.load();
+  left_.rightCols<1>() = reduction_.load().conjugate();
 }
 
 void SectorSolver::collect() {
-  const Index m = left_.cols();
+  const Index m = contacts();
   for (Index i = 0; i < m; ++i) {
     const Index dof = contacts_[static_cast<std::size_t>(i)];
     response_.compliance.row(i) = right_.row(dof).head(m);
@@ -76,8 +78,9 @@ void SectorSolver::collect() {
     response_.output_free(i) = factor * right_(reduction_.reduced_dof(dof), m);
   }
   product_.noalias() = slope_ * right_;
-  response_.compliance_eta.noalias() = -left_.transpose() * product_.leftCols(m);
-  response_.free_eta.noalias() = -left_.transpose() * product_.col(m);
+  response_.compliance_eta.noalias() = -left_.leftCols(m).transpose() * product_.leftCols(m);
+  response_.free_eta.noalias() = -left_.leftCols(m).transpose() * product_.col(m);
+  response_.load_motion_eta.noalias() = -product_.transpose() * left_.col(m);
 }
 
 /// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian.

@@ -28,6 +28,15 @@ ContactModes ContactModes::solved_by(Receptance receptance, ReceptanceWork work)
   return solved;
 }
 
+ContactModes ContactModes::with_driven_motion() const {
+  std::vector<ContactMode> driven = modes_;
+  for (ContactMode& mode : driven) {
+    mode.shape.conservativeResize(contacts_ + 1);
+    mode.shape(contacts_) = std::conj(mode.load);
+  }
+  return {contacts_ + 1, std::move(driven), loss_};
+}
+
 void invert(ContactMatrix& a) {
   const Index m = a.rows();
   std::array<Index, most_contacts> rows;
@@ -162,6 +171,8 @@ ContactModes ContactModes::varied(const Variation& at) const {
       },
       receptance_work_);
 }
+
+ContactOutput driven_motion(ContactModes base) { return {"lag", std::move(base), true, true}; }
 
 double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
   const Index m = forces.size();

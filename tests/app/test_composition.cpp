@@ -172,6 +172,45 @@ void check_mode(Cells& cells) {
   CHECK(mode.text(mode.rows.size() - 1, "regime") != "stick");
 }
 
+/// A force that the damping of the kind can take in: one that friction does not hold feeds an unstable base.
+double drawn_force(const Cells& cells) { return cells.kind().name == "negative damping" ? 0.2 : 1; }
+std::string drawn_system(const Cells& cells) {
+  return cells.with("force = 1.0", fmt::format("force = {}", drawn_force(cells)));
+}
+
+Outcome run_backbone(Cells& cells) {
+  return cells.run("run", drawn_system(cells) +
+                              fmt::format("[branch]\ncurve = \"phase_resonance\"\nparameters = [\"eta\", "
+                                          "\"F\"]\nwindow = [{}, {}]\nfrom = {}\nto = {}\n",
+                                          cells.kind().low, cells.kind().high, 0.5 * drawn_force(cells),
+                                          2 * drawn_force(cells)));
+}
+
+/// The load does nothing but work, and the response under the force of the system is there where the curve
+/// is.
+void check_backbone(Cells& cells) {
+  const Table curve = cells.results();
+  std::vector<std::pair<double, double>> met;  // eta and Y
+  for (std::size_t i = 0; i < curve.rows.size(); ++i) {
+    CHECK_THAT(curve(i, "lag"), Catch::Matchers::WithinRel(0.5 * pi, 1e-7));
+    if (std::abs(curve(i, "F") / drawn_force(cells) - 1) < 1e-12)
+      met.emplace_back(curve(i, "eta"), curve(i, "Y"));
+  }
+  std::size_t found = 0;
+  for (const auto& [eta, Y] : met) {
+    require_done(cells.run("run", cells.response(fmt::format("[continuation]\nstop_at = [{:.17g}]\n", eta),
+                                                 drawn_system(cells))));
+    const Table response = cells.results();
+    const auto rows = response.of_type("user");
+    found += static_cast<std::size_t>(std::any_of(rows.begin(), rows.end(), [&, Y = Y](std::size_t row) {
+      return std::abs(response(row, "Y") / Y - 1) < 1e-7;
+    }));
+  }
+  const bool may_be_apart = cells.kind().name == "negative damping";  // from the response with the least Y
+  CHECK(found >= 1);
+  CHECK((may_be_apart || found == met.size()));
+}
+
 /// Near the eta of the kind, for spectra are dear.
 Outcome run_stability(Cells& cells) {
   return cells.run(
@@ -250,6 +289,7 @@ std::vector<Task> tasks() {
           {"limit cycle", run_cycle, check_cycle},
           {"one-way", one_way, check_one_way},
           {"mode", run_mode, check_mode},
+          {"phase resonance", run_backbone, check_backbone},
           {"stability", run_stability, check_stability},
           {"`--certify`", asked("", "--certify"), check_certificate},
           {"`--verify`", verified, check_verified},

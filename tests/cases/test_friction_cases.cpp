@@ -129,3 +129,13 @@ TEST_CASE("Stops open the folds that their case tells, and the least force that 
   REQUIRE(cusps.size() == 1);
   CHECK_THAT(value(curve.traced[0], cusps[0], "F"), WithinRel(0.12264984297815, 1e-8));
 }
+
+TEST_CASE("The backbone has its highest frequency where the contact lets go, then its lowest", "[cases]") {
+  const Run backbone("backbone");
+  REQUIRE(backbone.traced.size() == 1);
+  const TracedBranch& curve = backbone.traced[0];
+  check(curve, PointType::regime_switch, {{{"eta", 1.74507173}, {"F", 0.00468185962}}});
+  check(curve, PointType::trough, {{{"eta", 1.52096643}, {"F", 0.740667911}}});
+  for (const BranchPoint& point : curve.branch.points)
+    CHECK_THAT(value(curve, point, "lag"), WithinRel(0.5 * pi, 1e-9));
+}

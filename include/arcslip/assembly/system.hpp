@@ -65,6 +65,7 @@ struct SystemParameters {
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
 
   std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued
+  bool tells_lag = false;   ///< whether the lag of the motion that the load does work on is wanted
 
   /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
   /// contact, and no ratio, cubic stiffness or fixed damper counts.

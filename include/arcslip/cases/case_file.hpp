@@ -19,12 +19,17 @@ namespace arcslip {
 
 /// A curve of special points in two parameters.
 struct CurveRequest {
-  continuation::PointType type;      ///< of the special points
-  std::string active;                ///< the first parameter, in which they are looked for at first
-  continuation::CurveWindow window;  ///< its range
-  double from = 0;                   ///< the end of the range at which the search begins
-  double to = 0;                     ///< the other end
-  double seed = 0;                   ///< value of the second parameter at which they are looked for
+  std::string name;              ///< what the case file calls it
+  continuation::PointType type;  ///< of the special points; `event` where an observable has a value
+  std::optional<continuation::Level> level;  ///< that value
+  std::string active;                        ///< the first parameter, in which they are looked for at first
+  continuation::CurveWindow window;          ///< its range
+  double from = 0;                           ///< the end of the range at which the search begins
+  double to = 0;                             ///< the other end
+  double seed = 0;                           ///< value of the second parameter at which they are looked for
+
+  /// Whether it is a backbone: what the load does work on lags by a quarter of a period, as at a resonance.
+  bool is_backbone() const { return name == "phase_resonance"; }
 };
 
 /// The problem that a branch belongs to: one of the library's, or a system with friction.

@@ -22,8 +22,8 @@ struct Subject {
   continuation::Stop stop = continuation::Stop::no_start;  ///< what ended the search for it
 };
 
-/// The observables of which `extrema_of` may ask for the extrema.
-std::vector<std::string> tracked_observables(const ProblemRequest& request);
+/// The observables of which `extrema_of` may ask for the extrema, phases among them or not.
+std::vector<std::string> tracked_observables(const ProblemRequest& request, bool with_phases = true);
 
 /// The value of a parameter that is not continued.
 double fixed_value(const ProblemRequest& problem, const std::string& parameter);

@@ -27,7 +27,8 @@ struct SectorResponse {
   ComplexMatrix output_compliance;  ///< p x m: motion of the outputs per force on a contact
   ComplexVector output_free;        ///< p: motion of the outputs without contact
   ComplexMatrix damping;  ///< X^H Im Z X, m+1 x m+1, X = [X_r, Z^{-1} F]: by pi what damping takes a cycle
-  ComplexVector load_motion;  ///< m+1: X^T F*, the motion F^H d that the load does work on
+  ComplexVector load_motion;      ///< m+1: X^T F*, the motion F^H d that the load does work on
+  ComplexVector load_motion_eta;  ///< its derivative
 };
 
 /// Serves one thread. Owns all that it needs of the sector.
@@ -65,7 +66,7 @@ class SectorSolver {
   ComplexSparseMatrix dynamic_stiffness_;  // Z
   ComplexSparseMatrix slope_;              // dZ/deta
   ComplexMatrix right_;                    // X_r and Z^{-1} F
-  ComplexMatrix left_;                     // X_l
+  ComplexMatrix left_;                     // X_l and Z^{-T} F*
   ComplexMatrix product_;                  // Z' or Im Z times `right_`
   SectorResponse response_;
   std::unique_ptr<ComplexFactors> factors_;

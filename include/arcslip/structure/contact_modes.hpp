@@ -83,6 +83,10 @@ class ContactModes {
   /// Without `work` of its own, none may be asked for.
   ContactModes solved_by(Receptance receptance, ReceptanceWork work = {}) const;
 
+  /// With the motion that the load does work on, F^H d, as that of a further contact after all others. Of
+  /// modes alone: what is solved for has to be solved for anew.
+  ContactModes with_driven_motion() const;
+
   /// The same modes with another loss.
   ContactModes with(const Loss& loss) const { return {contacts_, modes_, loss}; }
 
@@ -129,13 +133,17 @@ struct SectorContact {
 /// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
 /// others.
 struct ContactOutput {
-  std::string name;    ///< the column's
-  ContactModes modes;  ///< of its structure, the output as its last contact
-  bool on_base;        ///< or on the damper
+  std::string name;     ///< the column's
+  ContactModes modes;   ///< of its structure, the output as its last contact
+  bool on_base;         ///< or on the damper
+  bool is_lag = false;  ///< its lag behind the load is wanted in place of its amplitude
 
   /// Under the load and the forces on the contact dofs of its structure.
   double amplitude(double eta, const ContactVector& forces) const;
 };
+
+/// That of the motion that the load does work on, of a base with it: its lag behind the load.
+ContactOutput driven_motion(ContactModes base);
 
 /// Base, damper and the interface between their contacts.
 struct ContactSystem {

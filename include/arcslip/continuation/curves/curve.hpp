@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves of special points in two parameters: folds, branch points, Hopf points, extrema, borders.
+// Curves of special points in two parameters: folds, branch points, Hopf points, extrema, borders, levels.
 
 #include <memory>
 #include <string>
@@ -21,6 +21,25 @@ struct CurveStart {
 /// parameter. Throws std::invalid_argument for a point of another type.
 CurveStart curve_through(const Problem& base, const std::string& active, const BranchPoint& point,
                          const std::string& observable = {});
+
+/// A value of an observable.
+struct Level {
+  std::string observable;  ///< by name, one with a gradient
+  double value;            ///< of an angle, but for whole turns
+};
+
+/// The observable less that value, at a point; of an angle, from half a turn less to half a turn more.
+double above(const Level& level, const Problem& problem, const Vector& u, const Vector& p,
+             const Regime& regime);
+
+/// An event of a branch that has that value, or of an angle one that is half a turn beside it; and whether a
+/// point where it happened has the value itself. The problem is kept by reference.
+UserEvent event_at(const Level& level, const Problem& problem);
+bool is_at(const Level& level, const Problem& problem, const BranchPoint& event);
+
+/// The curve through a point of a branch that has that value. It goes through the regimes.
+CurveStart curve_at(const Level& level, const Problem& base, const std::string& active,
+                    const BranchPoint& point);
 
 /// Locates the special point next to `start` at its other parameters, and traces the curve through it both
 /// ways while `options.parameter` stays between `from` and `to` and the active parameter within the window.

@@ -91,7 +91,7 @@ class Stepper {
 
   /// What changes of a tracked observable are measured in, where it has this value.
   double size_of(std::size_t observable, double value) const {
-    return std::max(scales_[observable], std::abs(value));
+    return std::max(observed_[observable].scale, std::abs(value));
   }
 
   /// Change of the parameter over the step's coordinate at both ends.
@@ -183,7 +183,7 @@ class Stepper {
   const Problem& problem_;
   Corrector& corrector_;
   std::vector<Index> tracked_;
-  std::vector<double> scales_;  // of those tracked
+  std::vector<Observable> observed_;  // those tracked
   double max_step_;
   bool pairs_;  // of branch points are looked for
   Tolerances tolerances_;

@@ -3,6 +3,7 @@
 // The problems that the engine traces: F(u, p) = 0 with n unknowns u and named parameters p, smooth within
 // each of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,12 @@ struct Observable {
   std::string name;           ///< as TraceOptions::extrema_of and tables have it
   bool has_gradient = false;  ///< without it its extrema are not looked for
   double scale = 0;           ///< changes are measured in its value, or in this where that is smaller
+  double period = 0;          ///< values that differ by it are the same, as of an angle; 0 if none do
+
+  /// A value, or the one that is the same and nearest to another.
+  double near(double value, double other) const {
+    return period > 0 ? other + std::remainder(value - other, period) : value;
+  }
 };
 
 /// Only the first three have to be written. All are called from several threads and must not change the

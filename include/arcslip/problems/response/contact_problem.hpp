@@ -34,6 +34,9 @@ BaseAmplitude base_amplitude(const FrictionSystem& system, const ContactResponse
 /// Phase of a motion behind the excitation, in (-pi, pi].
 double lag(Complex z);
 
+/// The observable that such a phase is.
+continuation::Observable angle(const std::string& name);
+
 /// d ln|y_0|/deta.
 inline double log_free_by_eta(const ContactResponse& base) {
   return std::real(base.free_eta * std::conj(base.free)) / std::norm(base.free);

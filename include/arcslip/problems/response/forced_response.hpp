@@ -29,7 +29,7 @@ class ForcedResponse : public ContactProblem {
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
 
-  /// Those of every contact problem, then the amplitudes of the system's outputs. All but the phases have
+  /// Those of every contact problem, then the amplitudes of the system's outputs. All have
   /// gradients.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,

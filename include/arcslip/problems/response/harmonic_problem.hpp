@@ -34,7 +34,7 @@ class HarmonicProblem : public continuation::Problem {
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
 
-  /// Amplitudes, ratios and energies have gradients, but for the outputs of sectors that are solved for.
+  /// All but synthesised forces have gradients, and the amplitudes of outputs of sectors that are solved for.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
