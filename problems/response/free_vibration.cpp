@@ -11,9 +11,11 @@ struct FreeVibration::Order {
   ContactMatrix compliance;  // C_h
   ContactMatrix compliance_eta;
   ContactMatrix compliance_damping;
+  ContactMatrix compliance_varied;
   double norm = 1;  // 1 + |C_B K|^2 + |C_D K|^2, of the terms that may cancel in C_h K
   double norm_eta = 0;
   double norm_damping = 0;
+  double norm_varied = 0;
 };
 
 /// The unknowns that are no motion stand in front.
@@ -24,7 +26,8 @@ double FreeVibration::length(const Vector& u, const Vector& p) const {
 FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Vector& p,
                                           const continuation::Regime& regime) const {
   const Index m = coordinates_.size();
-  Order order{which, ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m), ContactMatrix::Zero(m, m)};
+  const ContactMatrix none = ContactMatrix::Zero(m, m);
+  Order order{which, none, none, none, none};
   if (all_stick(regime) && which > 0 && !coordinates_.has_others())
     return order;  // x_h = 0, also at a resonance of C_h
   const auto add = [&](const ContactModes& structure, bool is_base) {
@@ -41,6 +44,17 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
     order.compliance += compliance;
     order.compliance_eta += by_eta;
     order.compliance_damping += by_damping;
+    if (is_varied()) {
+      const ContactMatrix by_varied = in_coordinates(found.by_varied);
+      order.compliance_varied += by_varied;
+      const SystemParameter::At varied = variation(u, p);
+      for (Index j = 0; j < m; ++j) {
+        const double square = std::pow(reference_stiffness(j, u, p), 2);
+        order.norm_varied += 2 * square *
+                             (std::real(compliance.col(j).dot(by_varied.col(j))) +
+                              log_force_rate(j, varied) * compliance.col(j).squaredNorm());
+      }
+    }
     for (Index j = 0; j < m; ++j) {
       const double square = std::pow(reference_stiffness(j, u, p), 2);
       order.norm += square * compliance.col(j).squaredNorm();
@@ -55,7 +69,8 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
 
 bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
-  if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 && load(u, p) > 0))
+  if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 &&
+        (!is_varied() || system_.varied->allows(value(layout_.varied, u, p))) && pressing(u, p) > 0))
     return false;
   for (Index i = 1; i < switch_count(); ++i) {
     if (slips(regime, i) && motion(u, p, i).isZero(0)) return false;
@@ -100,9 +115,22 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
     by_eta += order.compliance_eta(coordinate, j) * force;
     by_damping += order.compliance_damping(coordinate, j) * force;
   }
-  const Complex by_load = by_log_load / load(u, p);
+  if (is_varied()) {
+    const SystemParameter::At varied = variation(u, p);
+    Complex by_varied = -residual * (0.5 * order.norm_varied / order.norm);
+    for (Index j = 0; j < coordinates_.size(); ++j) {
+      const ElementForce& element = elements[at(j)];
+      Complex force_rate = element.by_log_load(order.which) * log_load_rate(j, u, p) +
+                           element.harmonics(order.which) * log_force_rate(j, varied);
+      if (element.by_setting.size() > 0) force_rate += element.by_setting(order.which);
+      by_varied += order.compliance_varied(coordinate, j) * element.harmonics(order.which) +
+                   order.compliance(coordinate, j) * force_rate;
+    }
+    store_at(layout_.varied, by_varied);
+  }
+  const Complex by_load = by_log_load / pressing(u, p);
   store_at(layout_.preload, by_load);
-  store_at(layout_.eta, by_eta + by_load * (2 * system_.preload_growth * frequency(u, p)));
+  store_at(layout_.eta, by_eta + by_load * (2 * growth(u, p) * frequency(u, p)));
   store_at(layout_.damping, by_damping);
 
   const Complex shrink = residual / (size * size);

@@ -29,6 +29,7 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
                  {"Y", Measure::amplitude, Body::base},
                  {"U", Measure::amplitude, Body::damper},
                  {"dissipated", Measure::dissipated}};
+  if (system_.varied) layout_.varied = {Place::parameters, further};
   add_further_contacts();
   add_higher_harmonics();
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
@@ -48,7 +49,8 @@ bool HarmonicCycle::evaluate(const Vector& u, const Vector& p, const continuatio
 void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   unknowns.setConstant(length(u, p));
   unknowns(eta) = u(eta);
-  parameters << std::max(std::abs(p(zeta)), zeta_scale_), p(preload);
+  parameters.head<2>() << std::max(std::abs(p(zeta)), zeta_scale_), p(preload);
+  if (is_varied()) parameters(further) = varied_scale(u, p);
 }
 
 std::optional<continuation::Regime> HarmonicCycle::regime_beyond(const continuation::Regime& regime,
@@ -104,6 +106,14 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
     guess.unknowns = solution.unknowns;
     if (crossed_border(guess) < 0) found.push_back({std::move(guess), at_a > 0});
   }
+}
+
+Guess HarmonicCycle::guess(const Vector& parameters, const continuation::TraceOptions& limits) const {
+  if (!is_varied()) return guess(parameters(zeta), parameters(preload), limits);
+  const HarmonicCycle fixed(at_value(system_, parameters(further)));
+  Guess guess = fixed.guess(parameters(zeta), parameters(preload), limits);
+  guess.parameters = parameters;
+  return guess;
 }
 
 Guess HarmonicCycle::guess(double zeta_value, double preload_value,

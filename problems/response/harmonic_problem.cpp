@@ -53,8 +53,9 @@ const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const 
   last.of_elements.resize(at(coordinates_.size()));
   for (Index i = 0; i < coordinates_.size(); ++i) {
     ElementForce& force = last.of_elements[at(i)];
-    coordinates_.element(i).force(system_.orders, motion(u, p, i), load(u, p), slips(regime, i), derivatives,
-                                  force);
+    with_element(i, u, p, [&](const Element& element) {
+      element.force(system_.orders, motion(u, p, i), load(i, u, p), slips(regime, i), derivatives, force);
+    });
     if (const double factor = force_factor(i, u, p); factor != 1) force.scale(factor, derivatives);
   }
   return last.of_elements;
@@ -70,44 +71,68 @@ OddMotion::Maximum HarmonicProblem::maximum(const Vector& u, const Vector& p, In
   return OddMotion(system_.orders, x).maximum();
 }
 
+/// What the damping of the layout makes of a structure, and the rates by it and, of what varies it, through
+/// it.
+void HarmonicProblem::set_damping(bool is_base, const Vector& u, const Vector& p, Variation& here,
+                                  Variation& by_varied, Variation& by_damping) const {
+  const double zeta = value(layout_.damping, u, p);
+  by_damping = Variation::none();
+  if (!layout_.of_base) {
+    by_damping.loss = {.mass = 1};
+    here.loss = here.loss + Loss{.mass = -2 * zeta * frequency(u, p)};
+  } else if (is_base) {
+    Loss per_zeta = system_.base_loss_per_zeta;
+    if (is_varied()) {
+      const auto [at, rate] = variation(u, p);
+      by_varied.loss = {.viscous = zeta * per_zeta.viscous * rate.base_viscous};
+      per_zeta.viscous *= at.base_viscous;
+    }
+    by_damping.loss = per_zeta;
+    here.loss = system_.base_loss_fixed + zeta * per_zeta;
+  }
+}
+
 void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index order, const Vector& u,
                               const Vector& p, Response& response) const {
   const double h = system_.orders[at(order)];
   const double eta = frequency(u, p);
-  if (layout_.damping.of == Place::nowhere) {
-    if (is_varied()) {
-      const auto [here, rate] = variation(u, p);
-      const VariedReceptance found = is_base ? structure.varied(h * eta, here.base, rate.base)
-                                             : structure.varied(h * eta, here.damper, rate.damper);
-      static_cast<ContactReceptance&>(response) = found;
-      response.by_varied = found.compliance_rate;
-      response.free_by_varied = found.free_rate;
-    } else {
-      static_cast<ContactReceptance&>(response) = structure.at(h * eta);
-    }
+  const bool is_damped = layout_.damping.of != Place::nowhere;
+  Variation here{.loss = structure.loss()};
+  Variation by_varied = Variation::none();
+  if (is_varied()) {
+    const SystemParameter::At varied = variation(u, p);
+    here = is_base ? varied.here.base : varied.here.damper;
+    by_varied = is_base ? varied.rate.base : varied.rate.damper;
+  }
+  if (!is_damped && !is_varied()) {
+    static_cast<ContactReceptance&>(response) = structure.at(h * eta);
     response.compliance_eta *= h;
     response.free_eta *= h;
     return;
   }
-  const double zeta = value(layout_.damping, u, p);
-  Loss loss = structure.loss();
-  Loss rate{.mass = 1};
-  if (!layout_.of_base) {
-    loss = loss + Loss{.mass = -2 * zeta * eta};
-  } else if (is_base) {
-    rate = system_.base_loss_per_zeta;
-    loss = system_.base_loss_fixed + zeta * rate;
-  } else {
-    rate = {};
-  }
-  Variation along = Variation::none();
-  along.loss = rate;
-  const VariedReceptance found = structure.varied(h * eta, {.loss = loss}, along);
-  response.set_zero(structure.contacts());
-  response.compliance = found.compliance;
-  response.compliance_eta = h * found.compliance_eta;
-  if (!layout_.of_base) response.compliance_eta -= 2 * zeta * found.compliance_rate;
-  response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * found.compliance_rate;
+  Variation by_damping;
+  if (is_damped) set_damping(is_base, u, p, here, by_varied, by_damping);
+  const VariedReceptance found = structure.varied(h * eta, here, is_varied() ? by_varied : by_damping);
+  static_cast<ContactReceptance&>(response) = found;
+  response.compliance_eta *= h;
+  response.free_eta *= h;
+  response.by_varied = found.compliance_rate;
+  response.free_by_varied = found.free_rate;
+  if (!is_damped) return;
+  const ContactMatrix by_loss =
+      is_varied() ? structure.varied(h * eta, here, by_damping).compliance_rate : found.compliance_rate;
+  if (!layout_.of_base) response.compliance_eta -= 2 * value(layout_.damping, u, p) * by_loss;
+  response.by_damping = (layout_.of_base ? 1.0 : -2 * eta) * by_loss;
+}
+
+double HarmonicProblem::varied_scale(const Vector& u, const Vector& p) const {
+  constexpr double small = 1e-3;  // of the system's own value: what may cross zero has no size of its own
+  const double eta = frequency(u, p);
+  const double least = system_.varied->kind == SystemParameter::Kind::growth
+                           ? value(layout_.preload, u, p) / (eta * eta)
+                           : small * std::abs(system_.varied->value);
+  const double size = std::max(std::abs(value(layout_.varied, u, p)), least);
+  return size > 0 ? size : 1;
 }
 
 HarmonicProblem::Place HarmonicProblem::place_of(Index unknown) const {
@@ -120,12 +145,12 @@ void HarmonicProblem::add(const Place& place, double value, continuation::Gradie
   (place.of == Place::unknowns ? gradient.unknowns : gradient.parameters)(place.index) += value;
 }
 
-void HarmonicProblem::add_log_load(double value, const Vector& u, const Vector& p,
+void HarmonicProblem::add_log_load(double value, Index coordinate, const Vector& u, const Vector& p,
                                    continuation::Gradient& gradient) const {
   const double by_load = value / pressing(u, p);
   add(layout_.preload, by_load, gradient);
-  add(layout_.eta, 2 * system_.preload_growth * frequency(u, p) * by_load, gradient);
-  if (is_varied()) add(layout_.varied, value * variation(u, p).log_slip_rate(), gradient);
+  add(layout_.eta, 2 * growth(u, p) * frequency(u, p) * by_load, gradient);
+  if (is_varied()) add(layout_.varied, value * log_load_rate(coordinate, u, p), gradient);
 }
 
 int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
@@ -171,7 +196,7 @@ class HarmonicProblem::Observation {
   /// S of a contact, with so much of its gradient.
   double threshold(Index contact, double part) {
     const double S = problem_.slip_threshold(contact, u_, p_);
-    add_log_load(part * S);
+    add_log_load(part * S, contact);
     return S;
   }
 
@@ -274,8 +299,9 @@ class HarmonicProblem::Observation {
       const Complex conjugate = w * element.conjugate(order, b);
       add_motion(coordinate, b, {std::real(linear + conjugate), -std::imag(linear - conjugate)});
     }
-    add_log_load(std::real(w * element.by_log_load(order)));
+    add_log_load(std::real(w * element.by_log_load(order)), coordinate);
     add_log_force(coordinate, std::real(w * element.harmonics(order)));
+    if (element.by_setting.size() > 0) add(problem_.layout_.varied, std::real(w * element.by_setting(order)));
   }
 
   /// What is `value` times a change of the logarithm of the factor on a force.
@@ -284,8 +310,8 @@ class HarmonicProblem::Observation {
     add(problem_.layout_.varied, value * problem_.log_force_rate(coordinate, problem_.variation(u_, p_)));
   }
 
-  void add_log_load(double value) {
-    if (gradient_ != nullptr) problem_.add_log_load(value, u_, p_, *gradient_);
+  void add_log_load(double value, Index coordinate) {
+    if (gradient_ != nullptr) problem_.add_log_load(value, coordinate, u_, p_, *gradient_);
   }
   void add(const Place& place, double value) {
     if (gradient_ != nullptr) HarmonicProblem::add(place, value, *gradient_);
@@ -326,8 +352,9 @@ class HarmonicProblem::Observation {
 
 double HarmonicProblem::border(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                int border, continuation::Gradient* gradient) const {
-  const StateBorder at_border = coordinates_.element(border).border(system_.orders, maximum(u, p, border),
-                                                                    load(u, p), slips(regime, border));
+  const StateBorder at_border = with_element(border, u, p, [&](const Element& element) {
+    return element.border(system_.orders, maximum(u, p, border), load(border, u, p), slips(regime, border));
+  });
   if (gradient == nullptr) return at_border.value;
   gradient->unknowns.setZero();
   gradient->parameters.setZero();
@@ -336,7 +363,8 @@ double HarmonicProblem::border(const Vector& u, const Vector& p, const continuat
     add(place_of(place), at_border.by_motion(a).real(), *gradient);
     add(place_of(place + 1), at_border.by_motion(a).imag(), *gradient);
   }
-  add_log_load(at_border.by_log_load, u, p, *gradient);
+  add_log_load(at_border.by_log_load, border, u, p, *gradient);
+  if (coordinates_[border].varied) add(layout_.varied, at_border.by_setting, *gradient);
   return at_border.value;
 }
 

@@ -46,12 +46,6 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
   add_higher_harmonics();
 }
 
-std::vector<std::string> HarmonicResponse::parameter_names() const {
-  std::vector<std::string> names = {"eta", "P"};
-  if (is_varied()) names.push_back(system_.varied->name);
-  return names;
-}
-
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {
   return HarmonicProblem::motion(u, {}, coordinate);
 }
@@ -85,7 +79,6 @@ void HarmonicResponse::set_varied(Order& order, double frequency_value, const Ve
   order.free_by_varied = rates.free;
   for (Index j = 0; j < coordinates_.size(); ++j)
     order.by_varied.col(j) += order.joint.compliance.col(j) * log_force_rate(j, varied);
-  order.log_slip_rate = varied.log_slip_rate();
 }
 
 void HarmonicResponse::set_order(Index which, const Vector& p, const continuation::Regime& regime,
@@ -195,21 +188,29 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   }
   if (parameter_jacobian == nullptr) return;
   ContactVector& column = order.gap;
-  for (Index j = 0; j < m; ++j) order.f(j) = elements[at(j)].by_log_load(which) / order.stiffness(j);
-  column = order.f;
-  column.noalias() -= order.inverse * order.f;  // by the logarithm of the load
-  column *= weight / pressing({}, p);
+  const auto by_loads = [&](const auto& rate, double factor) {  // at such rates of their logarithms
+    for (Index j = 0; j < m; ++j)
+      order.f(j) = elements[at(j)].by_log_load(which) / order.stiffness(j) * rate(j);
+    column = order.f;
+    column.noalias() -= order.inverse * order.f;
+    column *= factor;
+  };
+  by_loads([](Index) { return 1.0; }, weight / pressing({}, p));
   store(column, which, harmonics(), parameter_jacobian->col(preload));
-  if (is_varied()) {
-    const ContactVector by_preload = column;
-    column *= pressing({}, p) * order.log_slip_rate;
-    add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
-    store(column, which, harmonics(), parameter_jacobian->col(further));
-    column = by_preload;
-  }
-  column *= 2 * system_.preload_growth * p(eta);
+  column *= 2 * growth({}, p) * p(eta);
   add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
+  if (is_varied()) {
+    by_loads([&](Index j) { return log_load_rate(j, {}, p); }, weight);
+    for (Index j = 0; j < m; ++j) {
+      const HarmonicVector& by_setting = elements[at(j)].by_setting;
+      order.f(j) = by_setting.size() > 0 ? by_setting(which) / order.stiffness(j) : 0;
+    }
+    column += weight * order.f;
+    column.noalias() -= weight * (order.inverse * order.f);
+    add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
+    store(column, which, harmonics(), parameter_jacobian->col(further));
+  }
   const Index by_share = is_varied() ? further + 1 : further;
   if (parameter_jacobian->cols() == by_share) return;
   column.noalias() = weight * (order.inverse * order.joint.free);
@@ -265,6 +266,7 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
 void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   unknowns.setConstant(u.norm());
   parameters = p;
+  if (is_varied()) parameters(further) = varied_scale(u, p);
 }
 
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {

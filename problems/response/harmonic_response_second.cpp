@@ -12,19 +12,19 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
                               const Vector& w, const Vector& du, const Vector& dp, Vector& out) const {
   if (!evaluate(u, p, regime, {})) return false;
   const std::vector<ElementForce> elements = forces(u, p, regime, true);
-  double log_load = (dp(preload) + 2 * system_.preload_growth * p(eta) * dp(eta)) / pressing({}, p);
+  const double log_load = (dp(preload) + 2 * growth({}, p) * p(eta) * dp(eta)) / pressing({}, p);
   std::optional<SystemParameter::At> varied;
-  if (is_varied()) {
-    varied = variation({}, p);
-    log_load += varied->log_slip_rate() * dp(further);
-  }
+  if (is_varied()) varied = variation({}, p);
   std::vector<ElementForce> changes;
   for (Index i = 0; i < coordinates_.size(); ++i) {
     const double factor = force_factor(i, u, p);
+    const double own_log_load = varied ? log_load + log_load_rate(i, {}, p) * dp(further) : log_load;
     ElementForce unscaled = elements[static_cast<std::size_t>(i)];
     unscaled.scale(1 / factor, true);
-    ElementForce change = coordinates_.element(i).change(unscaled, system_.orders, motion(u, i), load(p),
-                                                         slips(regime, i), motion(du, i), log_load);
+    const Element::Way way{motion(du, i), own_log_load, varied ? dp(further) : 0};
+    ElementForce change = with_element(i, u, p, [&](const Element& element) {
+      return element.change(unscaled, system_.orders, motion(u, i), load(i, u, p), slips(regime, i), way);
+    });
     change.scale(factor, true);
     if (varied) change.add(elements[static_cast<std::size_t>(i)], log_force_rate(i, *varied) * dp(further));
     changes.push_back(std::move(change));

@@ -21,6 +21,7 @@ NonlinearMode::NonlinearMode(HarmonicSystem system)
                  {"U", Measure::amplitude, Body::damper},
                  {"dissipated", Measure::dissipated},
                  {"force", Measure::force}};
+  if (system_.varied) layout_.varied = {Place::parameters, further};
   add_further_contacts();
   add_higher_harmonics();
 }
@@ -31,6 +32,7 @@ void NonlinearMode::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
   unknowns(Unknown::frequency) = u(Unknown::frequency);
   unknowns(Unknown::damping) = std::max(std::abs(u(Unknown::damping)), small_ratio);
   parameters = p;
+  if (is_varied()) parameters(further) = varied_scale(u, p);
 }
 
 double NonlinearMode::synthesised_force(const Vector& u, const Vector& p,
@@ -71,6 +73,40 @@ std::optional<std::array<double, 2>> NonlinearMode::flanks(const Vector& u, cons
       std::pow(force_value * mode.load / mode.amplitude, 2) - (square - middle) * (square + middle);
   if (!(width >= 0) || std::sqrt(width) > middle) return std::nullopt;
   return std::array{std::sqrt(middle - std::sqrt(width)), std::sqrt(middle + std::sqrt(width))};
+}
+
+continuation::Guess NonlinearMode::guess(double eta_value, const Vector& parameters,
+                                         const continuation::TraceOptions& limits) const {
+  if (is_varied()) {
+    const NonlinearMode fixed(at_value(system_, parameters(further)));
+    continuation::Guess guess = fixed.guess(eta_value, parameters.head<2>(), limits);
+    guess.parameters = parameters;
+    return guess;
+  }
+  continuation::TraceOptions options;
+  options.parameter = "R";
+  options.to = parameters(amplitude);
+  options.max_points = 10000;
+  options.max_seconds = limits.max_seconds;
+  options.go_on = limits.go_on;
+  constexpr double least = 1e-9;  // of R: so far does a contact not slip at more than the preload lets it
+  for (options.from = options.to; options.from > least * options.to; options.from *= 0.1) {
+    std::optional<continuation::Guess> stuck;
+    try {
+      stuck = guess(eta_value, options.from, parameters(preload));
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+    if (options.from == options.to) return *stuck;
+    const continuation::Branch branch = trace(*this, *stuck, options);
+    if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
+      throw continuation::Unfinished(branch.stop, "on the way from stick: " + branch.explanation);
+    if (!branch.complete())
+      throw std::invalid_argument("NonlinearMode: no way from stick: " + branch.explanation);
+    const continuation::BranchPoint& end = branch.points.back();
+    return {end.unknowns, end.parameters, end.regime};
+  }
+  return guess(eta_value, parameters(amplitude), parameters(preload));
 }
 
 continuation::Guess NonlinearMode::guess(double eta_value, double R_value, double preload_value) const {

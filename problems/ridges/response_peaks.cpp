@@ -108,8 +108,10 @@ ResponsePeaks::ResponsePeaks(PeakedResponse response)
   const std::vector<continuation::Observable> all = response_.problem->observables();
   const Index objective =
       continuation::index_of(continuation::observable_names(*response_.problem), response_.objective);
-  if (!all[static_cast<std::size_t>(objective)].has_gradient)
-    throw std::invalid_argument(fmt::format("ResponsePeaks: {} has no gradient", response_.objective));
+  const continuation::Observable& wanted = all[static_cast<std::size_t>(objective)];
+  if (!wanted.has_gradient || wanted.period > 0)
+    throw std::invalid_argument(fmt::format("ResponsePeaks: {} has no {}", response_.objective,
+                                            wanted.has_gradient ? "height" : "gradient"));
   slopes_ = std::make_shared<Slopes>(*response_.problem, along_, across_, objective);
   response_.options.stop_at.clear();
   response_.options.stop_after.clear();

@@ -94,7 +94,8 @@ class Decision {
     if (branch_.value("response", "forced") == "limit_cycle")
       return {panels("limit_cycle", parameter, "plain", {"R_over_S", "eta"}, quote(""))};
     if (branch_.value("response", "forced") == "nonlinear_mode")
-      return {panels("nonlinear_mode", "R_over_S", "plain", {"eta", "zeta"}, quote(""))};
+      return {panels("nonlinear_mode", parameter == "R" ? "R_over_S" : parameter, "plain", {"eta", "zeta"},
+                     quote(""))};
     table_.require({parameter, "S", "R_over_S", "Y", "beta", "alpha", "psi", "dissipated"});
     std::vector<Picture> all;
     for (const char* name : {"amplitude", "relative", "phases", "phase_difference", "dissipated"})

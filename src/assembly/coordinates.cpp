@@ -6,34 +6,51 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/elements/jenkins.hpp"
+#include "arcslip/elements/memoryless.hpp"
 
 namespace arcslip {
+
+namespace {
+
+/// The numbers of an element at a node, with derivatives by one of the settings where that has a value of its
+/// own.
+ElementKind::Values values_of(const PlacedElement& placed, double nodes, double usual_stiffness,
+                              Index varied = -1, double value = 0) {
+  ElementKind::Values values{{}, usual_stiffness};
+  for (Index i = 0; i < std::ssize(placed.settings); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double share = placed.kind->settings[k].scales_force ? 1 / nodes : 1;
+    values.settings.push_back(i == varied ? Jet(share * value, share, 0) : Jet(placed.settings[k] * share));
+  }
+  return values;
+}
+
+}  // namespace
 
 std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
                                           const std::function<double(const Coordinate&)>& usual_stiffness) {
   std::vector<Coordinate> all;
-  const auto add = [&](double base, double damper, Index dof, const ElementKind& kind,
-                       std::vector<double> settings) {
-    Coordinate& one = all.emplace_back(Coordinate{base, damper, dof, nullptr});
-    one.element = kind.make({std::move(settings), usual_stiffness(one)});
-  };
   if (parameters.cubic_stiffness != 0) {
     const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
-    for (Index i = 0; i < dofs; ++i)
-      add(1, 0, i, *find_element_kind("cubic"), {cubic_coefficient(parameters)});
-    for (Coordinate& one : all) one.follows_base = true;
+    for (Index i = 0; i < dofs; ++i) {
+      Coordinate& one = all.emplace_back(Coordinate{1, 0, i, nullptr});
+      one.element = cubic_spring(cubic_coefficient(parameters), usual_stiffness(one));
+      one.follows_base = true;
+    }
   }
   const double nodes = parameters.sectors ? 1 : static_cast<double>(parameters.elements);
-  for (const PlacedElement& placed : parameters.others) {
-    std::vector<double> settings = placed.settings;
-    for (std::size_t i = 0; i < settings.size(); ++i) {
-      if (placed.kind->settings[i].scales_force) settings[i] /= nodes;
-    }
+  for (std::size_t k = 0; k < parameters.others.size(); ++k) {
+    const PlacedElement& placed = parameters.others[k];
     using Place = PlacedElement::Place;
-    add(placed.place == Place::base      ? 1
-        : placed.place == Place::contact ? -1
-                                         : 0,
-        placed.place == Place::base ? 0 : 1, placed.dof, *placed.kind, std::move(settings));
+    const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
+    const double damper = placed.place == Place::base ? 0 : 1;
+    Coordinate& one = all.emplace_back(Coordinate{base, damper, placed.dof, nullptr});
+    const double usual = usual_stiffness(one);
+    one.element = placed.kind->make(values_of(placed, nodes, usual));
+    for (Index i = 0; i < std::ssize(placed.settings); ++i) {
+      if (setting_name(parameters, k, static_cast<std::size_t>(i)) != parameters.varied) continue;
+      one.varied = [=](double value) { return placed.kind->make(values_of(placed, nodes, usual, i, value)); };
+    }
   }
   std::stable_partition(all.begin(), all.end(),
                         [](const Coordinate& one) { return one.element->has_border(); });

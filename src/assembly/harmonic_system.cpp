@@ -82,12 +82,18 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value) {
   for (ContactModes& damper : other.damper) damper = damper.varied(variation.damper);
   for (ContactOutput& output : other.outputs)
     output.modes = output.modes.varied(output.on_base ? variation.base : variation.damper);
-  for (SectorContact& contact : other.contacts) {
+  other.preload_growth = variation.preload_growth;
+  other.base_loss_per_zeta.viscous *= variation.base_viscous;
+  for (Index i = 0; i < std::ssize(other.contacts); ++i) {
+    if (!system.varied->concerns(i)) continue;
+    SectorContact& contact = other.contacts[static_cast<std::size_t>(i)];
     contact.stiffness *= variation.contact_stiffness;
     contact.slip_per_preload *= variation.slip_per_preload;
   }
   for (Coordinate& one : other.others) {
     if (one.follows_base) one.factor *= variation.others;
+    if (one.varied) one.element = one.varied(value);
+    one.varied = {};
   }
   return other;
 }

@@ -1,5 +1,8 @@
 #include "arcslip/assembly/system.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/assembly/reduced_pair.hpp"
@@ -15,6 +18,19 @@ std::string to_string(StructureModel model) {
 std::string to_string(DampingKind kind) {
   if (kind == DampingKind::modal) return "modal";
   return kind == DampingKind::viscous ? "viscous" : "structural";
+}
+
+std::string element_name(const SystemParameters& parameters, std::size_t i) {
+  const PlacedElement& placed = parameters.others[i];
+  if (!placed.name.empty()) return placed.name;
+  const auto first = parameters.others.begin();
+  const auto before = std::count_if(first, first + static_cast<std::ptrdiff_t>(i),
+                                    [&](const PlacedElement& one) { return one.kind == placed.kind; });
+  return before == 0 ? placed.kind->name : fmt::format("{}_{}", placed.kind->name, before + 1);
+}
+
+std::string setting_name(const SystemParameters& parameters, std::size_t i, std::size_t setting) {
+  return element_name(parameters, i) + "." + parameters.others[i].kind->settings[setting].name;
 }
 
 std::vector<int> odd_up_to(int highest) {

@@ -1,9 +1,9 @@
 #include "arcslip/assembly/system_parameter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
 
 #include "arcslip/assembly/sector_pair.hpp"
@@ -19,7 +19,8 @@ At unchanged(const SystemParameters& system) {
   At at;
   at.here.base.loss = base_loss_fixed(system) + system.base_damping * base_loss_per_zeta(system);
   at.here.damper.loss = damper_loss_fixed(system) + system.damper_damping * damper_loss_per_zeta(system);
-  at.rate = {Variation::none(), Variation::none(), 0, 0, 0};
+  at.here.preload_growth = system.preload_growth;
+  at.rate = {Variation::none(), Variation::none(), 0, 0, 0, 0, 0};
   return at;
 }
 
@@ -38,12 +39,17 @@ void change_damper_damping(At& at, double value, const SystemParameters& system)
   at.here.damper.loss = damper_loss_fixed(system) + value * at.rate.damper.loss;
 }
 
-void change_contact_stiffness(At& at, double value, const SystemParameters& system) {
-  const double K = system.interface_stiffness;
-  at.here.contact_stiffness = value / K;
-  at.rate.contact_stiffness = 1 / K;
-  at.here.slip_per_preload = K / value;
-  at.rate.slip_per_preload = -K / (value * value);
+/// By a factor on the stiffness, at the same limit.
+void change_contact_stiffness(At& at, double value, double own) {
+  at.here.contact_stiffness = value / own;
+  at.rate.contact_stiffness = 1 / own;
+  at.here.slip_per_preload = own / value;
+  at.rate.slip_per_preload = -own / (value * value);
+}
+
+void change_contact_limit(At& at, double value, double own) {
+  at.here.slip_per_preload = value / own;
+  at.rate.slip_per_preload = 1 / own;
 }
 
 /// All that goes with the base's stiffness, as K* grows by a factor with this rate.
@@ -61,64 +67,123 @@ void change_mass_ratio(At& at, double value, const SystemParameters& system) {
 void change_frequency_ratio(At& at, double value, const SystemParameters& system) {
   const double gamma = system.frequency_ratio;
   follow_stiffness(at, value * value / (gamma * gamma), 2 * value / (gamma * gamma));
+  at.here.base_viscous = gamma / value;
+  at.rate.base_viscous = -gamma / (value * value);
   at.here.base.loss.viscous *= gamma / value;  // 2 zeta_B/gamma
   at.rate.base.loss.viscous = -at.here.base.loss.viscous / value;
 }
 
+void change_growth(At& at, double value, const SystemParameters& /*system*/) {
+  at.here.preload_growth = value;
+  at.rate.preload_growth = 1;
+}
+
 using Kind = SystemParameter::Kind;
 
-struct Entry {
-  const char* name;
-  double SystemParameters::*member;
-  void (*change)(At& at, double value, const SystemParameters& system);
-  Kind kind;
-};
+/// One that is a number of the system.
+SystemParameter plain(const char* name, double SystemParameters::*member,
+                      void (*change)(At& at, double value, const SystemParameters& system), Kind kind,
+                      const SystemParameters& system) {
+  const auto at = [start = unchanged(system), system, change](double value) {
+    At varied = start;
+    change(varied, value, system);
+    return varied;
+  };
+  const auto with = [system, member](double value) {
+    SystemParameters other = system;
+    other.*member = value;
+    return other;
+  };
+  return {name, system.*member, at, kind, with};
+}
 
-constexpr Entry all[] = {
-    {"F", &SystemParameters::force, change_load, Kind::load},
-    {"zeta_B", &SystemParameters::base_damping, change_base_damping, Kind::damping},
-    {"zeta_D", &SystemParameters::damper_damping, change_damper_damping, Kind::damping},
-    {"K_FD", &SystemParameters::interface_stiffness, change_contact_stiffness, Kind::contact},
-    {"M*", &SystemParameters::mass_ratio, change_mass_ratio, Kind::ratio},
-    {"gamma", &SystemParameters::frequency_ratio, change_frequency_ratio, Kind::ratio}};
+/// One of contacts that has so much of the one concerned or, of all, of the first.
+SystemParameter of_contacts(const std::string& name, double own, bool is_limit, Index contact,
+                            const SystemParameters& system) {
+  const auto at = [=, start = unchanged(system)](double value) {
+    At varied = start;
+    (is_limit ? change_contact_limit : change_contact_stiffness)(varied, value, own);
+    return varied;
+  };
+  const auto with = [=](double value) {
+    SystemParameters other = system;
+    const double factor = value / own;
+    if (!is_limit && contact <= 0) other.interface_stiffness = value;
+    for (Index i = 0; i < std::ssize(other.contacts); ++i) {
+      SectorContact& one = other.contacts[static_cast<std::size_t>(i)];
+      if (contact >= 0 && i != contact) continue;
+      if (!is_limit) one.stiffness *= factor;
+      one.slip_per_preload *= is_limit ? factor : 1 / factor;
+    }
+    return other;
+  };
+  const std::string own_name = contact < 0 ? name : fmt::format("{}_{}", name, contact + 1);
+  return {own_name, own, at, Kind::contact, with, contact};
+}
 
-const Entry& entry_of(const SystemParameters& system, const std::string& name) {
-  const auto found =
-      std::find_if(std::begin(all), std::end(all), [&](const Entry& entry) { return entry.name == name; });
-  if (found == std::end(all)) throw std::invalid_argument(fmt::format("there is no parameter {}", name));
-  if (system.sectors && found->kind == Kind::ratio)
-    throw std::invalid_argument(fmt::format("{} is only of rods and beams", name));
-  return *found;
+/// A setting of an element, which is made anew at each value.
+SystemParameter of_element(std::size_t i, std::size_t setting, const SystemParameters& system) {
+  const PlacedElement& placed = system.others[i];
+  const auto with = [=](double value) {
+    SystemParameters other = system;
+    other.others[i].settings[setting] = value;
+    return other;
+  };
+  const auto at = [start = unchanged(system)](double /*value*/) { return start; };
+  return {setting_name(system, i, setting), placed.settings[setting], at, Kind::element, with, -1,
+          placed.kind->settings[setting]};
 }
 
 }  // namespace
 
 std::vector<std::string> system_parameter_names() {
+  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma"};
+}
+
+std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
+  using S = SystemParameters;
+  std::vector<SystemParameter> all{
+      plain("F", &S::force, change_load, Kind::load, system),
+      plain("zeta_B", &S::base_damping, change_base_damping, Kind::damping, system),
+      plain("zeta_D", &S::damper_damping, change_damper_damping, Kind::damping, system),
+      of_contacts("K_FD", system.interface_stiffness, false, -1, system),
+      plain("P_2", &S::preload_growth, change_growth, Kind::growth, system)};
+  for (std::size_t i = 0; i < system.others.size(); ++i) {
+    for (std::size_t k = 0; k < system.others[i].settings.size(); ++k)
+      all.push_back(of_element(i, k, system));
+  }
+  if (!system.sectors) {
+    all.push_back(plain("M*", &S::mass_ratio, change_mass_ratio, Kind::ratio, system));
+    all.push_back(plain("gamma", &S::frequency_ratio, change_frequency_ratio, Kind::ratio, system));
+    return all;
+  }
+  const Index count = std::ssize(system.contacts);
+  for (Index i = -1; i < (count > 1 ? count : 0); ++i) {
+    const SectorContact& one = system.contacts[static_cast<std::size_t>(std::max<Index>(i, 0))];
+    all.push_back(of_contacts("L", one.stiffness * one.slip_per_preload, true, i, system));
+    if (i < 0) continue;
+    const double own = one.stiffness * static_cast<double>(system.elements);
+    all.push_back(of_contacts("K_FD", own, false, i, system));
+  }
+  return all;
+}
+
+std::vector<std::string> system_parameter_names(const SystemParameters& system) {
   std::vector<std::string> names;
-  for (const Entry& entry : all) names.emplace_back(entry.name);
+  for (const SystemParameter& one : system_parameters(system)) names.push_back(one.name);
   return names;
 }
 
-SystemParameters with_parameter(SystemParameters system, const std::string& name, double value) {
-  const double factor = value / system.interface_stiffness;
-  const Entry& entry = entry_of(system, name);
-  system.*entry.member = value;
-  if (entry.kind != Kind::contact) return system;
-  for (SectorContact& contact : system.contacts) {
-    contact.stiffness *= factor;
-    contact.slip_per_preload /= factor;
-  }
-  return system;
+SystemParameters with_parameter(const SystemParameters& system, const std::string& name, double value) {
+  return system_parameter(system, name).system(value);
 }
 
 SystemParameter system_parameter(const SystemParameters& system, const std::string& name) {
-  const Entry& entry = entry_of(system, name);
-  const auto at = [start = unchanged(system), system, change = entry.change](double value) {
-    At varied = start;
-    change(varied, value, system);
-    return varied;
-  };
-  return {name, system.*entry.member, at, entry.kind};
+  for (SystemParameter& one : system_parameters(system)) {
+    if (one.name == name) return std::move(one);
+  }
+  throw std::invalid_argument(fmt::format("the system has no parameter {}; it has {}", name,
+                                          fmt::join(system_parameter_names(system), ", ")));
 }
 
 }  // namespace arcslip

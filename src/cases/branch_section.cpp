@@ -21,6 +21,21 @@ std::vector<std::string> parameters_of(const ProblemRequest& problem) {
   return problem.response->parameters;
 }
 
+/// Whether a name may be one of a part of a system that is not yet known: `K_FD_2`, or `stops.gap`.
+bool may_be_of_part(const std::string& name) {
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  const std::string stem = name.substr(0, digits);
+  return (digits < name.size() && (stem == "K_FD_" || stem == "L_")) || name.find('.') != std::string::npos;
+}
+
+/// Names of parameters that may be continued, of which those of parts are looked up with the system.
+std::vector<std::string> names_with(std::vector<std::string> names, const CaseBranch& branch,
+                                    const std::vector<std::string>& given) {
+  if (branch.problem.model != nullptr) return names;
+  std::copy_if(given.begin(), given.end(), std::back_inserter(names), may_be_of_part);
+  return names;
+}
+
 std::vector<std::string> curve_names() {
   return {"fold", "branch_point", "hopf", "peak", "trough", "switch", "level", "phase_resonance"};
 }
@@ -34,11 +49,13 @@ bool is_branch(const CaseBranch& branch, const TomlSection& /*section*/) { retur
 void read_parameters(CaseBranch& branch, const TomlSection& section) {
   const std::vector<std::string> names = parameters_of(branch.problem);
   const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names, "\", \""));
-  const std::vector<std::string> pair = section.texts("parameters", names, expected);
+  const std::vector<std::string> allowed =
+      names_with(names, branch, section.texts("parameters", {}, expected));
+  const std::vector<std::string> pair = section.texts("parameters", allowed, expected);
   if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
-  if (branch.problem.model == nullptr && pair[0] != "eta" && pair[0] != "P" && pair[1] != "eta" &&
-      pair[1] != "P")
-    section.mismatch("parameters", "\"eta\" or \"P\" as one of them");
+  const auto is_own = [&](const std::string& name) { return name == names[0] || name == names[1]; };
+  if (branch.problem.model == nullptr && !is_own(pair[0]) && !is_own(pair[1]))
+    section.mismatch("parameters", fmt::format("\"{}\" or \"{}\" as one of them", names[0], names[1]));
   if (branch.curve->is_backbone() && pair[0] != "eta")
     section.mismatch("parameters", "\"eta\" and another one: phase resonances are looked for over eta");
   branch.curve->active = pair[0];
@@ -145,10 +162,15 @@ const KeyTable<CaseBranch>& branch_keys() {
            required, of_level),
        K::special(
            "parameter", "name",
-           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, M* or gamma, of limit cycles zeta_B or P, of "
-           "nonlinear modes R, or a library model's own",
+           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, P_2, M* or gamma, of sectors L, of one contact of "
+           "several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear modes R in place of "
+           "eta, of limit "
+           "cycles zeta_B, or a library model's own",
            [](S& branch, const TomlSection& section) {
-             branch.options.parameter = section.text("parameter", parameters_of(branch.problem));
+             const std::vector<std::string> names = parameters_of(branch.problem);
+             const toml::node& node = section.require("parameter", one_of(names));
+             const std::string given = node.value<std::string>().value_or("");
+             branch.options.parameter = section.text("parameter", names_with(names, branch, {given}));
            },
            needed("required", lacks("parameters")), along),
        K::special("parameters", "two names",
@@ -164,6 +186,8 @@ const KeyTable<CaseBranch>& branch_keys() {
        K("eta", at(&S::problem, &ProblemRequest::eta), positive(),
          "the fixed frequency where P varies; of nonlinear modes one near theirs", friction, parameter("eta"),
          unresolved),
+       K("R", at(&S::problem, &ProblemRequest::R), positive(),
+         "the fixed amplitude of nonlinear modes where R does not vary", friction, unresolved),
        K::special("for_each", "table, or list of tables",
                   "one branch for each value of keys of `[system]` and `[geometry]`, or of eta", {}),
        K::flag("switching", &S::switching,

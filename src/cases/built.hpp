@@ -12,14 +12,19 @@
 
 namespace arcslip {
 
+/// The values of all parameters of a problem.
+inline Vector values_of(const continuation::Problem& problem, const Built::ValueOf& value) {
+  const std::vector<std::string> names = problem.parameter_names();
+  Vector parameters(std::ssize(names));
+  std::transform(names.begin(), names.end(), parameters.begin(), value);
+  return parameters;
+}
+
 /// A problem in several harmonics that guesses from the values of all its parameters.
 template <class Type>
 Built built_in_harmonics(std::shared_ptr<const Type> problem) {
   const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& limits) {
-    const std::vector<std::string> names = problem->parameter_names();
-    Vector parameters(std::ssize(names));
-    std::transform(names.begin(), names.end(), parameters.begin(), value);
-    return problem->guess(parameters, limits);
+    return problem->guess(values_of(*problem, value), limits);
   };
   return {problem, guess, problem->system().orders};
 }
@@ -28,6 +33,14 @@ Built built_in_harmonics(std::shared_ptr<const Type> problem) {
 inline std::vector<std::string> forced_parameters() {
   std::vector<std::string> names = system_parameter_names();
   names.insert(names.begin(), {"eta", "P"});
+  return names;
+}
+
+/// Of vibration without force: one of its own, P and those of the system.
+inline std::vector<std::string> free_parameters(const std::string& own) {
+  std::vector<std::string> names = system_parameter_names();
+  std::erase_if(names, [&](const std::string& name) { return name == own || name == "F"; });
+  names.insert(names.begin(), {own, "P"});
   return names;
 }
 

@@ -118,9 +118,11 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
-  if (!system.varied.empty() && system_parameter(system, system.varied).kind != SystemParameter::Kind::load)
-    section.fail("stability", fmt::format("over eta, P and F, not over {}, with which the disturbances' own "
-                                          "waves would change",
+  using Kind = SystemParameter::Kind;
+  const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
+  if (kind != Kind::load && kind != Kind::growth)
+    section.fail("stability", fmt::format("over eta, P, F and P_2, not over {}, with which the disturbances' "
+                                          "own waves would change",
                                           system.varied));
   if (!problem.response->in_time) section.fail("stability", "only for the forced response");
   if (is_structural(system))
@@ -161,27 +163,39 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
   return range;
 }
 
+/// Refuses a range with values that a parameter of the system may not have.
+void check_values(const TomlSection& section, const CaseBranch& branch, const SystemParameter& parameter) {
+  const bool is_active = branch.curve && branch.curve->active == parameter.name;
+  const auto check = [&](const char* key, double value) {
+    if (!parameter.allows(value)) section.fail(key, fmt::format("{} may not be {:g}", parameter.name, value));
+  };
+  check(is_active ? "window" : "from", is_active ? branch.curve->from : branch.options.from);
+  check(is_active ? "window" : "to", is_active ? branch.curve->to : branch.options.to);
+}
+
 /// The parameter of the system beside eta and P that is continued, or "".
 std::string varied_parameter(const TomlSection& section, const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
-  if (problem.model != nullptr || problem.response->has_own_frequency()) return "";
+  if (problem.model != nullptr) return "";
   using Kind = SystemParameter::Kind;
   const std::string active = branch.curve ? branch.curve->active : "";
   const auto fail = [&](const std::string& why) {
     section.fail(branch.curve ? "parameters" : "parameter", why);
   };
-  for (const std::string& name : system_parameter_names()) {
-    if (name != active && name != branch.options.parameter) continue;
+  std::string varied;
+  for (const std::string& name : {active, branch.options.parameter}) {
+    if (name.empty() || name == problem.response->parameters[0] || name == "P") continue;
     try {
-      const Kind kind = system_parameter(problem.system, name).kind;
-      if (problem.geometry && kind != Kind::load && kind != Kind::damping)
+      const SystemParameter parameter = system_parameter(problem.system, name);
+      if (problem.geometry && (parameter.kind == Kind::contact || parameter.kind == Kind::ratio))
         fail(fmt::format("{} follows from [geometry], whose units it would change", name));
+      check_values(section, branch, parameter);
     } catch (const std::invalid_argument& error) {
       fail(error.what());
     }
-    return name;
+    varied = name;
   }
-  return "";
+  return varied;
 }
 
 /// What the branches are made from.
@@ -238,6 +252,8 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   if (model_ == nullptr && parameter_ != "eta" &&
       branch.problem.response->frequency != ResponseKind::Frequency::own)
     branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
+  if (model_ == nullptr && branch.problem.response->parameters.front() == "R" && parameter_ != "R")
+    section_.number("R", positive());
   if (branch.curve) find_seed(section_, branch);
   check_stability(section_, branch);
   return branch;

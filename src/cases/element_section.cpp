@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 
 namespace arcslip {
@@ -9,13 +11,23 @@ namespace {
 
 using ElementKey = Key<PlacedElement>;
 
-ElementKey key_of(const ElementKind::Value& setting, std::size_t i) {
+ElementKey key_of(const ElementKind& kind, std::size_t i) {
+  const ElementKind::Value& setting = kind.settings[i];
+  const auto continued = parameter(fmt::format("{}.{}", kind.name, setting.name));
   std::string meaning = setting.meaning;
   if (setting.scales_force) meaning += "; of rods and beams N times that of a node, as K_FD";
   const auto setting_value = [i](auto& placed) -> auto& { return placed.settings[i]; };
-  if (std::isnan(setting.value)) return {setting.name, setting_value, rule_of(setting), meaning, required};
-  return {setting.name, setting_value, rule_of(setting), meaning,
-          otherwise(fmt::format("{}", setting.value))};
+  if (std::isnan(setting.value))
+    return {setting.name, setting_value, rule_of(setting), meaning, required, continued};
+  return {setting.name, setting_value, rule_of(setting), meaning, otherwise(fmt::format("{}", setting.value)),
+          continued};
+}
+
+void read_name(PlacedElement& placed, const TomlSection& section) {
+  placed.name = section.text("name", {});
+  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (placed.name.empty() || !std::all_of(placed.name.begin(), placed.name.end(), fits))
+    section.mismatch("name", "a name of letters, digits and _");
 }
 
 KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
@@ -31,9 +43,15 @@ KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
                           {"damper", PlacedElement::Place::damper}},
                          "between base and damper, or between one of them and ground", "", required,
                          unlisted),
+      ElementKey::special("name", "name", "under which its settings are continued, as `stops.gap`", read_name,
+                          resolved([](const PlacedElement& placed) {
+                            return placed.name.empty() ? nlohmann::ordered_json()
+                                                       : nlohmann::ordered_json(placed.name);
+                          }),
+                          otherwise("its kind; of the second of a kind `clearance_2`"), unlisted),
       ElementKey::special("contact", "integer >= 1", "of sectors, at which of the contact dofs", contact,
                           resolved([](const PlacedElement& placed) { return placed.dof + 1; }), unlisted)};
-  for (std::size_t i = 0; i < kind.settings.size(); ++i) keys.push_back(key_of(kind.settings[i], i));
+  for (std::size_t i = 0; i < kind.settings.size(); ++i) keys.push_back(key_of(kind, i));
   return {std::move(keys)};
 }
 
@@ -41,6 +59,16 @@ std::vector<std::string> kind_names() {
   std::vector<std::string> names;
   for (const ElementKind& kind : element_kinds()) names.push_back(kind.name);
   return names;
+}
+
+/// Refuses an element whose settings would have the names of another one's.
+void check_names(const TomlSection& section, const SystemParameters& system) {
+  const std::size_t last = system.others.size() - 1;
+  for (std::size_t i = 0; i < last; ++i) {
+    if (element_name(system, i) == element_name(system, last))
+      section.fail(section.has("name") ? "name" : "kind",
+                   fmt::format("element {} has the name {} already", i + 1, element_name(system, i)));
+  }
 }
 
 }  // namespace
@@ -85,6 +113,7 @@ void read_elements(const TomlDocument& document, SystemParameters& system) {
     if (contacts + std::ssize(system.others) + (system.cubic_stiffness != 0 ? contacts : 0) >= most_contacts)
       section.fail("kind", fmt::format("more than {} contacts and elements at a node", most_contacts));
     system.others.push_back(std::move(placed));
+    check_names(section, system);
   }
 }
 

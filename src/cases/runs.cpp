@@ -198,6 +198,7 @@ double fixed_value(const ProblemRequest& problem, const std::string& parameter) 
   if (problem.model == nullptr) {
     return parameter == "P"     ? problem.system.preload
            : parameter == "eta" ? problem.eta
+           : parameter == "R"   ? problem.R
                                 : system_parameter(problem.system, parameter).value;
   }
   for (std::size_t i = 0; i < problem.settings.size(); ++i) {

@@ -158,7 +158,8 @@ Key<LibrarySettings> key_of(const Setting& setting, std::size_t i) {
 }  // namespace
 
 K preload_growth_key() {
-  return {"preload_growth", &S::preload_growth, any_number(), "P_2 of the preload P + P_2 eta^2"};
+  return {"preload_growth", &S::preload_growth, any_number(), "P_2 of the preload P + P_2 eta^2",
+          parameter("P_2")};
 }
 
 std::vector<K> shared_keys() {
@@ -287,6 +288,8 @@ NumberRule poisson_rule() {
 NumberRule parameter_rule(const LibraryModel* model, const std::string& parameter) {
   if (model == nullptr) {
     if (parameter == "zeta_B") return damping_rule();
+    if (parameter == "P_2" || parameter.find('.') != std::string::npos)
+      return any_number();  // of its own rule
     return parameter == "zeta_D" ? inside(0, 1) : positive();
   }
   for (const Setting& setting : model->settings) {

@@ -7,6 +7,7 @@ namespace arcslip {
 void ElementForce::set_linear(double stiffness, const HarmonicVector& x, bool derivatives) {
   const Index count = x.size();
   harmonics = stiffness * x;
+  by_setting.resize(0);
   energy = 0;
   if (!derivatives) return;
   linear.setZero(count, count);
@@ -20,6 +21,7 @@ void ElementForce::scale(double factor, bool derivatives) {
   energy *= factor;
   if (!derivatives) return;
   by_log_load *= factor;
+  by_setting *= factor;
   linear *= factor;
   conjugate *= factor;
 }
@@ -27,18 +29,22 @@ void ElementForce::scale(double factor, bool derivatives) {
 void ElementForce::add(const ElementForce& change, double part) {
   harmonics += part * change.harmonics;
   by_log_load += part * change.by_log_load;
+  by_setting += part * change.by_setting;
   linear += part * change.linear;
   conjugate += part * change.conjugate;
 }
 
 ElementForce Element::change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                             double load, bool beyond, const HarmonicVector& motion, double log_load) const {
+                             double load, bool beyond, const Way& way) const {
   ElementForce change;
-  change.harmonics = at.linear * motion + at.conjugate * motion.conjugate() + at.by_log_load * log_load;
+  change.harmonics =
+      at.linear * way.motion + at.conjugate * way.motion.conjugate() + at.by_log_load * way.log_load;
+  if (at.by_setting.size() > 0) change.harmonics += at.by_setting * way.setting;
+  change.by_setting.setZero(at.by_setting.size());
   change.by_log_load.setZero(x.size());
   change.linear.setZero(x.size(), x.size());
   change.conjugate.setZero(x.size(), x.size());
-  if (!is_linear(beyond)) second(at, orders, x, load, beyond, motion, log_load, change);
+  if (!is_linear(beyond)) second(at, orders, x, load, beyond, way, change);
   return change;
 }
 
@@ -50,7 +56,7 @@ StateBorder Element::border(std::span<const int> orders, const OddMotion::Maximu
   const double sum = square + limit * limit;
   const double slope = sign * 4 * limit * limit / (sum * sum);  // by A^2/2
   StateBorder border{sign * (square - limit * limit) / sum, HarmonicVector(std::ssize(orders)),
-                     -slope * square * threshold_by_log_load()};
+                     -slope * square * threshold_by_log_load(), -slope * square * log_threshold_by_setting()};
   for (Index a = 0; a < border.by_motion.size(); ++a) {
     border.by_motion(a) =
         slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);

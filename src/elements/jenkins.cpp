@@ -22,6 +22,7 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
   out.harmonics *= stiffness_;
   out.energy = stiffness_ * loop.energy();
   out.maximum = loop.maximum();
+  out.by_setting.resize(0);
   if (!derivatives) return;
   loop.derivative(out.linear, out.conjugate);
   out.linear *= stiffness_;
@@ -32,14 +33,13 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
 }
 
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                     double load, bool /*slips*/, const HarmonicVector& motion, double log_load,
-                     ElementForce& change) const {
+                     double load, bool /*slips*/, const Way& way, ElementForce& change) const {
   const double limit = threshold(load);
   HysteresisLoop(OddMotion(orders, x), limit)
-      .second(motion, limit * log_load, change.linear, change.conjugate);
+      .second(way.motion, limit * way.log_load, change.linear, change.conjugate);
   change.linear *= stiffness_;
   change.conjugate *= stiffness_;
-  change.by_log_load = at.by_log_load * log_load;  // f is homogeneous in x and S
+  change.by_log_load = at.by_log_load * way.log_load;  // f is homogeneous in x and S
   change.by_log_load -= change.linear * x + change.conjugate * x.conjugate();
 }
 

@@ -122,6 +122,7 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   const Index count = x.size();
   out.harmonics.setZero(count);
   out.energy = 0;
+  out.by_setting.setZero(law_.is_varied() ? count : 0);
   if (derivatives) {
     out.linear.setZero(count, count);
     out.conjugate.setZero(count, count);
@@ -138,7 +139,9 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
     turn.go_to(theta);
     const double here = turn.value(x);
     turn.add_force(share * law_.value(here, zone), out.harmonics);
-    if (derivatives) turn.add_slope(share * law_.slope(here, zone), out.linear, out.conjugate);
+    if (!derivatives) return;
+    turn.add_slope(share * law_.slope(here, zone), out.linear, out.conjugate);
+    if (law_.is_varied()) turn.add_force(share * law_.by_setting(here, zone), out.by_setting);
   });
 }
 
@@ -148,7 +151,7 @@ VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> order
   const OddMotion motion(orders, x);
   constexpr double touch = 1 + 1e-9;  // a longer one holds something
   const Angles turns = has_border() ? motion.turning_points() : Angles{};
-  if (!has_border() || motion.maximum(turns).value <= touch * law_.pieces().front().end) {
+  if (!has_border() || motion.maximum(turns).value <= touch * law_.pieces().front().end.value) {
     const std::vector<Complex> all = slope_harmonics(law_, motion, 0);
     for (std::size_t m = 0; m < all.size(); m += 2) stiffness.harmonics.push_back(all[m]);
     return stiffness;
@@ -160,18 +163,26 @@ VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> order
   return stiffness;
 }
 
-/// Beside the change within its pieces, each stretch ends elsewhere, by -dx/x'.
+/// Beside the change within its pieces, each stretch ends elsewhere, by (de - dx)/x' where its zone ends at
+/// e.
 void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> orders,
-                               const HarmonicVector& x, double /*load*/, bool beyond,
-                               const HarmonicVector& motion, double /*log_load*/,
+                               const HarmonicVector& x, double /*load*/, bool beyond, const Way& way,
                                ElementForce& change) const {
   const OddMotion odd(orders, x);
   const Angles turns = beyond ? odd.turning_points() : Angles{};
   Turn turn(orders);
   each_node(law_, odd, beyond ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
-    turn.add_slope(share * law_.curvature(turn.value(x), zone) * turn.value(motion), change.linear,
-                   change.conjugate);
+    const double here = turn.value(x);
+    const double dx = turn.value(way.motion);
+    double slope = law_.curvature(here, zone) * dx;
+    if (law_.is_varied()) {
+      const double by_both = law_.slope_by_setting(here, zone);
+      slope += by_both * way.setting;
+      turn.add_force(share * (by_both * dx + law_.second_by_setting(here, zone) * way.setting),
+                     change.by_setting);
+    }
+    turn.add_slope(share * slope, change.linear, change.conjugate);
   });
   if (!beyond) return;
   each_stretch(law_, odd, turns, [&](const Stretch& stretch) {
@@ -179,12 +190,17 @@ void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> 
     turn.go_to(stretch.end);
     const double here = turn.value(x);
     const double drop = law_.slope(here, stretch.zone) - law_.slope(here, stretch.next);
-    turn.add_slope(-drop * turn.value(motion) / (pi * odd.slopes(stretch.end).first), change.linear,
-                   change.conjugate);
+    const double late =
+        (law_.end_by_setting(stretch.zone, stretch.next) * way.setting - turn.value(way.motion)) /
+        (pi * odd.slopes(stretch.end).first);
+    turn.add_slope(drop * late, change.linear, change.conjugate);
+    if (law_.is_varied())
+      turn.add_force((law_.by_setting(here, stretch.zone) - law_.by_setting(here, stretch.next)) * late,
+                     change.by_setting);
   });
 }
 
-std::shared_ptr<const Element> cubic_spring(double coefficient, double reference) {
+std::shared_ptr<const Element> cubic_spring(const Jet& coefficient, double reference) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   return std::make_shared<MemorylessElement>(PiecewiseLaw({{endless, {0, 0, 0, coefficient}}}), reference);
 }

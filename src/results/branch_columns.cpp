@@ -42,7 +42,7 @@ Index Columns::find(const std::string& name) const {
 std::vector<Index> Columns::shown() const {
   constexpr std::size_t most_shown = 8;
   std::vector<Index> indices;
-  std::vector<std::string> names = system_parameter_names();
+  std::vector<std::string> names = system_parameter_names(request_.problem.system);
   names.insert(names.begin(), {"eta", "zeta"});
   names.insert(names.end(), {"P", "R_over_S", "Y", "growth", "worst_wave"});
   for (const std::string& name : names) {

@@ -27,7 +27,8 @@ LawSeries::LawSeries(const PiecewiseLaw& law, const std::vector<int>& zones, Ind
     const int zone = zones[static_cast<std::size_t>(i)];
     const auto& of_distance = law.pieces()[static_cast<std::size_t>(std::abs(zone))].coefficients;
     for (Index k = 0; k < std::ssize(of_distance); ++k)
-      coefficients_(i, k) = (zone < 0 && k % 2 == 0 ? -1 : 1) * of_distance[static_cast<std::size_t>(k)];
+      coefficients_(i, k) =
+          (zone < 0 && k % 2 == 0 ? -1 : 1) * of_distance[static_cast<std::size_t>(k)].value;
   }
   powers_.assign(static_cast<std::size_t>(std::max(1, law.degree())), Matrix(std::ssize(zones), order + 1));
 }

@@ -198,7 +198,8 @@ double Ring::fastest_rate() const {
   for (const RingElements& other : others) {
     double steepest = 0;
     for (const PiecewiseLaw::Piece& piece : other.law().pieces()) {
-      if (piece.coefficients.size() == 2) steepest = std::max(steepest, std::abs(piece.coefficients[1]));
+      if (piece.coefficients.size() == 2)
+        steepest = std::max(steepest, std::abs(piece.coefficients[1].value));
     }
     others_stiffness +=
         steepest * (other.motion * other.motion.transpose()).cwiseAbs().rowwise().sum().maxCoeff();

@@ -25,6 +25,7 @@ SystemParameters some_rings(StructureModel model, DampingKind kind) {
   s.force = 0.7;
   s.base_damping_kind = kind;
   s.cubic_stiffness = 0.4;
+  s.preload_growth = 0.02;
   return s;
 }
 
@@ -42,7 +43,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
   const auto kind = GENERATE(DampingKind::viscous, DampingKind::structural);
   const SystemParameters system = some_rings(model, kind);
   const HarmonicSystem built = build_harmonic_system(system);
-  for (const std::string& name : system_parameter_names()) {
+  for (const std::string& name : system_parameter_names(system)) {
     CAPTURE(name);
     const SystemParameter parameter = system_parameter(system, name);
     const double value = 1.3 * parameter.value;
@@ -58,6 +59,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
                Catch::Matchers::WithinRel(wanted.contacts[0].stiffness, 1e-14));
     CHECK_THAT(built.contacts[0].slip_per_preload * here.slip_per_preload,
                Catch::Matchers::WithinRel(wanted.contacts[0].slip_per_preload, 1e-14));
+    CHECK_THAT(here.preload_growth, Catch::Matchers::WithinRel(wanted.preload_growth, 1e-14));
     CHECK_THAT(cubic_coefficient(system) * here.others,
                Catch::Matchers::WithinRel(cubic_coefficient(other), 1e-14));
   }
@@ -66,7 +68,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
 TEST_CASE("The rates of a varied system are those of differences", "[systems]") {
   const SystemParameters system = some_rings(StructureModel::beams, DampingKind::viscous);
   const HarmonicSystem built = build_harmonic_system(system);
-  for (const std::string& name : system_parameter_names()) {
+  for (const std::string& name : system_parameter_names(system)) {
     CAPTURE(name);
     const SystemParameter parameter = system_parameter(system, name);
     const double value = 0.8 * parameter.value;
@@ -80,6 +82,7 @@ TEST_CASE("The rates of a varied system are those of differences", "[systems]") 
     close(above.contact_stiffness, below.contact_stiffness, rate.contact_stiffness);
     close(above.slip_per_preload, below.slip_per_preload, rate.slip_per_preload);
     close(above.others, below.others, rate.others);
+    close(above.preload_growth, below.preload_growth, rate.preload_growth);
     for (const double eta : {0.3, 2.8}) {
       const auto check = [&](const ContactModes& structure, const Variation& plus, const Variation& minus,
                              const Variation& middle, const Variation& slope) {

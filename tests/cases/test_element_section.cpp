@@ -69,10 +69,54 @@ TEST_CASE("A parameter of the system may be continued in place of eta and P") {
       ContainsSubstring("force cannot be listed where F is the continuation parameter"));
   CHECK_THAT(
       case_texts::error_of(system_text + replaced(over_force, "\"F\"", "\"K_FD\"") + "stability = true\n"),
-      ContainsSubstring("branch.stability: over eta, P and F, not over K_FD"));
+      ContainsSubstring("branch.stability: over eta, P, F and P_2, not over K_FD"));
   CHECK_THAT(case_texts::error_of(system_text + replaced(over_force, "from = 0.5", "from = -0.5")),
              ContainsSubstring("branch.from: expected a finite number > 0, got -0.5"));
   CHECK_THAT(case_texts::error_of(system_text + "[branch]\ncurve = \"fold\"\nparameters = [\"K_FD\", \"F\"]\n"
                                                 "window = [10, 50]\nfrom = 0.5\nto = 2\n"),
              ContainsSubstring("branch.parameters: expected \"eta\" or \"P\" as one of them"));
+}
+
+TEST_CASE("Settings of an element are continued by its name, or by that of its kind") {
+  const std::string named = replaced(stops_text, "kind", "name = \"stops\"\nkind");
+  const auto over = [](const std::string& name, const std::string& from) {
+    return replaced(replaced(over_force, "\"F\"", "\"" + name + "\""), "from = 0.5", "from = " + from);
+  };
+  const auto varied = [&](const std::string& elements, const std::string& name) {
+    return case_texts::read_text(system_text + elements + over(name, "0.5"))
+        .branches[0]
+        .problem.system.varied;
+  };
+  CHECK(varied(named, "stops.gap") == "stops.gap");
+  CHECK(varied(stops_text, "clearance.stiffness") == "clearance.stiffness");
+  CHECK(varied(stops_text + stops_text, "clearance_2.gap") == "clearance_2.gap");
+  const auto wrong = [&](const std::string& elements, const std::string& name, const std::string& from) {
+    return case_texts::error_of(system_text + elements + over(name, from));
+  };
+  CHECK_THAT(
+      wrong(named, "clearance.gap", "0.5"),
+      ContainsSubstring("branch.parameter: the system has no parameter clearance.gap; it has F, zeta_B") &&
+          ContainsSubstring("stops.stiffness, stops.gap"));
+  CHECK_THAT(wrong(named, "stops.gap", "-0.5"), ContainsSubstring("branch.from: stops.gap may not be -0.5"));
+  CHECK_THAT(wrong(named + named, "stops.gap", "0.5"),
+             ContainsSubstring("element[1].name: element 1 has the name stops already"));
+  CHECK_THAT(wrong(replaced(named, "\"stops\"", "\"st.ops\""), "stops.gap", "0.5"),
+             ContainsSubstring("element[0].name: expected a name of letters, digits and _"));
+  CHECK_THAT(wrong("", "K_FD_2", "0.5"),
+             ContainsSubstring("branch.parameter: the system has no parameter K_FD_2"));
+  CHECK(varied("", "P_2") == "P_2");
+}
+
+TEST_CASE("Modes are continued over parameters of the system at an amplitude, cycles beside zeta_B and P") {
+  const std::string mode =
+      "[branch]\nresponse = \"nonlinear_mode\"\nparameter = \"K_FD\"\neta = 1.5\nfrom = 1\nto = 2\n";
+  CHECK_THAT(case_texts::error_of(system_text + mode), ContainsSubstring("branch.R: missing; expected"));
+  const CaseBranch branch = case_texts::read_text(system_text + mode + "R = 0.3\n").branches[0];
+  CHECK(branch.problem.R == 0.3);
+  CHECK(branch.problem.system.varied == "K_FD");
+  const std::string cycle =
+      "[branch]\nresponse = \"limit_cycle\"\nparameter = \"zeta_D\"\nfrom = 0.1\nto = 0.2\n";
+  CHECK(case_texts::read_text(system_text + cycle).branches[0].problem.system.varied == "zeta_D");
+  CHECK_THAT(case_texts::error_of(system_text + replaced(cycle, "zeta_D", "F")),
+             ContainsSubstring("branch.parameter: expected \"zeta_B\" or \"P\""));
 }

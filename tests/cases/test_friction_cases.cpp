@@ -139,3 +139,23 @@ TEST_CASE("The backbone has its highest frequency where the contact lets go, the
   for (const BranchPoint& point : curve.branch.points)
     CHECK_THAT(value(curve, point, "lag"), WithinRel(0.5 * pi, 1e-9));
 }
+
+TEST_CASE("Folds over the clearance of stops lie between two cusps, beyond which the response has none",
+          "[cases]") {
+  const Run curve("stops_gap");
+  const auto cusps = points(curve.traced[0], PointType::cusp);
+  REQUIRE(cusps.size() == 2);
+  std::vector<double> gaps;
+  for (const BranchPoint& cusp : cusps) gaps.push_back(value(curve.traced[0], cusp, "stops.gap"));
+  std::sort(gaps.begin(), gaps.end());
+  CHECK_THAT(gaps[0], WithinRel(0.0858074408, 1e-8));
+  CHECK_THAT(gaps[1], WithinRel(1.01630913, 1e-8));
+  const std::string response = "branch={ parameter = \"eta\", from = 0.5, to = 5.0 }";
+  for (const double gap : {0.99 * gaps[0], 1.01 * gaps[0], 0.99 * gaps[1], 1.01 * gaps[1]}) {
+    const Run run("stops_gap",
+                  {response, fmt::format("element=[{{ name = \"stops\", kind = \"clearance\", at = "
+                                         "\"base\", stiffness = 60.0, gap = {} }}]",
+                                         gap)});
+    CHECK(count(run.traced[0], PointType::fold) == (gap > gaps[0] && gap < gaps[1] ? 2 : 0));
+  }
+}

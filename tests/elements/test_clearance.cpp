@@ -89,7 +89,7 @@ TEST_CASE("First and second derivatives of stops are those of differences", "[el
   const ElementForce below = force_under(x - h * way);
   const HarmonicVector slope = here.linear * way + here.conjugate * way.conjugate();
   CHECK(((above.harmonics - below.harmonics) / (2 * h) - slope).norm() < 1e-8 * slope.norm());
-  const ElementForce change = stops()->change(here, stop_orders, x, 1, true, way, 0.4);
+  const ElementForce change = stops()->change(here, stop_orders, x, 1, true, {way, 0.4});
   CHECK(((above.linear - below.linear) / (2 * h) - change.linear).norm() < 1e-6 * change.linear.norm());
   CHECK(((above.conjugate - below.conjugate) / (2 * h) - change.conjugate).norm() <
         1e-6 * change.linear.norm());

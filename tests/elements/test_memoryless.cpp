@@ -96,7 +96,7 @@ TEST_CASE("A cubic spring's second derivatives are those of differences", "[elem
     spring.force(orders, x + step * direction, 1, false, true, force);
     return force;
   };
-  const ElementForce change = spring.change(at(0), orders, x, 1, false, direction, 0.3);
+  const ElementForce change = spring.change(at(0), orders, x, 1, false, {direction, 0.3});
   const ElementForce above = at(h);
   const ElementForce below = at(-h);
   CHECK(((above.linear - below.linear) / (2 * h) - change.linear).norm() < 1e-9 * change.linear.norm());

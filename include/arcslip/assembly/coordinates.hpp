@@ -29,6 +29,8 @@ struct Coordinate {
   bool spares_base = false;                ///< no force on the base
   double factor = 1;                       ///< on the element's force
   bool follows_base = false;               ///< whether its force is told relative to the base's stiffness K*
+  /// The element at a value of its setting that is continued, with derivatives by it; null if none is.
+  std::function<std::shared_ptr<const Element>(double)> varied = {};
 
   /// Entry of L for a structure, and of G.
   double move(bool is_base) const { return is_base ? base : damper; }

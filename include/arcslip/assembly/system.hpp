@@ -37,6 +37,7 @@ struct PlacedElement {
     damper    ///< between the damper and ground
   };
 
+  std::string name = {};  ///< under which its settings are continued; of its kind and number if it has none
   const ElementKind* kind = nullptr;
   Place place = Place::base;
   Index dof = 0;                 ///< which of the contact dofs, from 0
@@ -79,6 +80,13 @@ struct SystemParameters {
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };
+
+/// The name of the i-th element beside contacts and cubic springs: "stops" if it is given, else "clearance"
+/// of the first of its kind, "clearance_2" of the second.
+std::string element_name(const SystemParameters& parameters, std::size_t i);
+
+/// What a setting of it is called as a parameter: "stops.gap".
+std::string setting_name(const SystemParameters& parameters, std::size_t i, std::size_t setting);
 
 /// 1, 3, ..., `highest`.
 std::vector<int> odd_up_to(int highest);

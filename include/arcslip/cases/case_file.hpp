@@ -40,6 +40,7 @@ struct ProblemRequest {
   std::optional<Geometry> geometry;                             ///< where the system is given in SI units
   const ResponseKind* response = find_response_kind("forced");  ///< what is asked of a system with friction
   double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
+  double R = 0;    ///< the fixed amplitude of a nonlinear mode where R is not continued
 
   /// Where harmonics are added while tracing: the largest one left out, relative to R.
   std::optional<double> harmonics_tolerance;

@@ -17,6 +17,7 @@ namespace arcslip {
 struct ElementForce {
   HarmonicVector harmonics;      ///< f_h, against x
   HarmonicVector by_log_load;    ///< df_h/d ln(load)
+  HarmonicVector by_setting;     ///< df_h by a setting of the element that is continued; empty if none is
   ComplexMatrix linear;          ///< harmonics x harmonics
   ComplexMatrix conjugate;       ///< the same
   double energy = 0;             ///< lost per cycle
@@ -37,6 +38,7 @@ struct StateBorder {
   double value;              ///< negative inside
   HarmonicVector by_motion;  ///< derivatives by Re x_h and Im x_h as real and imaginary part
   double by_log_load;        ///< by ln(load)
+  double by_setting;         ///< by a setting of the element that is continued
 };
 
 /// Immutable, and used from all threads.
@@ -62,10 +64,17 @@ class Element {
   virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                      bool derivatives, ElementForce& out) const = 0;
 
-  /// How harmonics and derivatives, which `force` has given as `at` with these arguments, change with x and
-  /// with ln(load). Of the energy and the maximum nothing is said.
+  /// A way in which x, ln(load) and a setting that is continued change.
+  struct Way {
+    HarmonicVector motion;
+    double log_load = 0;
+    double setting = 0;
+  };
+
+  /// How harmonics and derivatives, which `force` has given as `at` with these arguments, change along it. Of
+  /// the energy and the maximum nothing is said.
   ElementForce change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                      double load, bool beyond, const HarmonicVector& motion, double log_load) const;
+                      double load, bool beyond, const Way& way) const;
 
   /// What small disturbances of the motion x meet; a contact that slips has a memory and no such stiffness.
   virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const = 0;
@@ -81,15 +90,17 @@ class Element {
   /// d ln S/d ln(load).
   virtual double threshold_by_log_load() const { return 0; }
 
+  /// d ln S by a setting that is continued.
+  virtual double log_threshold_by_setting() const { return 0; }
+
   /// The law of one without memory, as its motion in time follows it; null of others.
   virtual const PiecewiseLaw* law() const { return nullptr; }
 
  protected:
-  /// How `linear`, `conjugate` and `by_log_load`, which are zero before, of a force that is not linear
-  /// change.
+  /// How `linear`, `conjugate`, `by_log_load` and `by_setting`, which are zero before, of a force that is not
+  /// linear change.
   virtual void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                      double load, bool beyond, const HarmonicVector& motion, double log_load,
-                      ElementForce& change) const = 0;
+                      double load, bool beyond, const Way& way, ElementForce& change) const = 0;
 };
 
 }  // namespace arcslip

@@ -17,8 +17,8 @@ namespace arcslip {
 struct ElementKind {
   /// What one is made of.
   struct Values {
-    std::vector<double> settings;  ///< in their order
-    double usual_stiffness = 1;    ///< the static one that its coordinate meets, > 0
+    std::vector<Jet> settings;   ///< in their order, with derivatives by one of them if it is continued
+    double usual_stiffness = 1;  ///< the static one that its coordinate meets, > 0
   };
 
   std::string name;

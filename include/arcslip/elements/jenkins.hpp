@@ -31,7 +31,7 @@ class Jenkins final : public Element {
 
  private:
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
-              bool slips, const HarmonicVector& motion, double log_load, ElementForce& change) const override;
+              bool slips, const Way& way, ElementForce& change) const override;
 
   double stiffness_;
   double slip_per_load_;

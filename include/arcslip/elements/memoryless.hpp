@@ -24,13 +24,15 @@ class MemorylessElement final : public Element {
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
-  double threshold(double /*load*/) const override { return law_.pieces().front().end; }
+  double threshold(double /*load*/) const override { return law_.pieces().front().end.value; }
+  double log_threshold_by_setting() const override {
+    return law_.pieces().front().end.first / law_.pieces().front().end.value;
+  }
   const PiecewiseLaw* law() const override { return &law_; }
 
  private:
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
-              bool beyond, const HarmonicVector& motion, double log_load,
-              ElementForce& change) const override;
+              bool beyond, const Way& way, ElementForce& change) const override;
 
   PiecewiseLaw law_;
   double reference_;
@@ -38,6 +40,6 @@ class MemorylessElement final : public Element {
 };
 
 /// f = k_3 x^3.
-std::shared_ptr<const Element> cubic_spring(double coefficient, double reference);
+std::shared_ptr<const Element> cubic_spring(const Jet& coefficient, double reference);
 
 }  // namespace arcslip

@@ -6,14 +6,16 @@
 #include <cstdlib>
 #include <vector>
 
+#include "arcslip/elements/jet.hpp"
+
 namespace arcslip {
 
 class PiecewiseLaw {
  public:
-  /// f = sum_m c_m x^m for x up to `end`.
+  /// f = sum_m c_m x^m for x up to `end`, with their derivatives by a setting if one is continued.
   struct Piece {
-    double end;                        ///< infinite of the last one
-    std::vector<double> coefficients;  ///< c_m
+    Jet end;                        ///< infinite of the last one
+    std::vector<Jet> coefficients;  ///< c_m
   };
 
   /// Throws std::invalid_argument unless the ends ascend from above 0 to infinity, the first piece has odd
@@ -39,6 +41,15 @@ class PiecewiseLaw {
   double slope(double x, int zone) const;      ///< df/dx
   double curvature(double x, int zone) const;  ///< d2f/dx2
 
+  /// Whether it depends on a setting that is continued, and at x its derivatives by that.
+  bool is_varied() const { return is_varied_; }
+  double by_setting(double x, int zone) const;         ///< df/ds
+  double slope_by_setting(double x, int zone) const;   ///< d2f/dx ds
+  double second_by_setting(double x, int zone) const;  ///< d2f/ds2
+
+  /// d/ds of the displacement at which a zone gives way to the next one, outwards or inwards.
+  double end_by_setting(int zone, int next) const;
+
   /// int_0^x f dx.
   double energy(double x) const;
 
@@ -47,6 +58,7 @@ class PiecewiseLaw {
 
   std::vector<Piece> pieces_;
   int degree_ = 0;
+  bool is_varied_ = false;
 };
 
 }  // namespace arcslip

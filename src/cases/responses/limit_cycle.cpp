@@ -12,10 +12,7 @@ Built build_limit_cycle(const ProblemRequest& request) {
   if (needs_balance(request.system, request.harmonics_tolerance)) {
     const auto problem =
         std::make_shared<const problems::HarmonicCycle>(build_harmonic_system(request.system));
-    const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& limits) {
-      return problem->guess(value("zeta_B"), value("P"), limits);
-    };
-    return {problem, guess, problem->system().orders};
+    return built_in_harmonics(problem);
   }
   const auto problem = std::make_shared<const problems::LimitCycle>(build_system(request.system));
   const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
@@ -29,7 +26,7 @@ Built build_limit_cycle(const ProblemRequest& request) {
 ResponseKind limit_cycle_response() {
   return {.name = "limit_cycle",
           .title = "limit cycles",
-          .parameters = {"zeta_B", "P"},
+          .parameters = free_parameters("zeta_B"),
           .frequency = ResponseKind::Frequency::own,
           .extremum = "",
           .not_proven = "whose frequency is a second unknown",

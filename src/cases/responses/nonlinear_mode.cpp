@@ -9,8 +9,8 @@ namespace {
 
 Built build_nonlinear_mode(const ProblemRequest& request) {
   const auto problem = std::make_shared<const problems::NonlinearMode>(build_harmonic_system(request.system));
-  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
-    return problem->guess(value("eta"), value("R"), value("P"));
+  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& limits) {
+    return problem->guess(value("eta"), values_of(*problem, value), limits);
   };
   return {problem, guess, problem->system().orders};
 }
@@ -20,7 +20,7 @@ Built build_nonlinear_mode(const ProblemRequest& request) {
 ResponseKind nonlinear_mode_response() {
   return {.name = "nonlinear_mode",
           .title = "nonlinear modes",
-          .parameters = {"R"},
+          .parameters = free_parameters("R"),
           .frequency = ResponseKind::Frequency::guessed,
           .extremum = "zeta",
           .not_proven = "whose frequency and damping are unknowns beside R",

@@ -6,15 +6,16 @@
 namespace arcslip {
 
 ElementKind clearance_element() {
-  return {"clearance",
-          "elastic stops on both sides of a clearance",
-          {{given_positive("stiffness", "k of the stops"), true}, {given_positive("gap", "g, to each side")}},
-          [](const ElementKind::Values& values) {
-            const double k = values.settings[0];
-            const double g = values.settings[1];
-            constexpr double endless = std::numeric_limits<double>::infinity();
-            return std::make_shared<MemorylessElement>(PiecewiseLaw({{g, {}}, {endless, {-k * g, k}}}), k);
-          }};
+  return {
+      "clearance",
+      "elastic stops on both sides of a clearance",
+      {{given_positive("stiffness", "k of the stops"), true}, {given_positive("gap", "g, to each side")}},
+      [](const ElementKind::Values& values) {
+        const Jet k = values.settings[0];
+        const Jet g = values.settings[1];
+        constexpr double endless = std::numeric_limits<double>::infinity();
+        return std::make_shared<MemorylessElement>(PiecewiseLaw({{g, {}}, {endless, {-k * g, k}}}), k.value);
+      }};
 }
 
 }  // namespace arcslip

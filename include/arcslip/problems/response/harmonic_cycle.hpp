@@ -17,8 +17,8 @@ namespace arcslip::problems {
 /// The equations above.
 class HarmonicCycle : public FreeVibration {
  public:
-  /// Positions of zeta_B and P.
-  enum Parameter : Index { zeta, preload };
+  /// Positions of zeta_B, P and, if it may be continued, a further parameter of the system.
+  enum Parameter : Index { zeta, preload, further };
   /// Positions of the first two.
   enum Unknown : Index { eta, amplitude };
 
@@ -26,7 +26,7 @@ class HarmonicCycle : public FreeVibration {
   /// std::invalid_argument where base, damper and contacts differ in number.
   explicit HarmonicCycle(HarmonicSystem system);
 
-  std::vector<std::string> parameter_names() const override { return {"zeta_B", "P"}; }
+  std::vector<std::string> parameter_names() const override { return names_with_varied({"zeta_B", "P"}); }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
@@ -39,6 +39,9 @@ class HarmonicCycle : public FreeVibration {
   /// end the search.
   continuation::Guess guess(double zeta_value, double preload_value,
                             const continuation::TraceOptions& limits = {}) const;
+
+  /// The same at these parameters.
+  continuation::Guess guess(const Vector& parameters, const continuation::TraceOptions& limits = {}) const;
 
  private:
   struct Found;

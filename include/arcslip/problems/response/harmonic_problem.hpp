@@ -52,7 +52,7 @@ class HarmonicProblem : public continuation::Problem {
 
   /// S of a contact.
   double slip_threshold(Index contact, const Vector& u, const Vector& p) const {
-    return coordinates_.element(contact).threshold(load(u, p));
+    return coordinates_.element(contact).threshold(load(contact, u, p));
   }
 
  protected:
@@ -106,25 +106,59 @@ class HarmonicProblem : public continuation::Problem {
   /// Whether a further parameter of the system may be continued.
   bool is_varied() const { return layout_.varied.of != Place::nowhere; }
 
+  /// Names with that of the further parameter after them, if there is one.
+  std::vector<std::string> names_with_varied(std::vector<std::string> names) const {
+    if (is_varied()) names.push_back(system_.varied->name);
+    return names;
+  }
+
+  /// A typical magnitude of the further parameter.
+  double varied_scale(const Vector& u, const Vector& p) const;
+
   /// What the further parameter does here.
   SystemParameter::At variation(const Vector& u, const Vector& p) const {
     return system_.varied->at(value(layout_.varied, u, p));
   }
 
+  /// P_2.
+  double growth(const Vector& u, const Vector& p) const {
+    return is_varied() ? variation(u, p).here.preload_growth : system_.preload_growth;
+  }
+
   /// P + P_2 eta^2.
   double pressing(const Vector& u, const Vector& p) const {
     const double eta = frequency(u, p);
-    return value(layout_.preload, u, p) + system_.preload_growth * eta * eta;
+    return value(layout_.preload, u, p) + growth(u, p) * eta * eta;
   }
 
-  /// The same times what a variation does to S/P.
-  double load(const Vector& u, const Vector& p) const {
-    return is_varied() ? pressing(u, p) * variation(u, p).here.slip_per_preload : pressing(u, p);
+  /// The same times what a variation does to S/P of a contact; of other elements it does not count.
+  double load(Index coordinate, const Vector& u, const Vector& p) const {
+    return is_varied() && system_.varied->concerns(coordinate)
+               ? pressing(u, p) * variation(u, p).here.slip_per_preload
+               : pressing(u, p);
+  }
+
+  /// How the logarithm of that load changes with the further parameter.
+  double log_load_rate(Index coordinate, const Vector& u, const Vector& p) const {
+    const auto [here, rate] = variation(u, p);
+    const double eta = frequency(u, p);
+    const double by_growth = rate.preload_growth * eta * eta / pressing(u, p);
+    return system_.varied->concerns(coordinate) ? by_growth + rate.slip_per_preload / here.slip_per_preload
+                                                : by_growth;
+  }
+
+  /// Calls `use` with the element of a coordinate, as it is here.
+  template <class Use>
+  auto with_element(Index coordinate, const Vector& u, const Vector& p, const Use& use) const {
+    const auto& varied = coordinates_[coordinate].varied;
+    return is_varied() && varied ? use(*varied(value(layout_.varied, u, p)))
+                                 : use(coordinates_.element(coordinate));
   }
 
   /// The factor of a variation on the force of a coordinate's element; null where it has none.
   double SystemVariation::*varied_force(Index coordinate) const {
-    if (coordinate < contacts()) return &SystemVariation::contact_stiffness;
+    if (coordinate < contacts())
+      return system_.varied->concerns(coordinate) ? &SystemVariation::contact_stiffness : nullptr;
     return coordinates_[coordinate].follows_base ? &SystemVariation::others : nullptr;
   }
 
@@ -172,11 +206,14 @@ class HarmonicProblem : public continuation::Problem {
  private:
   struct Forces;
   static Forces& last_forces();
+  void set_damping(bool is_base, const Vector& u, const Vector& p, Variation& here, Variation& by_varied,
+                   Variation& by_damping) const;
   /// Where Re or Im of a harmonic stands, by its position among those of all.
   Place place_of(Index unknown) const;
   static void add(const Place& place, double value, continuation::Gradient& gradient);
-  /// Adds what is `value` times a change of ln(load).
-  void add_log_load(double value, const Vector& u, const Vector& p, continuation::Gradient& gradient) const;
+  /// Adds what is `value` times a change of the logarithm of a coordinate's load.
+  void add_log_load(double value, Index coordinate, const Vector& u, const Vector& p,
+                    continuation::Gradient& gradient) const;
   OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
   class Observation;
 };

@@ -34,7 +34,7 @@ class HarmonicResponse : public HarmonicProblem {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit HarmonicResponse(HarmonicSystem system);
 
-  std::vector<std::string> parameter_names() const override;
+  std::vector<std::string> parameter_names() const override { return names_with_varied({"eta", "P"}); }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
   /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
@@ -98,7 +98,6 @@ class HarmonicResponse : public HarmonicProblem {
     ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
     ContactVector free_by_varied;
-    double log_slip_rate;                  // of ln(S/P) by it
     ContactMatrix inverse;                 // (1 + C_h K)^{-1}
     double weight;                         // 1/sqrt(1 + |inverse|^2)
     ContactVector f, gap, held, residual;  // work space
@@ -122,12 +121,10 @@ class HarmonicResponse : public HarmonicProblem {
   bool is_linear(const continuation::Regime& regime, Index coordinate) const {
     return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
   }
-  double load(const Vector& p) const { return HarmonicProblem::load({}, p); }
-
   /// Whether there is a response at these parameters.
   bool has_value(const Vector& p) const {
     return p(eta) > 0 && p(preload) > 0 && (!is_varied() || system_.varied->allows(p(further))) &&
-           load(p) > 0;
+           pressing({}, p) > 0;
   }
 };
 

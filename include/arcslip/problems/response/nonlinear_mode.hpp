@@ -10,7 +10,7 @@
 // harmonic. Where zeta = 0 the motion needs no help: a limit cycle.
 //
 // Unknowns: eta, zeta, then Re and Im of all harmonics of all coordinates but that one, in the order of
-// HarmonicResponse. Parameters: R, P.
+// HarmonicResponse. Parameters: R, P and, if it may be continued, a further one of the system.
 //
 // Where other modes are far, the forced response near the mode follows from it: with the mode's motion in
 // the structures' modal coordinates, q = a psi, |psi| = 1, and the load l,
@@ -28,8 +28,8 @@ namespace arcslip::problems {
 /// The equations above.
 class NonlinearMode : public FreeVibration {
  public:
-  /// Positions of R and P, and of the first two unknowns.
-  enum Parameter : Index { amplitude, preload };
+  /// Positions of R, P and a further parameter of the system, and of the first two unknowns.
+  enum Parameter : Index { amplitude, preload, further };
   enum Unknown : Index { frequency, damping };
   /// Observables in this order; `force` is that whose response, synthesised from the mode, peaks here, in
   /// units of the system's own.
@@ -38,12 +38,17 @@ class NonlinearMode : public FreeVibration {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit NonlinearMode(HarmonicSystem system);
 
-  std::vector<std::string> parameter_names() const override { return {"R", "P"}; }
+  std::vector<std::string> parameter_names() const override { return names_with_varied({"R", "P"}); }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
   /// A guess of the mode whose frequency in stick is nearest to `eta_value`, at this R and P; R must be so
   /// small that all contacts stick. Throws std::invalid_argument where it is not.
   continuation::Guess guess(double eta_value, double R_value, double preload_value) const;
+
+  /// The same at these parameters, and at any R: one at which contacts slip is reached from a smaller one.
+  /// Throws Unfinished where max_seconds or go_on of the limits end the search.
+  continuation::Guess guess(double eta_value, const Vector& parameters,
+                            const continuation::TraceOptions& limits) const;
 
   /// The excitation frequencies at which the response to `force` times the load, synthesised from the mode at
   /// this point, has its amplitude; none above the peak.
