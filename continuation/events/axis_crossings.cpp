@@ -81,17 +81,17 @@ class AxisSearch {
     const auto part = [&](double place) {
       return std::abs(step_.readings.value(step_.readings.real_part(j), place).value_or(0));
     };
-    return std::max(part(0), part(step_.stepper.distance()));
+    return std::max(part(0), part(step_.stepper.step().distance));
   }
 
   /// Names what vanishes with the i-th real part at s. False if it is nothing: a real eigenvalue that the
   /// branch has no name for.
   bool note(Index i, bool falls, double s) {
-    if (!step_.stepper.probe(s)) {
+    if (!step_.stepper.prober().probe(s)) {
       step_.fail();
       return true;
     }
-    step_.watch.look(step_.stepper.probed_point());
+    step_.watch.look(step_.stepper.prober().probed().point);
     const ComplexVector values = step_.watch.eigenvalues();
     if (i >= values.size()) return true;
     const double near = std::max(10 * std::abs(values(i).real()), step_.tolerances.coincides * way_of(i));
@@ -118,10 +118,10 @@ class AxisSearch {
     const double largest = std::max(values.cwiseAbs().maxCoeff(), largest_);
     if (size == 0 || size > step_.tolerances.surely_imaginary * largest) return size != 0;
     for (const double way : {-1.0, 1.0}) {
-      const double place = s + way * aside * step_.stepper.distance();
-      if (place < 0 || place > step_.stepper.distance()) continue;
-      if (!step_.stepper.probe(place)) return false;
-      step_.watch.look(step_.stepper.probed_point());
+      const double place = s + way * aside * step_.stepper.step().distance;
+      if (place < 0 || place > step_.stepper.step().distance) continue;
+      if (!step_.stepper.prober().probe(place)) return false;
+      step_.watch.look(step_.stepper.prober().probed().point);
       const ComplexVector& there = step_.watch.eigenvalues();
       if (i >= there.size() || std::abs(std::abs(there(i).imag()) - size) > 0.5 * size) return false;
     }

@@ -24,7 +24,7 @@ template <class Function>
 Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
   bool solved = true;
   const auto along = [&](double s) {
-    solved = solved && stepper.probe(s);
+    solved = solved && stepper.prober().probe(s);
     return solved ? f(stepper) : 0.0;
   };
   double lower = 0;
@@ -49,11 +49,11 @@ Zero locate(Stepper& stepper, const Bracket& bracket, Function f) {
 
 /// Of a step that begins on the border and goes nowhere inside, it is where the value leaves rounding.
 Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) {
-  const double at_zero = stepper.from()[m].value;
+  const double at_zero = stepper.step().from[m].value;
   const double on_border = stepper.tolerances().on_border;
   const auto where_it_is = [&](double level) {
     return locate(stepper, {upper, at_zero - level, -1, value - level},
-                  [=](Stepper& s) { return s.probed()[m].value - level; });
+                  [=](Stepper& s) { return s.prober().probed().monitors[m].value - level; });
   };
   const Zero zero = where_it_is(0);
   const bool at_once = zero.state == Zero::State::found && zero.s == 0 && std::abs(at_zero) <= on_border;
@@ -63,20 +63,20 @@ Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) 
 /// Where the branch crosses a border of its regime. A branch that comes beyond it by less than the tolerance,
 /// as where it all but touches it, stays inside.
 Zero border_crossing(Stepper& stepper, Index border) {
-  const auto m = static_cast<std::size_t>(stepper.tracked_count() + border);
+  const auto m = static_cast<std::size_t>(stepper.monitors().tracked_count() + border);
   const double touch = stepper.tolerance();
   const double on_border = stepper.tolerances().on_border;
-  const Monitor from = stepper.from()[m];
-  const Monitor to = stepper.to()[m];
-  double upper = stepper.distance();
+  const Monitor from = stepper.step().from[m];
+  const Monitor to = stepper.step().to[m];
+  double upper = stepper.step().distance;
   double value = to.value;
   if (value <= on_border || (value <= touch && to.slope < 0)) {
     if (!(from.slope > 0 && to.slope < 0)) return {Zero::State::absent};
     const Zero top = locate(stepper, {upper, from.slope, 1, to.slope},  // the border function's highest point
-                            [m](Stepper& s) { return s.probed()[m].slope; });
-    if (top.state != Zero::State::found || !stepper.probe(top.s)) return {Zero::State::failed};
+                            [m](Stepper& s) { return s.prober().probed().monitors[m].slope; });
+    if (top.state != Zero::State::found || !stepper.prober().probe(top.s)) return {Zero::State::failed};
     upper = top.s;
-    value = stepper.probed()[m].value;
+    value = stepper.prober().probed().monitors[m].value;
     if (value <= touch) return {Zero::State::absent};
   }
   const bool begins_beyond = from.value > on_border && from.value <= touch && from.slope > 0;
@@ -88,7 +88,7 @@ Zero border_crossing(Stepper& stepper, Index border) {
 
 void search_borders(StepSearch& step) {
   Stepper& stepper = step.stepper;
-  const auto count = static_cast<Index>(stepper.to().size()) - stepper.tracked_count();
+  const auto count = static_cast<Index>(stepper.step().to.size()) - stepper.monitors().tracked_count();
   std::vector<Event> reached;
   for (Index b = 0; b < count; ++b) {
     const Zero zero = border_crossing(stepper, b);
@@ -98,7 +98,9 @@ void search_borders(StepSearch& step) {
   }
   if (reached.empty()) return;
   for (const Event& event : reached) step.note(event);
-  if (!stepper.probe(step.upper()) || !stepper.resolved(step.upper(), stepper.probed())) step.fail();
+  if (!stepper.prober().probe(step.upper()) ||
+      !stepper.resolved(step.upper(), stepper.prober().probed().monitors))
+    step.fail();
 }
 
 }  // namespace

@@ -6,13 +6,13 @@ namespace arcslip::continuation {
 namespace {
 
 void search_branch_point(StepSearch& step) {
-  const auto& crossing = step.stepper.crossing();
+  const auto& crossing = step.stepper.step().crossing;
   if (crossing) step.note({&branch_points, PointType::branch_point, 0, crossing->s});
 }
 
 /// An eigenvalue only touches zero where the branch turns.
 void pass_branch_point(const Event& event, const Passage& passage) {
-  passage.behind.parameter = sign_of(passage.stepper.crossing()->rate_behind);
+  passage.behind.parameter = sign_of(passage.stepper.step().crossing->rate_behind);
   if (event.told && passage.behind.parameter == passage.before.parameter)
     passage.behind.unstable += passage.real_crossings();
 }

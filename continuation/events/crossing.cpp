@@ -1,13 +1,10 @@
-// Branch points within a step: zeros of det [J F_p; normal^T], a smooth function of the way along the branch.
+#include "arcslip/continuation/events/crossing.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "arcslip/continuation/events/first_zero.hpp"
-#include "arcslip/continuation/path/stepper.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -21,128 +18,126 @@ constexpr double much_less = 1e-5;     // branch point by much
 
 }  // namespace
 
-/// Whether a start is a branch point: a little way off the determinant is much larger.
-bool Stepper::starts_singular() {
+CrossingSearch::CrossingSearch(Corrector& corrector, Prober& prober, Step& step, const Tolerances& tolerances)
+    : corrector_(corrector),
+      prober_(prober),
+      step_(step),
+      tolerances_(tolerances),
+      expected_(Vector::Zero(corrector.size() + 1)),
+      work_(expected_) {}
+
+bool CrossingSearch::starts_singular(double max_step) {
   const double there = corrector_.log_determinant();
-  slope_from_ = normal_;
-  if (linearise_beside(here_, slope_from_, a_little_way * max_step_) == Correction::cannot_evaluate)
+  step_.slope_from = step_.normal;
+  if (prober_.linearise_beside(step_.here, step_.slope_from, a_little_way * max_step) ==
+      Correction::cannot_evaluate)
     return false;
   return there < corrector_.log_determinant() + std::log(much_less);
 }
 
-/// The problem has scaled its equations anew, and the determinant with them: that of `here` is found again,
-/// of a branch point its sign behind it.
-void Stepper::rescale_determinant() {
-  revision_ = problem_.revision();
-  normal_ = here_.tangent;
-  if (std::isinf(here_.log_determinant)) {
-    past_.clear();
-    if (here_.orientation != 0 &&
-        linearise_beside(here_, here_.tangent, a_little_way * max_step_) == Correction::converged)
-      here_.orientation = corrector_.orientation();
+void CrossingSearch::rescale(double max_step) {
+  step_.normal = step_.here.tangent;
+  if (std::isinf(step_.here.log_determinant)) {
+    step_.past.clear();
+    if (step_.here.orientation != 0 &&
+        prober_.linearise_beside(step_.here, step_.here.tangent, a_little_way * max_step) ==
+            Correction::converged)
+      step_.here.orientation = corrector_.orientation();
     return;
   }
-  if (corrector_.linearise(here_, normal_) != Correction::converged) return;
-  const double sign = corrector_.orientation() * here_.orientation;
-  const double change = corrector_.log_determinant() - here_.log_determinant;
-  here_.orientation *= sign;
-  here_.log_determinant += change;
-  for (PastPoint& past : past_) {
+  if (corrector_.linearise(step_.here, step_.normal) != Correction::converged) return;
+  const double sign = corrector_.orientation() * step_.here.orientation;
+  const double change = corrector_.log_determinant() - step_.here.log_determinant;
+  step_.here.orientation *= sign;
+  step_.here.log_determinant += change;
+  for (PastPoint& past : step_.past) {
     past.sign *= sign;
     past.log += change;
   }
 }
 
-/// Whether what is known of the determinant leaves room for branch points in the step.
-bool Stepper::may_cross() const {
-  if (there_.orientation * here_.orientation <= 0) return true;
-  if (!pairs_) return false;
-  std::array<double, 2 + most_past> places{step_.norm(), 0};
-  std::array<double, 2 + most_past> values{std::exp(there_.log_determinant - here_.log_determinant), 1};
+bool CrossingSearch::may_find(bool pairs) const {
+  if (step_.there.orientation * step_.here.orientation <= 0) return true;
+  if (!pairs) return false;
+  std::array<double, 2 + most_past> places{step_.chord.norm(), 0};
+  std::array<double, 2 + most_past> values{std::exp(step_.there.log_determinant - step_.here.log_determinant),
+                                           1};
   std::size_t count = 2;
-  for (const PastPoint& past : past_) {
+  for (const PastPoint& past : step_.past) {
     places[count] = -past.behind;
-    values[count++] = past.sign * here_.orientation * std::exp(past.log - here_.log_determinant);
+    values[count++] = past.sign * step_.here.orientation * std::exp(past.log - step_.here.log_determinant);
   }
   return may_vanish_twice({places.data(), count}, {values.data(), count});
 }
 
-/// Looks for the first branch point in the step. False where none explains a change of sign, or where it
-/// cannot be told: then the step has to be shorter.
-bool Stepper::search_crossing() {
-  determinant_.here = here_.log_determinant + std::log(normal_.dot(here_.tangent));
-  determinant_.there = corrector_.log_determinant();
-  determinant_.unit = std::max(determinant_.here, determinant_.there);
-  determinant_.from_zero = std::isinf(determinant_.here);
-  anchors_.clear();
+bool CrossingSearch::search() {
+  log_here_ = step_.here.log_determinant + std::log(step_.normal.dot(step_.here.tangent));
+  log_there_ = corrector_.log_determinant();
+  unit_ = std::max(log_here_, log_there_);
+  from_zero_ = std::isinf(log_here_);
+  step_.anchors.clear();
   const auto at = [this](double s) { return determinant_at(s); };
   const std::optional<Node> from = at(0);
-  const std::optional<Node> to = at(distance_);
+  const std::optional<Node> to = at(step_.distance);
   if (!from || !to) return false;
-  const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * distance_);
+  const FirstZero found = first_zero(*from, *to, at, tolerances_.one_branch_point * step_.distance);
   if (found.kind == FirstZero::Kind::none) return true;
-  return found.kind != FirstZero::Kind::unknown && locate_crossing(found.before, found.behind);
+  return found.kind != FirstZero::Kind::unknown && locate(found.before, found.behind);
 }
 
 /// The determinant in its unit; in a step that starts on a branch point it is divided by s.
-std::optional<Node> Stepper::determinant_at(double s) {
-  const auto sized = [this](double sign, double log) { return sign * std::exp(log - determinant_.unit); };
-  const bool inside = s > 0 && s < distance_;
+std::optional<Node> CrossingSearch::determinant_at(double s) {
+  const auto sized = [this](double sign, double log) { return sign * std::exp(log - unit_); };
+  const bool inside = s > 0 && s < step_.distance;
   if (inside && !probe_between(s)) return std::nullopt;
-  const CurvePoint& point = inside ? probe_ : s > 0 ? there_ : here_;
-  const Vector& slope = inside ? probe_slope_ : s > 0 ? slope_to_ : slope_from_;
+  const CurvePoint& point = inside ? prober_.probed().point : s > 0 ? step_.there : step_.here;
+  const Vector& slope = inside ? prober_.probed().slope : s > 0 ? step_.slope_to : step_.slope_from;
   Node node{s, sized(corrector_.orientation(), corrector_.log_determinant()), std::nan("")};
-  if (inside && std::abs(node.value) > too_near) anchor(s);
-  if (!inside) node.value = sized(point.orientation, s > 0 ? determinant_.there : determinant_.here);
+  if (inside && std::abs(node.value) > too_near) prober_.anchor();
+  if (!inside) node.value = sized(point.orientation, s > 0 ? log_there_ : log_here_);
 
-  const double offset = beside(s);
-  if (linearise_beside(point, slope, offset) != Correction::cannot_evaluate)
+  const double offset = prober_.offset_beside(s);
+  if (prober_.linearise_beside(point, slope, offset) != Correction::cannot_evaluate)
     node.slope = (sized(corrector_.orientation(), corrector_.log_determinant()) - node.value) / offset;
-  if (!determinant_.from_zero) return node;
+  if (!from_zero_) return node;
   if (s == 0) return Node{0, node.slope, std::nan("")};
   return Node{s, node.value / s, (node.slope - node.value / s) / s};
 }
 
 /// A point that lies where its neighbours let expect it.
-bool Stepper::probe_between(double s) {
-  double width = std::min(s, distance_ - s);
-  for (const Anchor& anchor : anchors_) width = std::min(width, std::abs(anchor.s - s));
-  interpolate(s, expected_);
-  if (!probe(s)) return false;
-  corrector_.difference(probe_, here_, work_);
-  const double error = (work_ - expected_).norm() / step_.norm();
-  return error <= off_course * width / distance_ + tolerances_.off_by_rounding;
-}
-
-/// Keeps the point last probed, from which others are found.
-void Stepper::anchor(double s) {
-  const auto next = std::find_if(anchors_.begin(), anchors_.end(), [s](const Anchor& a) { return a.s >= s; });
-  if (next != anchors_.end() && next->s == s) return;
-  corrector_.difference(probe_, here_, work_);
-  anchors_.insert(next, {s, work_, probe_slope_});
+bool CrossingSearch::probe_between(double s) {
+  double width = std::min(s, step_.distance - s);
+  for (const Step::Anchor& anchor : step_.anchors) width = std::min(width, std::abs(anchor.s - s));
+  step_.interpolate(s, expected_);
+  if (!prober_.probe(s)) return false;
+  corrector_.difference(prober_.probed().point, step_.here, work_);
+  const double error = (work_ - expected_).norm() / step_.chord.norm();
+  return error <= off_course * width / step_.distance + tolerances_.off_by_rounding;
 }
 
 /// Locates a branch point by polynomials from both sides, where the branch is still regular.
-bool Stepper::locate_crossing(Node before, Node behind) {
+bool CrossingSearch::locate(Node before, Node behind) {
   const bool changes = before.value * behind.value < 0;
   const auto value_at = [this](double place) -> std::optional<double> {
     const std::optional<Node> node = determinant_at(place);
     return node ? std::optional(node->value) : std::nullopt;
   };
-  const double sign_behind = changes ? behind.value : there_.orientation;
+  const double sign_behind = changes ? behind.value : step_.there.orientation;
   double s = changes ? zero_of_cubic(before, behind) : 0.5 * (before.s + behind.s);
-  for (double radius = widest * distance_; radius > tolerances_.nearest_look * distance_; radius *= 0.25) {
+  for (double radius = widest * step_.distance; radius > tolerances_.nearest_look * step_.distance;
+       radius *= 0.25) {
     if (changes && !narrow(before, behind, s, radius)) return false;
-    const ZeroRange range{changes ? before.s : 0, changes ? behind.s : distance_, s, !changes, 0, distance_};
+    const ZeroRange range{changes ? before.s : 0, changes ? behind.s : step_.distance, s, !changes, 0,
+                          step_.distance};
     const std::optional<RemoteZero> zero = remote_zero(value_at, range, radius);
-    if (zero && zero->agrees && take_crossing(*zero, sign_behind)) return true;
+    if (zero && zero->agrees && take(*zero, sign_behind)) return true;
     if (zero) s = zero->s;
   }
   return false;
 }
 
 /// Brings the zero between two places, at about s, within a radius of s.
-bool Stepper::narrow(Node& before, Node& behind, double& s, double radius) {
+bool CrossingSearch::narrow(Node& before, Node& behind, double& s, double radius) {
   for (int i = 0; i < most_narrowings; ++i) {
     const double low = s - radius;
     const double high = s + radius;
@@ -163,60 +158,40 @@ bool Stepper::narrow(Node& before, Node& behind, double& s, double radius) {
 }
 
 /// The point itself, interpolated on the branch; false if it is none.
-bool Stepper::take_crossing(const RemoteZero& zero, double sign_behind) {
+bool CrossingSearch::take(const RemoteZero& zero, double sign_behind) {
   const Index n = corrector_.size();
-  Crossing crossing{zero.s, here_, Vector::Zero(n + 1)};
+  Step::Crossing crossing{zero.s, step_.here, Vector::Zero(n + 1)};
   expected_.setZero();
   std::array<double, RemoteZero::count> parameters{};
   for (std::size_t i = 0; i < RemoteZero::count; ++i) {
-    interpolate(zero.places[i], work_);  // all of them are points of the branch
+    step_.interpolate(zero.places[i], work_);  // all of them are points of the branch
     parameters[i] = work_(n);
     expected_ += zero.weights[i] * work_;
     crossing.slope += zero.slopes[i] * work_;
   }
   CurvePoint& point = crossing.point;
-  corrector_.displace(here_, expected_, point);
-  const bool has_value = corrector_.linearise(point, normal_) != Correction::cannot_evaluate;
+  corrector_.displace(step_.here, expected_, point);
+  const bool has_value = corrector_.linearise(point, step_.normal) != Correction::cannot_evaluate;
   if (!has_value || !(point.residual <= 10 * corrector_.tolerance())) return false;
   // A parameter that turns at the branch point runs the other way on its other side.
   double& rate = crossing.slope(n);
-  const auto behind =
-      std::find_if(anchors_.begin(), anchors_.end(), [&](const Anchor& a) { return a.s > zero.s; });
+  const auto behind = std::find_if(step_.anchors.begin(), step_.anchors.end(),
+                                   [&](const Step::Anchor& a) { return a.s > zero.s; });
   double around = 0;
   for (std::size_t i = 0; i < RemoteZero::count; ++i)
     around = std::max(around, std::abs((parameters[i] - expected_(n)) / (zero.places[i] - zero.s)));
   if (std::abs(rate) <= tolerances_.turns * around) rate = 0;
-  crossing.rate_behind = rate != 0 ? rate : behind != anchors_.end() ? behind->slope(n) : slope_to_(n);
+  crossing.rate_behind = rate != 0                       ? rate
+                         : behind != step_.anchors.end() ? behind->slope(n)
+                                                         : step_.slope_to(n);
   corrector_.set_scale(point);
-  point.tangent = (crossing.slope.array() * here_.scale.array() / point.scale.array()).matrix().normalized();
+  point.tangent =
+      (crossing.slope.array() * step_.here.scale.array() / point.scale.array()).matrix().normalized();
   point.iterations = 0;
   point.orientation = std::copysign(1.0, sign_behind);
   point.log_determinant = -std::numeric_limits<double>::infinity();
-  crossing_ = std::move(crossing);
+  step_.crossing = std::move(crossing);
   return true;
-}
-
-std::optional<double> Stepper::passes(const CurvePoint& past) {
-  if (past.regime != here_.regime) return std::nullopt;
-  if (crossing_) {  // no probe finds a start that is the branch point itself
-    corrector_.difference(past, crossing_->point, predicted_);
-    if (predicted_.norm() < tolerances_.same_point && crossing_->point.tangent.dot(past.tangent) > 0)
-      return crossing_->s;
-  }
-  const double length = step_.norm();
-  const Index parameter = corrector_.parameter();
-  const double aside = past.parameters(parameter) - here_.parameters(parameter);
-  if (!(std::abs(aside) < 2 * length * here_.scale(corrector_.size()))) return std::nullopt;  // most often
-  corrector_.difference(past, here_, predicted_);
-  const double s = normal_.dot(predicted_);
-  if (!(predicted_.norm() < 2 * length) || !(s > 0) || !(s <= distance_)) return std::nullopt;
-  interpolate(s, work_);
-  if (!((work_ - predicted_).norm() < 0.05 * length) || !probe(s)) return std::nullopt;
-  corrector_.difference(past, probe_, predicted_);
-  work_ = probe_slope_.cwiseProduct(here_.scale).cwiseQuotient(past.scale);
-  const bool same_way = work_.dot(past.tangent) > 0;
-  if (!(predicted_.norm() < tolerances_.same_point) || !same_way) return std::nullopt;
-  return s;
 }
 
 }  // namespace arcslip::continuation

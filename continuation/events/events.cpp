@@ -29,7 +29,7 @@ StepSearch::StepSearch(Stepper& stepper_, Watch& watch_, const Signs& signs_)
       functions_at_end(watch.functions()),
       eigenvalues_at_end(watch.eigenvalues()),
       readings(stepper, watch, functions_at_end, eigenvalues_at_end),
-      upper_(stepper.distance()) {}
+      upper_(stepper.step().distance) {}
 
 EventSearch StepSearch::run() {
   for (const EventKind* kind : event_kinds) {
@@ -48,7 +48,7 @@ bool StepSearch::has(PointType type) const {
 }
 
 void StepSearch::note(Event event) {
-  const double near = tolerances.one_place * stepper.distance();
+  const double near = tolerances.one_place * stepper.step().distance;
   if (event.s > upper_ + near) return;
   if (event.s < upper_ - near) {
     result_.events.clear();
@@ -75,7 +75,7 @@ Zero StepSearch::turn(std::size_t which, int sign, bool changes) {
     const std::optional<Node> there = readings.node(which, upper_);
     if (!here || !there) return {Zero::State::failed};
     const double fall = -sign * there->slope;  // where it only touches zero there is none
-    at_cusp = std::abs(there->value) <= tolerances.as_cusp * fall * stepper.distance() &&
+    at_cusp = std::abs(there->value) <= tolerances.as_cusp * fall * stepper.step().distance &&
               std::abs(*here) < plainly * fall * upper_;
   }
   if (!changes && !at_cusp) return {Zero::State::absent};

@@ -7,11 +7,11 @@ namespace {
 
 /// Pairs of them are left to the step, which has to resolve the observable.
 void search_extrema(StepSearch& step) {
-  for (Index i = 0; i < step.stepper.tracked_count() && step.solved(); ++i) {
+  for (Index i = 0; i < step.stepper.monitors().tracked_count() && step.solved(); ++i) {
     const auto m = static_cast<std::size_t>(i);
     const std::size_t slope = step.readings.slope(i);
     const int before = step.signs.observables[m];
-    const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.to()[m]));
+    const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
               step.turn(slope, before, before * sign_of(after) < 0));
   }

@@ -68,12 +68,13 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
   };
   const Node from = divisor.divide(a);
   const Node to = divisor.divide(b);
-  const FirstZero found = first_zero(from, to, at, stepper_.tolerances().one_zero * stepper_.distance());
+  const FirstZero found = first_zero(from, to, at, stepper_.tolerances().one_zero * stepper_.step().distance);
   switch (found.kind) {
     case FirstZero::Kind::unknown: return {Zero::State::failed};
     case FirstZero::Kind::unclear:
-      return a.value * b.value < 0 || stepper_.is_least() ? by_sign(a, b, sign, which)
-                                                          : Zero{Zero::State::failed};
+      return a.value * b.value < 0 || stepper_.step().is_tiny(stepper_.step().distance)
+                 ? by_sign(a, b, sign, which)
+                 : Zero{Zero::State::failed};
     case FirstZero::Kind::touch:
       return {divisor.low || divisor.high || change < options_.least_touched ? Zero::State::absent
                                                                              : Zero::State::found,

@@ -24,21 +24,22 @@ Readings::Place* Readings::at(double s) {
   const auto known =
       std::find_if(places_.begin(), places_.end(), [s](const Place& place) { return place.s == s; });
   if (known != places_.end()) return &*known;
-  const bool is_known = s == 0 || s == stepper_.distance();
-  if (!is_known && !stepper_.probe(s)) return nullptr;
+  const bool is_known = s == 0 || s == stepper_.step().distance;
+  if (!is_known && !stepper_.prober().probe(s)) return nullptr;
   Place& place = places_.emplace_back(Place{s, {}, {}});
   if (s == 0) {
     read_start(place.values);
   } else if (is_known) {
     read_end(place.values);
   } else {
-    read(stepper_.probed_point(), stepper_.probed_parameter_rate(), stepper_.probed(), place.values);
+    read(stepper_.prober().probed(), place.values);
   }
   return &place;
 }
 
 void Readings::read_start(std::vector<double>& values) const {
-  read_slopes(stepper_.parameter_rate_from(), stepper_.from(), stepper_.tracked_count(), values);
+  read_slopes(stepper_.step().parameter_rate_from(), stepper_.step().from,
+              stepper_.monitors().tracked_count(), values);
   if (watch_.empty()) return;
   const Look& here = watch_.kept().front();
   values.insert(values.end(), here.functions.begin(), here.functions.end());
@@ -46,15 +47,15 @@ void Readings::read_start(std::vector<double>& values) const {
 }
 
 void Readings::read_end(std::vector<double>& values) const {
-  read_slopes(stepper_.parameter_rate_to(), stepper_.to(), stepper_.tracked_count(), values);
+  read_slopes(stepper_.step().parameter_rate_to(), stepper_.step().to, stepper_.monitors().tracked_count(),
+              values);
   read_functions(functions_at_end_, eigenvalues_at_end_, values);
 }
 
-void Readings::read(const CurvePoint& point, double parameter_rate, const std::vector<Monitor>& monitors,
-                    std::vector<double>& values) {
-  read_slopes(parameter_rate, monitors, stepper_.tracked_count(), values);
+void Readings::read(const Probe& probe, std::vector<double>& values) {
+  read_slopes(probe.parameter_rate(), probe.monitors, stepper_.monitors().tracked_count(), values);
   if (watch_.empty()) return;
-  watch_.look(point);
+  watch_.look(probe.point);
   read_functions(watch_.functions(), watch_.eigenvalues(), values);
 }
 
@@ -69,11 +70,9 @@ std::optional<Node> Readings::node(std::size_t which, double s) {
   const std::optional<double> here = value(which, s);
   if (!here) return std::nullopt;
   Place& place = *at(s);
-  if (place.beside.empty() && stepper_.probe(s)) {
-    place.offset = stepper_.look_beside();
-    if (place.offset != 0)
-      read(stepper_.beside_point(), stepper_.beside_parameter_rate(), stepper_.beside_monitors(),
-           place.beside);
+  if (place.beside.empty() && stepper_.prober().probe(s)) {
+    place.offset = stepper_.prober().look_beside();
+    if (place.offset != 0) read(stepper_.prober().beside(), place.beside);
   }
   const bool known = which < place.beside.size();
   return Node{s, *here, known ? (place.beside[which] - *here) / place.offset : std::nan("")};

@@ -97,7 +97,7 @@ Branch Tracer::finished(const Begin& begin) {
     state_.here = stepper_.here();
     state_.bend = stepper_.bend();
     state_.monitors = stepper_.at_here();
-    state_.past = stepper_.past();
+    state_.past = stepper_.step().past;
     state_.looks = watch_.kept();
     state_.residual_size = corrector_.residual_size();
     branch_.checkpoint.emplace().of = identity();
@@ -195,16 +195,18 @@ bool Tracer::try_step() {
 /// must not be passed, but by a step that ends before it.
 bool Tracer::find_events() {
   closing_.reset();
-  watch_.look(stepper_.there());
+  watch_.look(stepper_.step().there);
   EventSearch search = find_first_events(stepper_, watch_, state_.signs);
   events_ = std::move(search.events);
   if (!search.solved) return false;
-  if (branch_.points.size() > 2 || state_.arclength > 0) closing_ = stepper_.passes(state_.start);
+  if (branch_.points.size() > 2 || state_.arclength > 0)
+    closing_ = stepper_.prober().passes(state_.start, options_.tolerances.same_point);
   if (closing_ && !events_.empty() && events_.front().s < *closing_) closing_.reset();
   if (closing_) events_.clear();
-  if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.there(), 0);
+  if (events_.empty() && !closing_) return landing_ != nullptr || !passes_target(stepper_.step().there, 0);
   const double s = closing_ ? *closing_ : events_.front().s;
-  return stepper_.probe(s) && !passes_target(stepper_.probed_point(), options_.tolerances.same_value);
+  return stepper_.prober().probe(s) &&
+         !passes_target(stepper_.prober().probed().point, options_.tolerances.same_value);
 }
 
 void Tracer::use(Hold hold) {
@@ -216,7 +218,7 @@ void Tracer::use(Hold hold) {
 /// Whether a step leads out of the range from a point that lies on its limit but for rounding, on which no
 /// further step could land.
 bool Tracer::leaves_range() const {
-  const double beyond = stepper_.there().parameters(parameter_);
+  const double beyond = stepper_.step().there.parameters(parameter_);
   const double same = options_.tolerances.same_value * parameter_scale();
   const auto [low, high] = std::minmax(options_.from, options_.to);
   return (beyond < low && value() <= low + same) || (beyond > high && value() >= high - same);
@@ -232,13 +234,13 @@ void Tracer::take() {
   }
   const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
   if (!events_.empty() || closing_) {
-    stepper_.cut();
+    stepper_.prober().cut();
     for (const Event& event : events_) {
       if (event.kind->ends_regime) stepper_.settle_on_border(static_cast<int>(event.index));
     }
   }
   state_.last_value = value();
-  state_.last_chord = stepper_.chord();
+  state_.last_chord = stepper_.step().chord.norm();
   state_.arclength += state_.last_chord;
   stepper_.advance();
   targets_.keep_taken(value(), options_.tolerances.same_value * parameter_scale());
@@ -272,7 +274,7 @@ Correction Tracer::leave(int border, bool several) {
   if (!several) {
     const Regime beyond = *problem_.regime_beyond(here.regime, border);
     if (!seen_in_regime_.contains(beyond))
-      check_functions(problem_, here.unknowns, here.parameters, beyond, stepper_.tracked());
+      check_functions(problem_, here.unknowns, here.parameters, beyond, stepper_.monitors().tracked());
     return stepper_.enter(beyond);
   }
   const Vector arrival = raw_tangent().cwiseQuotient(here.scale);

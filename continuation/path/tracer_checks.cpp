@@ -48,7 +48,7 @@ bool Tracer::is_time_to_look(PointType type) {
 void Tracer::look_at_derivatives(const Vector& u, const Vector& p, const Regime& regime) {
   if (!branch_.warning.empty()) return;
   ++corrector_.work().evaluations;
-  const auto wrong = problem_.wrong_derivative(u, p, regime, parameter_, stepper_.tracked());
+  const auto wrong = problem_.wrong_derivative(u, p, regime, parameter_, stepper_.monitors().tracked());
   if (wrong) branch_.warning = fmt::format("{}, at {} = {:.10g}", *wrong, options_.parameter, p(parameter_));
 }
 
@@ -99,13 +99,14 @@ void Tracer::require_same(const Progress& progress) const {
       refuse(fmt::format("there is no regime {}, which the checkpoint names", digits(point->regime)));
   }
   require_count("entries in the bend", n + 1, progress.bend.size());
-  require_count("observables whose extrema are looked for", stepper_.tracked_count(),
+  require_count("observables whose extrema are looked for", stepper_.monitors().tracked_count(),
                 std::ssize(progress.signs.observables));
-  require_count("observables and borders", stepper_.tracked_count() + problem_.border_count(here.regime),
+  require_count("observables and borders",
+                stepper_.monitors().tracked_count() + problem_.border_count(here.regime),
                 std::ssize(progress.monitors));
   require_count("tests and events", std::ssize(problem_.test_types()) + std::ssize(options_.events),
                 std::ssize(progress.signs.functions));
-  check_functions(problem_, here.unknowns, here.parameters, here.regime, stepper_.tracked());
+  check_functions(problem_, here.unknowns, here.parameters, here.regime, stepper_.monitors().tracked());
   constexpr double nearly = 1e-6;  // far above tolerances, far below what another problem leaves
   Vector residual(n);
   const bool has_value = evaluate(problem_, here.unknowns, here.parameters, here.regime, {&residual});

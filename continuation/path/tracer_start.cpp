@@ -23,7 +23,7 @@ std::string_view reason(Correction correction) {
 }
 
 void Tracer::start(const Guess& guess, double forward) {
-  check_functions(problem_, guess.unknowns, guess.parameters, guess.regime, stepper_.tracked());
+  check_functions(problem_, guess.unknowns, guess.parameters, guess.regime, stepper_.monitors().tracked());
   Correction result =
       guess.direction.size() > 0
           ? stepper_.start_along(guess.unknowns, guess.parameters, guess.regime, forward * guess.direction)
@@ -38,7 +38,8 @@ void Tracer::start(const Guess& guess, double forward) {
                 fmt::format("no solution was found from the guess at {} = {:.10g}: {}", options_.parameter,
                             guess.parameters(parameter_), reason(result)));
   }
-  for (auto b = static_cast<std::size_t>(stepper_.tracked_count()); b < stepper_.at_here().size(); ++b) {
+  for (auto b = static_cast<std::size_t>(stepper_.monitors().tracked_count()); b < stepper_.at_here().size();
+       ++b) {
     if (stepper_.at_here()[b].value > options_.tolerances.outside) {
       return stop(Stop::no_start, fmt::format("the start lies outside the regime '{}' that was given for it",
                                               problem_.describe(guess.regime)));

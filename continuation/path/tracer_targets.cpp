@@ -18,7 +18,7 @@ void Tracer::take_where_it_starts() {
 bool Tracer::try_landing() {
   if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
   // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
-  const double distance = stepper_.distance();
+  const double distance = stepper_.step().distance;
   const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
   if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) {
     use(Hold::tangent);  // at a fold the parameter cannot be kept

@@ -7,7 +7,7 @@
 namespace arcslip::continuation {
 
 int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
-  const double size = stepper.size_of(observable, monitor.value);
+  const double size = stepper.monitors().size_of(observable, monitor.value);
   return std::abs(monitor.slope) <= 1e-14 * size ? 0 : sign_of(monitor.slope);
 }
 
@@ -97,7 +97,7 @@ const std::string& Watch::label(std::size_t function) const {
 Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   Signs signs;
   signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
-  for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.tracked_count()); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.monitors().tracked_count()); ++i)
     signs.observables.push_back(sign_of_slope(stepper, i, stepper.at_here()[i]));
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
   signs.unstable = watch.unstable();

@@ -57,7 +57,7 @@ long allocated(const continuation::Problem& problem, const continuation::Guess& 
   for (int i = -warm; i < 20; ++i) {
     if (i == 0) before = allocations;
     kept += static_cast<int>(stepper.attempt(continuation::Hold::tangent, step));
-    kept += static_cast<int>(stepper.probe(0.5 * step));
+    kept += static_cast<int>(stepper.prober().probe(0.5 * step));
     stepper.advance();
   }
   const long during = allocations - before;

@@ -27,8 +27,8 @@ class StepSearch {
 
   /// Up to where events are looked for, and whether that is all of it.
   double upper() const { return upper_; }
-  bool is_whole() const { return upper_ == stepper.distance(); }
-  double chord() const { return stepper.chord() * upper_ / stepper.distance(); }
+  bool is_whole() const { return upper_ == stepper.step().distance; }
+  double chord() const { return stepper.step().chord.norm() * upper_ / stepper.step().distance; }
   /// Whether an event is known at the upper end, beyond which others do not count.
   bool ends_at_event() const { return !result_.events.empty(); }
 

@@ -24,7 +24,7 @@ class Readings {
   static constexpr std::size_t rate = 0;
   std::size_t slope(Index observable) const { return 1 + static_cast<std::size_t>(observable); }
   std::size_t function(Index i) const {
-    return slope(stepper_.tracked_count()) + static_cast<std::size_t>(i);
+    return slope(stepper_.monitors().tracked_count()) + static_cast<std::size_t>(i);
   }
   std::size_t real_part(Index i) const { return function(functions_) + static_cast<std::size_t>(i); }
 
@@ -45,8 +45,7 @@ class Readings {
   Place* at(double s);
   void read_start(std::vector<double>& values) const;
   void read_end(std::vector<double>& values) const;
-  void read(const CurvePoint& point, double parameter_rate, const std::vector<Monitor>& monitors,
-            std::vector<double>& values);
+  void read(const Probe& probe, std::vector<double>& values);
 
   Stepper& stepper_;
   Watch& watch_;

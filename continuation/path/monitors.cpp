@@ -1,0 +1,72 @@
+#include "arcslip/continuation/path/monitors.hpp"
+
+#include <optional>
+
+namespace arcslip::continuation {
+namespace {
+
+/// Where the slope of the cubic on [0, 1] with these end slopes of one sign and this change is least, if that
+/// is less than a third of the slope at either end, by more than `shallow`: there may be a pair of extrema.
+std::optional<double> dip(double slope_0, double slope_1, double change, double shallow) {
+  if (!(slope_0 * slope_1 > 0)) return std::nullopt;
+  const double sign = slope_0 > 0 ? 1 : -1;
+  const double a = sign * slope_0;
+  const double b = 6 * sign * change - 4 * a - 2 * sign * slope_1;  // slope a + b x + c x^2
+  const double c = -b + sign * slope_1 - a;
+  if (!(c > 0) || !(b < 0) || !(-b < 2 * c)) return std::nullopt;
+  const double least = std::min(a, sign * slope_1);
+  const double lowest = a - b * b / (4 * c);
+  if (!(lowest < least / 3) || !(least - lowest > shallow)) return std::nullopt;
+  return -b / (2 * c);
+}
+
+}  // namespace
+
+Monitors::Monitors(const Problem& problem, Index parameter, std::vector<Index> tracked)
+    : problem_(problem),
+      parameter_(parameter),
+      tracked_(std::move(tracked)),
+      gradient_{Vector::Zero(problem.size()), Vector::Zero(std::ssize(problem.parameter_names()))} {
+  const std::vector<Observable> observables = problem.observables();
+  for (const Index which : tracked_) observed_.push_back(observables[static_cast<std::size_t>(which)]);
+}
+
+void Monitors::look(const CurvePoint& point, const Vector& scale, const Vector& slope,
+                    std::vector<Monitor>& out) {
+  out.clear();
+  const auto add = [&](double value) { out.push_back({value, rate(gradient_, parameter_, scale, slope)}); };
+  for (const Index which : tracked_) {
+    add(problem_.observe(point.unknowns, point.parameters, point.regime, which, gradient_));
+  }
+  for (int b = 0; b < problem_.border_count(point.regime); ++b) {
+    add(problem_.border(point.unknowns, point.parameters, point.regime, b, &gradient_));
+  }
+}
+
+double Monitors::border(const CurvePoint& point, int border, const Vector& scale, Vector& gradient) {
+  const double value = problem_.border(point.unknowns, point.parameters, point.regime, border, &gradient_);
+  const Index n = problem_.size();
+  gradient.head(n) = gradient_.unknowns.cwiseProduct(scale.head(n));
+  gradient(n) = gradient_.parameters(parameter_) * scale(n);
+  return value;
+}
+
+bool Monitors::resolved(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow) const {
+  if (step.is_tiny(s)) return true;
+  for (std::size_t i = 0; i < step.from.size(); ++i) {
+    const Monitor& a = step.from[i];
+    const Monitor& b = at_s[i];
+    const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
+    const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
+    // No more than a factor of two at a time: the observable is wanted as a curve, too.
+    if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
+    // The mean of the end slopes is to give the change, or else there is more between than these can tell.
+    const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
+    const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
+    if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
+    if (dip(a.slope * s, b.slope * s, change, shallow * size)) return false;
+  }
+  return true;
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,46 @@
+#pragma once
+
+// The observables whose extrema are looked for, and the borders, as smooth functions along a branch.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "arcslip/continuation/path/step.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// The tracked observables first, then the borders. Keeps the problem by reference.
+class Monitors {
+ public:
+  /// `parameter` is the position of the active one, `tracked` are the observables'.
+  Monitors(const Problem& problem, Index parameter, std::vector<Index> tracked);
+
+  /// Values at a point and slopes along `slope`, n + 1, in units of the scale.
+  void look(const CurvePoint& point, const Vector& scale, const Vector& slope, std::vector<Monitor>& out);
+
+  /// A border's value at a point, with its gradient in units of the scale.
+  double border(const CurvePoint& point, int border, const Vector& scale, Vector& gradient);
+
+  const std::vector<Index>& tracked() const { return tracked_; }
+  Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
+
+  /// What changes of a tracked observable are measured in, where it has this value.
+  double size_of(std::size_t observable, double value) const {
+    return std::max(observed_[observable].scale, std::abs(value));
+  }
+
+  /// Whether values and slopes where a step begins and at s fit a curve without more in between; `shallow` is
+  /// how good the values are.
+  bool resolved(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow) const;
+
+ private:
+  const Problem& problem_;
+  Index parameter_;
+  std::vector<Index> tracked_;
+  std::vector<Observable> observed_;  // those tracked
+  Gradient gradient_;
+};
+
+}  // namespace arcslip::continuation
