@@ -14,6 +14,7 @@
 namespace {
 
 using namespace arcslip;
+using continuation::Correction;
 using Clock = std::chrono::steady_clock;
 
 /// Median over 15 runs of the seconds that `work` takes.
@@ -55,20 +56,24 @@ double iteration_seconds(const problems::ForcedResponse& problem, const continua
   continuation::CurvePoint point = corrector.make_point();
   double seconds = 0;
   long iterations = 0;
+  long failed = 0;
   for (std::size_t i = 0; i < branch.points.size(); i += 10) {
     const continuation::BranchPoint& at = branch.points[i];
-    stepper.start(at.unknowns, at.parameters, at.regime, 1);
+    if (stepper.start(at.unknowns, at.parameters, at.regime, 1) != continuation::Correction::converged)
+      continue;
     const continuation::CurvePoint origin = stepper.here();
     const Vector step = 0.05 * origin.tangent;
     const long before = corrector.work().evaluations;
     seconds += median_seconds([&] {
       for (int repeat = 0; repeat < 20; ++repeat) {
         corrector.displace(origin, step, point);
-        corrector.correct(point, origin, origin.tangent, 0.05);
+        failed += static_cast<long>(corrector.correct(point, origin, origin.tangent, 0.05) !=
+                                    Correction::converged);
       }
     });
     iterations += (corrector.work().evaluations - before) / 15;
   }
+  if (failed > 0) fmt::print("{} corrections failed\n", failed);
   return seconds / static_cast<double>(iterations);
 }
 

@@ -12,6 +12,7 @@ using continuation::Evaluation;
 using continuation::Gradient;
 using continuation::Observable;
 using continuation::Problem;
+using continuation::Regime;
 
 /// x' = mu + x - x^3: folds at mu = -+2/(3 sqrt 3), x = +-1/sqrt 3.
 class Cusp : public Problem {
