@@ -26,56 +26,55 @@ Readings::Place* Readings::at(double s) {
   if (known != places_.end()) return &*known;
   const bool is_known = s == 0 || s == stepper_.step().distance;
   if (!is_known && !stepper_.prober().probe(s)) return nullptr;
-  Place& place = places_.emplace_back(Place{s, {}, {}});
-  if (s == 0) {
-    read_start(place.values);
-  } else if (is_known) {
-    read_end(place.values);
-  } else {
-    read(stepper_.prober().probed(), place.values);
-  }
-  return &place;
+  const Values values = s == 0 ? read_start() : is_known ? read_end() : read(stepper_.prober().probed());
+  return &places_.emplace_back(Place{s, values, {}});
 }
 
-void Readings::read_start(std::vector<double>& values) const {
+Readings::Values Readings::read_start() {
+  const std::size_t begin = numbers_.size();
   read_slopes(stepper_.step().parameter_rate_from(), stepper_.step().from,
-              stepper_.monitors().tracked_count(), values);
-  if (watch_.empty()) return;
+              stepper_.monitors().tracked_count(), numbers_);
+  if (watch_.empty()) return since(begin);
   const Look& here = watch_.kept().front();
-  values.insert(values.end(), here.functions.begin(), here.functions.end());
-  values.insert(values.end(), here.rates.begin(), here.rates.end());
+  numbers_.insert(numbers_.end(), here.functions.begin(), here.functions.end());
+  numbers_.insert(numbers_.end(), here.rates.begin(), here.rates.end());
+  return since(begin);
 }
 
-void Readings::read_end(std::vector<double>& values) const {
+Readings::Values Readings::read_end() {
+  const std::size_t begin = numbers_.size();
   read_slopes(stepper_.step().parameter_rate_to(), stepper_.step().to, stepper_.monitors().tracked_count(),
-              values);
-  read_functions(functions_at_end_, eigenvalues_at_end_, values);
+              numbers_);
+  read_functions(functions_at_end_, eigenvalues_at_end_, numbers_);
+  return since(begin);
 }
 
-void Readings::read(const Probe& probe, std::vector<double>& values) {
-  read_slopes(probe.parameter_rate(), probe.monitors, stepper_.monitors().tracked_count(), values);
-  if (watch_.empty()) return;
+Readings::Values Readings::read(const Probe& probe) {
+  const std::size_t begin = numbers_.size();
+  read_slopes(probe.parameter_rate(), probe.monitors, stepper_.monitors().tracked_count(), numbers_);
+  if (watch_.empty()) return since(begin);
   watch_.look(probe.point);
-  read_functions(watch_.functions(), watch_.eigenvalues(), values);
+  read_functions(watch_.functions(), watch_.eigenvalues(), numbers_);
+  return since(begin);
 }
 
 std::optional<double> Readings::value(std::size_t which, double s) {
   const Place* place = at(s);
-  if (place == nullptr || which >= place->values.size() || !std::isfinite(place->values[which]))
-    return std::nullopt;
-  return place->values[which];
+  if (place == nullptr || which >= place->values.count) return std::nullopt;
+  const double value = numbers_[place->values.begin + which];
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<Node> Readings::node(std::size_t which, double s) {
   const std::optional<double> here = value(which, s);
   if (!here) return std::nullopt;
   Place& place = *at(s);
-  if (place.beside.empty() && stepper_.prober().probe(s)) {
+  if (place.beside.count == 0 && stepper_.prober().probe(s)) {
     place.offset = stepper_.prober().look_beside();
-    if (place.offset != 0) read(stepper_.prober().beside(), place.beside);
+    if (place.offset != 0) place.beside = read(stepper_.prober().beside());
   }
-  const bool known = which < place.beside.size();
-  return Node{s, *here, known ? (place.beside[which] - *here) / place.offset : std::nan("")};
+  const bool known = which < place.beside.count;
+  return Node{s, *here, known ? (numbers_[place.beside.begin + which] - *here) / place.offset : std::nan("")};
 }
 
 }  // namespace arcslip::continuation

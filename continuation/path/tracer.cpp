@@ -245,7 +245,7 @@ void Tracer::take() {
   stepper_.advance();
   targets_.keep_taken(value(), options_.tolerances.same_value * parameter_scale());
   if (whole) state_.distance *= factor;
-  const Signs before = state_.signs;
+  signs_before_ = state_.signs;
   watch_.look(stepper_.here());
   watch_.keep(state_.last_chord);
   update(state_.signs, stepper_, watch_, !events_.empty());
@@ -253,7 +253,7 @@ void Tracer::take() {
     store(PointType::end);
     return stop(Stop::closed_loop, "the branch came back to its start");
   }
-  if (!events_.empty()) return take_events(before);
+  if (!events_.empty()) return take_events(signs_before_);
   if (landing_ != nullptr) return take_target(*landing_);
   store(PointType::regular);
 }

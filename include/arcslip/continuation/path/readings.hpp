@@ -3,7 +3,6 @@
 // All that a step is watched by, at places of it: the rate of the parameter, the slopes of the tracked
 // observables, the functions, and the real parts of the eigenvalues, each a function along the branch.
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -35,24 +34,31 @@ class Readings {
   std::optional<Node> node(std::size_t which, double s);
 
  private:
+  /// Some of numbers_.
+  struct Values {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+  };
   struct Place {
     double s;
-    std::vector<double> values;
-    std::vector<double> beside;  // values at s + offset, once they were asked for
+    Values values;
+    Values beside;  // values at s + offset, once they were asked for
     double offset = 0;
   };
 
   Place* at(double s);
-  void read_start(std::vector<double>& values) const;
-  void read_end(std::vector<double>& values) const;
-  void read(const Probe& probe, std::vector<double>& values);
+  Values since(std::size_t begin) const { return {begin, numbers_.size() - begin}; }
+  Values read_start();
+  Values read_end();
+  Values read(const Probe& probe);
 
   Stepper& stepper_;
   Watch& watch_;
   const std::vector<double>& functions_at_end_;
   const ComplexVector& eigenvalues_at_end_;
   Index functions_ = static_cast<Index>(functions_at_end_.size());
-  std::deque<Place> places_;
+  std::vector<Place> places_;
+  std::vector<double> numbers_;  // together, since most steps read one place or none
 };
 
 }  // namespace arcslip::continuation

@@ -95,6 +95,7 @@ class Tracer {
   std::vector<double> first_taken_;
   std::optional<double> closing_;
   std::vector<Event> events_;
+  Signs signs_before_;                    // the step last taken
   std::map<Regime, int> seen_in_regime_;  // regular points so far
   bool singular_seen_ = false;
   bool stopped_ = false;
