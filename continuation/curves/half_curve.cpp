@@ -23,9 +23,12 @@ TraceOptions within_window(const TraceOptions& options, const CurveWindow& windo
 
 Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
                     const std::function<Branch(const Observer& follow)>& trace) {
+  // Those at the last point: a step that was not brought to its end may have changed them.
+  std::vector<double> borders = problem.borders();
   const auto follow = [&](const BranchPoint& point) {
-    return problem.follow(problem.split(point.unknowns, point.parameters, point.regime)) &&
-           (!observer || observer(point));
+    const bool fits = problem.follow(problem.split(point.unknowns, point.parameters, point.regime));
+    borders = problem.borders();
+    return fits && (!observer || observer(point));
   };
   const long before = problem.evaluations();
   Branch part = trace(follow);
@@ -40,7 +43,7 @@ Branch follow_curve(ExtendedProblem& problem, const Observer& observer,
     part.explanation = fmt::format("{} reached an end of its range", problem.observables().front().name);
     if (!part.warning.empty()) part.explanation += "; " + part.warning;
   }
-  if (part.checkpoint) part.checkpoint->ahead->borders = problem.borders();
+  if (part.checkpoint) part.checkpoint->ahead->borders = std::move(borders);
   return part;
 }
 

@@ -7,6 +7,7 @@
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "library_cases.hpp"
 #include "scalar_problem.hpp"
 #include "unfinished_work.hpp"
 
@@ -79,6 +80,19 @@ TEST_CASE("A curve in two parameters goes on where it was left", "[resume]") {
   };
   check_interrupted(work, over("lambda", -1, 3));
   check_out_of_time(work, over("lambda", -1, 3));
+}
+
+TEST_CASE("A curve of Hopf points does not remember the step in which it was interrupted", "[resume]") {
+  // Its derivatives are differences, whose steps depend on those before.
+  const Instance lorenz("lorenz84", {{"T", 0.04}});
+  const auto found = of_type(lorenz.trace(over("F", 3, 1)), PointType::hopf);
+  REQUIRE(!found.empty());
+  check_interrupted(
+      [&](const TraceOptions& o) {
+        CurveStart start = curve_through(*lorenz.problem, "F", found.back());
+        return Branches{trace_curve(*start.problem, start.point, o, {1, 3})};
+      },
+      over("T", 1e-4, 0.1));
 }
 
 TEST_CASE("Branches that had no time to be whole are gone on with", "[resume]") {
