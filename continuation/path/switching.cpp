@@ -144,7 +144,7 @@ std::vector<Branch> trace_through(const Problem& problem, const std::vector<Gues
     TraceOptions landing = time.rest();
     landing.stop_at.push_back(solution.parameters(active));
     branches.push_back(trace_both(problem, solution, landing, observer));
-    if (branches.back().stop == Stop::interrupted || time.is_spent()) break;
+    if (is_unfinished(branches.back().stop)) break;
   }
   return branches;
 }

@@ -156,9 +156,9 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
     options.max_seconds = time.rest().max_seconds;
     Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
     const std::chrono::duration<double> seconds = Clock::now() - begun;
-    const bool interrupted = branch.stop == continuation::Stop::interrupted;
+    const bool is_left = is_unfinished(branch.stop);  // of those behind it nothing is known
     curves.push_back({request, subject.built, curve, std::move(branch), seconds.count()});
-    if (interrupted || time.is_spent()) break;
+    if (is_left) break;
   }
   for (TracedBranch& curve : curves) {
     for (BranchPoint& point : curve.branch.points) {
