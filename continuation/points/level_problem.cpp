@@ -20,9 +20,20 @@ LevelProblem::LevelProblem(const Problem& base, Index active, Index observable, 
 bool LevelProblem::adapt(const BasePoint& point) {
   if (!ExtendedProblem::adapt(point)) return false;
   size_ = std::max(std::abs(value_), what_.scale);
-  if (!(size_ > 0)) size_ = 1;
+  if (!(size_ > 0)) size_ = slope(point);  // what is to vanish has no size of its own
   size_ *= steepness(point);
   return true;
+}
+
+/// How much the observable changes over the base's scale.
+double LevelProblem::slope(const BasePoint& point) {
+  base().observe(point.unknowns, point.parameters, point.regime, observable_, slope_);
+  Vector unknown_scale(base().size());
+  Vector parameter_scale(point.parameters.size());
+  base().scale(point.unknowns, point.parameters, unknown_scale, parameter_scale);
+  const double slope = std::hypot(slope_.unknowns.cwiseProduct(unknown_scale).norm(),
+                                  slope_.parameters(active()) * parameter_scale(active()));
+  return slope > 0 ? slope : 1;
 }
 
 void LevelProblem::each_border(const std::function<void(double*, Index)>& use) {

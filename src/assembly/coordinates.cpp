@@ -30,12 +30,18 @@ ElementKind::Values values_of(const PlacedElement& placed, double nodes, double 
 std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
                                           const std::function<double(const Coordinate&)>& usual_stiffness) {
   std::vector<Coordinate> all;
-  if (parameters.cubic_stiffness != 0) {
+  if (parameters.has_cubic_springs()) {
     const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
+    SystemParameters unit = parameters;
+    unit.cubic_stiffness = 1;
+    const double share = cubic_coefficient(unit);
     for (Index i = 0; i < dofs; ++i) {
       Coordinate& one = all.emplace_back(Coordinate{1, 0, i, nullptr});
-      one.element = cubic_spring(cubic_coefficient(parameters), usual_stiffness(one));
+      const double usual = usual_stiffness(one);
+      one.element = cubic_spring(cubic_coefficient(parameters), usual);
       one.follows_base = true;
+      if (parameters.varied == "cubic_stiffness")
+        one.varied = [=](double value) { return cubic_spring({share * value, share, 0}, usual); };
     }
   }
   const double nodes = parameters.sectors ? 1 : static_cast<double>(parameters.elements);

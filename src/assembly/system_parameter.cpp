@@ -78,6 +78,9 @@ void change_growth(At& at, double value, const SystemParameters& /*system*/) {
   at.rate.preload_growth = 1;
 }
 
+/// Of an element, which is made anew at each value.
+void leave(At& /*at*/, double /*value*/, const SystemParameters& /*system*/) {}
+
 using Kind = SystemParameter::Kind;
 
 /// One that is a number of the system.
@@ -137,7 +140,7 @@ SystemParameter of_element(std::size_t i, std::size_t setting, const SystemParam
 }  // namespace
 
 std::vector<std::string> system_parameter_names() {
-  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma"};
+  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma", "cubic_stiffness"};
 }
 
 std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
@@ -155,6 +158,8 @@ std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
   if (!system.sectors) {
     all.push_back(plain("M*", &S::mass_ratio, change_mass_ratio, Kind::ratio, system));
     all.push_back(plain("gamma", &S::frequency_ratio, change_frequency_ratio, Kind::ratio, system));
+    all.push_back(plain("cubic_stiffness", &S::cubic_stiffness, leave, Kind::element, system));
+    all.back().limits = any_value("", 0, "");
     return all;
   }
   const Index count = std::ssize(system.contacts);

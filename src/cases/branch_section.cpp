@@ -162,7 +162,8 @@ const KeyTable<CaseBranch>& branch_keys() {
            required, of_level),
        K::special(
            "parameter", "name",
-           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, P_2, M* or gamma, of sectors L, of one contact of "
+           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
+           "of one contact of "
            "several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear modes R in place of "
            "eta, of limit "
            "cycles zeta_B, or a library model's own",

@@ -245,7 +245,7 @@ const KeyTable<FrictionSettings>& ring_keys() {
          otherwise(fmt::format("{}", S{}.poisson_ratio)), resolved(poisson_ratio)),
        preload_growth_key(),
        K("cubic_stiffness", &S::cubic_stiffness, any_number(),
-         "N k_3/K* of springs k_3 y^3 between the base's nodes and ground"),
+         "N k_3/K* of springs k_3 y^3 between the base's nodes and ground", parameter("cubic_stiffness")),
        K::flag("fixed_damper", &S::fixed_damper, "friction against a rigid ring")}};
   return keys;
 }
@@ -288,7 +288,7 @@ NumberRule poisson_rule() {
 NumberRule parameter_rule(const LibraryModel* model, const std::string& parameter) {
   if (model == nullptr) {
     if (parameter == "zeta_B") return damping_rule();
-    if (parameter == "P_2" || parameter.find('.') != std::string::npos)
+    if (parameter == "P_2" || parameter == "cubic_stiffness" || parameter.find('.') != std::string::npos)
       return any_number();  // of its own rule
     return parameter == "zeta_D" ? inside(0, 1) : positive();
   }

@@ -373,6 +373,9 @@ TEST_CASE("All tasks compose with a contact to ground", "[composition]") { check
 TEST_CASE("All tasks compose with negative damping", "[composition]") { check_kind("negative damping"); }
 TEST_CASE("All tasks compose with structural damping", "[composition]") { check_kind("structural damping"); }
 TEST_CASE("All tasks compose with a growing preload", "[composition]") { check_kind("growing preload"); }
+TEST_CASE("All tasks compose with stops in five harmonics", "[composition][numbers]") {
+  check_kind("stops of `[[element]]`, five harmonics");
+}
 TEST_CASE("All tasks compose with cubic springs in five harmonics", "[composition][numbers]") {
   check_kind("cubic, five harmonics");
 }

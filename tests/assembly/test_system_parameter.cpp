@@ -60,6 +60,7 @@ TEST_CASE("A varied system is the one built with the other value", "[systems]") 
     CHECK_THAT(built.contacts[0].slip_per_preload * here.slip_per_preload,
                Catch::Matchers::WithinRel(wanted.contacts[0].slip_per_preload, 1e-14));
     CHECK_THAT(here.preload_growth, Catch::Matchers::WithinRel(wanted.preload_growth, 1e-14));
+    if (parameter.kind == SystemParameter::Kind::element) continue;  // made anew
     CHECK_THAT(cubic_coefficient(system) * here.others,
                Catch::Matchers::WithinRel(cubic_coefficient(other), 1e-14));
   }

@@ -8,6 +8,7 @@
 #include "arcslip/continuation/points/level_problem.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/response/harmonic_cycle.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
 #include "branches.hpp"
@@ -222,6 +223,35 @@ TEST_CASE("Levels have exact derivatives, those of phases among them", "[phase r
       const continuation::Guess at = scalar.guess(eta, preload);
       check(scalar, at, {"beta", "alpha", "psi", "Y"});
       check(harmonic, harmonic.guess(eta, preload), {"lag", "beta", "alpha", "psi", "Y"});
+    }
+  }
+}
+
+TEST_CASE("Modes whose damping ratio is held at zero are limit cycles", "[phase resonance]") {
+  SystemParameters parameters = some_rods();
+  parameters.tells_lag = false;
+  parameters.base_damping = -1e-2;
+  const HarmonicSystem system = build_harmonic_system(parameters);
+  const NonlinearMode mode(system);
+  const problems::HarmonicCycle cycle(system);
+  const Level undamped{"zeta", 0};
+  continuation::TraceOptions options = over("R", 1e-3, 10);
+  options.events = {event_at(undamped, mode)};
+  const Branch branch = trace(mode, mode.guess(1.7, 1e-3, 1), options);
+  const auto seeds = of_type(branch, PointType::event);
+  REQUIRE_FALSE(seeds.empty());
+  for (const BranchPoint& seed : seeds) {
+    const continuation::CurveStart start = curve_at(undamped, mode, "R", seed);
+    const Branch curve = trace_curve(*start.problem, start.point, over("P", 0.1, 10));
+    REQUIRE(curve.complete());
+    for (const BranchPoint& point : curve.points) {
+      const BasePoint at = start.problem->split(point.unknowns, point.parameters, point.regime);
+      Vector u = at.unknowns;
+      u(problems::HarmonicCycle::amplitude) = at.parameters(0);
+      Vector residual(cycle.size());
+      REQUIRE(cycle.evaluate(u, Eigen::Vector2d(-1e-2, at.parameters(1)), at.regime, {&residual}));
+      CHECK(residual.norm() < 1e-10);
+      CHECK_THAT(at.parameters(0) / at.parameters(1), WithinRel(seed.parameters(0), 1e-9));
     }
   }
 }

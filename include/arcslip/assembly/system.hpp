@@ -76,7 +76,10 @@ struct SystemParameters {
   double eta_high = 0;
 
   /// Whether elements act beside the contacts.
-  bool has_others() const { return cubic_stiffness != 0 || !others.empty(); }
+  bool has_others() const { return has_cubic_springs() || !others.empty(); }
+
+  /// Whether there are, or may be as it is continued, cubic springs.
+  bool has_cubic_springs() const { return cubic_stiffness != 0 || varied == "cubic_stiffness"; }
 
   double stiffness_ratio() const { return frequency_ratio * frequency_ratio * mass_ratio; }  ///< K*
 };

@@ -8,13 +8,15 @@
 //   K_FD          all contacts' stiffness, at the same limit of their force
 //   M*            mass_ratio: base mass, stiffness and load, at the same gamma
 //   gamma         frequency_ratio: base stiffness and load
+//   cubic_stiffness   of the base's springs to ground
 //   P_2           growth of the preload P + P_2 eta^2
 //   L             all contacts' limit_per_preload
 //   K_FD_2, L_2   of the second of several contacts; so of each
 //   stops.gap     a setting of an element, see setting_name
 //
-// M* and gamma belong to rods and beams; of the load goes F K*, of the contacts' slip P K*/K_FD. L and what
-// is of one contact belong to sectors, of which K_FD is N k of the first contact and K_FD_2 of the second.
+// M*, gamma and cubic_stiffness belong to rods and beams; of the load goes F K*, of the contacts' slip P
+// K*/K_FD. L and what is of one contact belong to sectors, of which K_FD is N k of the first contact and
+// K_FD_2 of the second.
 
 #include <functional>
 #include <string>
@@ -29,8 +31,8 @@ struct SystemParameters;
 
 /// What a value of a parameter does to the system, or the rates at which it does.
 struct SystemVariation {
-  Variation base;
-  Variation damper;
+  Variation base;                ///< of the base
+  Variation damper;              ///< of the damper
   double contact_stiffness = 1;  ///< factor on k of the contacts that are concerned
   double slip_per_preload = 1;   ///< factor on S/P of the same
   double others = 1;             ///< factor on the forces of cubic springs, which are told relative to K*
@@ -38,11 +40,12 @@ struct SystemVariation {
   double base_viscous = 1;       ///< factor on the base's viscous loss per zeta_B
 };
 
+/// One of these numbers.
 struct SystemParameter {
   /// At a value, with rates.
   struct At {
-    SystemVariation here;
-    SystemVariation rate;
+    SystemVariation here;  ///< what the value does
+    SystemVariation rate;  ///< its derivatives
   };
 
   enum class Kind {

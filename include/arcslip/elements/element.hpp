@@ -66,9 +66,9 @@ class Element {
 
   /// A way in which x, ln(load) and a setting that is continued change.
   struct Way {
-    HarmonicVector motion;
-    double log_load = 0;
-    double setting = 0;
+    HarmonicVector motion;  ///< rate of x
+    double log_load = 0;    ///< of ln(load)
+    double setting = 0;     ///< of the setting
   };
 
   /// How harmonics and derivatives, which `force` has given as `at` with these arguments, change along it. Of

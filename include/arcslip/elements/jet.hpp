@@ -5,16 +5,19 @@
 
 namespace arcslip {
 
+/// Such a number.
 struct Jet {
-  double value = 0;
+  double value = 0;   ///< of itself
   double first = 0;   ///< derivative
   double second = 0;  ///< second derivative
 
+  /// Zero, a constant, or one with its derivatives.
   Jet() = default;
   Jet(double constant) : value(constant) {}
   Jet(double constant, double rate, double bend) : value(constant), first(rate), second(bend) {}
 };
 
+/// Arithmetic.
 inline Jet operator-(const Jet& a) { return {-a.value, -a.first, -a.second}; }
 inline Jet operator+(const Jet& a, const Jet& b) {
   return {a.value + b.value, a.first + b.first, a.second + b.second};

@@ -10,6 +10,7 @@
 
 namespace arcslip {
 
+/// Such a law.
 class PiecewiseLaw {
  public:
   /// f = sum_m c_m x^m for x up to `end`, with their derivatives by a setting if one is continued.

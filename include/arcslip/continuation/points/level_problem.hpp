@@ -23,6 +23,8 @@ class LevelProblem : public ExtendedProblem {
   void each_border(const std::function<void(double*, Index)>& use) override;
 
  private:
+  double slope(const BasePoint& point);
+
   Index observable_;
   Observable what_;
   double value_;
