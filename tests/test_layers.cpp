@@ -213,7 +213,7 @@ TEST_CASE("Includes against the layers are recognised", "[layers]") {
       {"src/results/results.cpp", "#include \"arcslip/problems/response/forced_response.hpp\"", false},
       {"src/results/results.cpp", "#include \"app/commands.hpp\"", true},
       {"src/results/results.cpp", "#include <CLI/CLI.hpp>", true},
-      {"src/app/command_run.cpp", "#include \"arcslip/results/results.hpp\"", false},
+      {"src/app/commands/run.cpp", "#include \"arcslip/results/results.hpp\"", false},
   }));
   CAPTURE(example.file, example.line);
   CHECK(forbidden(example.file, example.line) == example.forbidden);

@@ -1,14 +1,34 @@
-#include "app/command_sector.hpp"
+// `arcslip sector`: its arguments, and what it does with them.
 
 #include <fmt/format.h>
 
+#include <memory>
+
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/sector_kinds.hpp"
 #include "arcslip/keys/input_error.hpp"
 #include "results/output.hpp"
 
 namespace arcslip {
 namespace {
+
+/// The brake rotor and the paper's figure 8, where not told otherwise.
+struct SectorOptions {
+  PairOptions pair;
+  SystemParameters paper;
+  std::optional<double> slenderness;
+  double poisson_ratio = 0.3;  ///< of the paper's damper
+  Index per_sector = 1;
+  AnnularPlate plate;
+  SolidRing ring;
+  SolidOptions solid;
+  std::string folder;
+  CLI::App* rods = nullptr;
+  CLI::App* beams = nullptr;
+  CLI::App* plates = nullptr;
+};
 
 constexpr const char* sector_notes = R"(
 Writes into DIR the matrices of one sector of the base and of the damper in Matrix Market format (base_mass.mtx,
@@ -199,22 +219,8 @@ SectorCase make(const SectorOptions& given) {
                : ring_case(options.pair, options.ring, options.solid);
 }
 
-}  // namespace
-
-CLI::App* add_sector_command(CLI::App& app, SectorOptions& options) {
-  set_defaults(options);
-  CLI::App* sector =
-      app.add_subcommand("sector", "Write matrices and a case file of sectors of known shapes");
-  sector->require_subcommand(1);
-  options.rods = add_paper(sector, options, "rods", "The paper's longitudinal rods");
-  options.beams = add_paper(sector, options, "beams", "The paper's transverse beams");
-  options.plates = add_plate(sector, options);
-  add_rings(sector, options);
-  sector->footer(sector_notes);
-  return sector;
-}
-
-int sector_command(const SectorOptions& options) {
+/// Writes the files and prints what they hold.
+int write_sectors(const SectorOptions& options) {
   catch_interrupts();
   const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   SectorCase made;
@@ -230,5 +236,24 @@ int sector_command(const SectorOptions& options) {
                     options.folder));
   return status::done;
 }
+
+/// Its kinds are commands of their own.
+Command::Action add_sector(CLI::App& app) {
+  const auto options = std::make_shared<SectorOptions>();
+  set_defaults(*options);
+  CLI::App* sector =
+      app.add_subcommand("sector", "Write matrices and a case file of sectors of known shapes");
+  sector->require_subcommand(1);
+  options->rods = add_paper(sector, *options, "rods", "The paper's longitudinal rods");
+  options->beams = add_paper(sector, *options, "beams", "The paper's transverse beams");
+  options->plates = add_plate(sector, *options);
+  add_rings(sector, *options);
+  sector->footer(sector_notes);
+  return [options] { return write_sectors(*options); };
+}
+
+}  // namespace
+
+Command sector_command() { return {"sector", add_sector}; }
 
 }  // namespace arcslip

@@ -3,8 +3,10 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <system_error>
 
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/gnuplot.hpp"
 #include "app/interrupt.hpp"
@@ -13,7 +15,9 @@
 
 namespace arcslip {
 
-int plot_command(const std::string& folder) {
+namespace {
+
+int plot(const std::string& folder) {
   catch_interrupts();
   const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   const std::vector<Picture> pictures = pictures_of(folder);
@@ -29,5 +33,17 @@ int plot_command(const std::string& folder) {
   }
   return status::done;
 }
+
+Command::Action add_plot(CLI::App& app) {
+  const auto folder = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("plot", "Draw what is in a folder of results (PNG and SVG; needs gnuplot)");
+  command->add_option("DIR", *folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
+  return [folder] { return plot(*folder); };
+}
+
+}  // namespace
+
+Command plot_command() { return {"plot", add_plot}; }
 
 }  // namespace arcslip

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "arcslip/assembly/sector_pair.hpp"
@@ -19,6 +21,12 @@
 namespace arcslip {
 
 namespace {
+
+struct CheckOptions {
+  std::string case_path;
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool derivatives = false;           ///< compare the problems' derivatives with differences
+};
 
 std::string describe_sector(const SystemParameters& system) {
   std::vector<double> k;
@@ -224,7 +232,9 @@ void check_study(const CaseFile& file) {
 
 }  // namespace
 
-int check_command(const CheckOptions& options) {
+namespace {
+
+int check(const CheckOptions& options) {
   catch_interrupts();
   const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   const CaseFile file(options.case_path, options.settings);
@@ -236,5 +246,20 @@ int check_command(const CheckOptions& options) {
   const bool good = (study && !branches) || check_branches(file, options.derivatives);
   return good ? status::done : status::incomplete_branch;
 }
+
+Command::Action add_check(CLI::App& app) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand("check", "Read and validate a case file, print what would run");
+  command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
+  command->add_flag(
+      "--derivatives", options->derivatives,
+      "Compare the problem's exact derivatives with differences on the branch; status 3 if one differs");
+  add_settings(command, options->settings);
+  return [options] { return check(*options); };
+}
+
+}  // namespace
+
+Command check_command() { return {"check", add_check}; }
 
 }  // namespace arcslip

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "cases/key_catalogue.hpp"
 #include "keys/printable.hpp"
@@ -9,6 +11,11 @@
 
 namespace arcslip {
 namespace {
+
+struct HelpOptions {
+  std::string key;        ///< empty: all of them
+  bool markdown = false;  ///< tables of all keys, as the README has them
+};
 
 /// Without the marks of code.
 std::string plain(std::string text) {
@@ -99,7 +106,9 @@ std::string list_keys(const std::vector<std::string>& names) {
   return text;
 }
 
-int help_command(const HelpOptions& options) {
+namespace {
+
+int help(const HelpOptions& options) {
   const std::vector<KeySection> sections = key_catalogue();
   if (!options.key.empty()) return help_of(options.key, sections);
   std::string text;
@@ -110,5 +119,17 @@ int help_command(const HelpOptions& options) {
   print(text);
   return status::done;
 }
+
+Command::Action add_help(CLI::App& app) {
+  const auto options = std::make_shared<HelpOptions>();
+  CLI::App* command = app.add_subcommand("help", "List the keys of case files, or tell all of one");
+  command->add_option("KEY", options->key, "As max_step, or continuation.max_step");
+  command->add_flag("--markdown", options->markdown, "All keys as tables in Markdown");
+  return [options] { return help(*options); };
+}
+
+}  // namespace
+
+Command help_command() { return {"help", add_help}; }
 
 }  // namespace arcslip

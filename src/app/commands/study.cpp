@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <memory>
 #include <optional>
 
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/crew.hpp"
 #include "app/interrupt.hpp"
@@ -15,6 +17,15 @@
 
 namespace arcslip {
 namespace {
+
+struct StudyOptions {
+  std::string case_path;
+  std::string folder;                 ///< empty: out/<name of the case file>
+  std::size_t jobs = 0;               ///< threads; 0: one for each core
+  bool resume = false;                ///< go on with the study in the folder
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool quiet = false;
+};
 
 std::string duration(double seconds) {
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
@@ -110,7 +121,9 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
 
 }  // namespace
 
-int study_command(const StudyOptions& options) {
+namespace {
+
+int study(const StudyOptions& options) {
   Crew crew;
   catch_interrupts();
   const BeforeTheEnd say_so([leads = crew.leads()] {
@@ -136,5 +149,41 @@ int study_command(const StudyOptions& options) {
   crew.dismiss(status);
   return status;
 }
+
+constexpr const char* study_notes = R"(
+Follows every peak of the base's amplitude over a window of eta as the preload varies, and finds the preload at which
+the highest peak is lowest, for each design. Writes DIR/study.sqlite (each design as soon as it is done) and at the end
+DIR/optimum.csv (one row for each design), DIR/sweep.csv (one row for each peak and preload) and DIR/summary.json. A
+study that was interrupted or killed goes on with --resume; without it a study in DIR is begun anew.
+
+In place of a list a range, { from = 1.0, to = 100.0, count = 50, scale = "log" } ("linear" if not given); in place of
+the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }, ...]. Preloads of
+continuation.stop_at get a row for every peak. Where something scatters, DIR/quantiles.csv has the quantiles and
+DIR/robust.csv the preload at which the 95 % quantile is lowest.
+
+A case file has [system] and [geometry], as for arcslip run, and these keys; problems/figure_12.toml is one:
+
+)";
+
+Command::Action add_study(CLI::App& app) {
+  const auto options = std::make_shared<StudyOptions>();
+  CLI::App* command =
+      app.add_subcommand("study", "Find the best preload of each design that [study] asks for");
+  command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
+  command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "Threads; one for each core if not given")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--resume", options->resume, "Go on with the study in DIR, if there is one");
+  add_settings(command, options->settings);
+  command->add_flag("--quiet", options->quiet, "Print neither progress nor the table");
+  command->footer([] { return study_notes + list_keys({"study", "study.uncertain", "continuation"}); });
+  return [options] { return study(*options); };
+}
+
+}  // namespace
+
+Command study_command() { return {"study", add_study}; }
 
 }  // namespace arcslip

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <utility>
 
+#include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -24,6 +26,16 @@
 
 namespace arcslip {
 namespace {
+
+struct RunOptions {
+  std::string case_path;
+  std::string folder;                 ///< empty: out/<name of the case file>
+  std::vector<std::string> settings;  ///< "section.key=value"
+  bool quiet = false;
+  bool verify = false;   ///< solve points of each branch anew, by other means
+  bool certify = false;  ///< prove each branch by interval arithmetic
+  std::string resume;    ///< folder of the interrupted run to go on with; empty: none
+};
 
 /// Why a branch is not whole, or nothing if it is: a border beyond which the problem has no regime is an end
 /// as good as any, and of a branch traced both ways both parts must have one.
@@ -278,10 +290,55 @@ std::string results_folder(const std::string& given, const std::string& case_pat
   return !given.empty() ? given : "out/" + std::filesystem::path(case_path).stem().string();
 }
 
-int run_command(const RunOptions& options) {
+namespace {
+
+int run(const RunOptions& options) {
   catch_interrupts();
   const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
   return Run(options).execute();
 }
+
+constexpr const char* run_notes = R"(
+Writes DIR/branches.csv (one row for each point), DIR/curves.csv (more rows in between, for pictures), DIR/summary.json
+(special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
+as interrupted, with DIR/run.checkpoint, from which --resume DIR goes on to the same tables; so it does where max_seconds
+were too few.
+
+A curve of peaks in two parameters: curve = "peak", parameters = ["eta", "P"], window = [0.5, 120.0] of eta, from = 0.1 and
+to = 100.0 of P. A case file has these keys, of which `arcslip help KEY` tells more; problems/figure_8.toml is one:
+
+)";
+
+Command::Action add_run(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Trace the branches that [branch] of a case file asks for");
+  command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
+  CLI::Option* output =
+      command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
+          ->type_name("DIR");
+  command
+      ->add_option("--resume", options->resume,
+                   "Go on with the interrupted run of this case in DIR, or one that had no time")
+      ->type_name("DIR")
+      ->excludes(output);
+  add_settings(command, options->settings);
+  command->add_flag("--quiet", options->quiet, "Print neither progress nor the table");
+  command->add_flag(
+      "--verify", options->verify,
+      "Solve special points and samples of forced responses anew, with more harmonics and by integrating "
+      "the whole ring in time; writes DIR/verify.csv");
+  command->add_flag(
+      "--certify", options->certify,
+      "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
+      "jumped; forced responses with one contact; status 3 where a segment is not proven");
+  command->footer([] {
+    return run_notes + list_keys({"system", "geometry", "element", "branch", "continuation"});
+  });
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+Command run_command() { return {"run", add_run}; }
 
 }  // namespace arcslip

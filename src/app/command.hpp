@@ -1,0 +1,32 @@
+#pragma once
+
+// The commands of the program. Each is one file in src/app/commands: NAME.cpp defines `Command
+// NAME_command()`, and the build finds it.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace arcslip {
+
+struct Command {
+  /// What a command does once its arguments are known; it returns the exit status, what it throws is for
+  /// `guarded`.
+  using Action = std::function<int()>;
+
+  std::string name;
+  /// Adds it to the program with its arguments; gives what is done with them.
+  std::function<Action(CLI::App& app)> add;
+};
+
+/// All of them, in alphabetical order.
+const std::vector<Command>& commands();
+
+/// The one of this name, or null.
+const Command* find_command(const std::string& name);
+
+/// `--set`.
+void add_settings(CLI::App* command, std::vector<std::string>& settings);
+
+}  // namespace arcslip
