@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -68,8 +69,12 @@ std::string describe(const ProblemRequest& problem) {
 std::string fixed(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "";
-  const std::string other = branch.options.parameter != "P" ? "P" : problem.response->parameters.front();
-  return fmt::format(" at {} = {:g}", other, fixed_value(problem, other));
+  std::vector<std::string> held;
+  for (const std::string& name : {problem.response->parameters.front(), std::string("P")}) {
+    if (name != branch.options.parameter)
+      held.push_back(fmt::format("{} = {:g}", name, fixed_value(problem, name)));
+  }
+  return fmt::format(" at {}", fmt::join(held, ", "));
 }
 
 std::string describe(const CaseBranch& branch) {
