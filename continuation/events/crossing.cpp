@@ -49,7 +49,7 @@ void CrossingSearch::rescale(double max_step) {
   const double sign = corrector_.orientation() * step_.here.orientation;
   const double change = corrector_.log_determinant() - step_.here.log_determinant;
   step_.here.orientation *= sign;
-  step_.here.log_determinant += change;
+  step_.here.log_determinant = corrector_.log_determinant();
   for (PastPoint& past : step_.past) {
     past.sign *= sign;
     past.log += change;

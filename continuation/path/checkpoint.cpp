@@ -15,7 +15,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 3;  // of the versions of the text
+constexpr int newest = 4;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -185,6 +185,7 @@ void progress(Archive& archive, Way& way) {
     list(archive, look.functions, number);
     list(archive, look.rates, number);
   });
+  if (archive.version >= 4) archive(way.rescaled);
 }
 
 Stop stop_named(const std::string& name) {

@@ -92,7 +92,7 @@ void Stepper::restore(const Progress& progress) {
   bend_ = progress.bend;
   at_here_ = progress.monitors;
   step_.past = progress.past;
-  revision_ = problem_.revision();
+  revision_ = problem_.revision() - progress.rescaled;
   if (!std::isnan(step_.here.log_determinant)) return;
   if (corrector_.linearise(step_.here, step_.here.tangent) == Correction::converged)
     step_.here.log_determinant = corrector_.log_determinant();
@@ -168,7 +168,7 @@ double Stepper::parameter_slope(Hold hold) const {
 }
 
 void Stepper::set_condition(Hold hold) {
-  if (revision_ != problem_.revision()) {
+  if (is_rescaled()) {
     revision_ = problem_.revision();
     crossings_.rescale(max_step_);
   }

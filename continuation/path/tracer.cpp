@@ -70,6 +70,7 @@ Branch Tracer::run(const Progress& progress) {
 void Tracer::go_on() {
   while (!stopped_) {
     storing_ = false;
+    state_.rescaled = static_cast<int>(stepper_.is_rescaled());
     check_limits();
     if (!stopped_) step();
   }

@@ -92,7 +92,7 @@ TEST_CASE("A curve of Hopf points does not remember the step in which it was int
         CurveStart start = curve_through(*lorenz.problem, "F", found.back());
         return Branches{trace_curve(*start.problem, start.point, o, {1, 3})};
       },
-      over("T", 1e-4, 0.1));
+      over("T", 1e-4, 0.1), 10000);
 }
 
 TEST_CASE("Branches that had no time to be whole are gone on with", "[resume]") {

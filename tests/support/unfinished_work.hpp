@@ -45,13 +45,14 @@ inline Branches with_journal(const Tracing& work, continuation::TraceOptions opt
 
 /// Of `work` whose options are asked `all` times whether to go on; it is interrupted when they have been
 /// asked so often, then once more, and then brought to its end. In all they are asked hardly more often.
-inline void check_interrupted(const Tracing& work, continuation::TraceOptions options, long most_lost = 200) {
+inline void check_interrupted(const Tracing& work, continuation::TraceOptions options, long samples = 97,
+                              long most_lost = 200) {
   long asked = 0;
   options.go_on = [&] { return ++asked > 0; };
   const Branches whole = work(options);
   const long all = asked;
   REQUIRE(all > 50);
-  for (long first = 1; first <= all; first += 1 + all / 97) {
+  for (long first = 1; first <= all; first += 1 + all / samples) {
     CAPTURE(first, all);
     std::string kept;
     Branches again;

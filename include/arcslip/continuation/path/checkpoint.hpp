@@ -70,6 +70,7 @@ struct Progress {
   std::vector<double> borders;        ///< of an extended problem: those of its conditions
   std::vector<PastPoint> past;        ///< the last one first
   std::vector<Look> looks;            ///< the one here, then earlier ones
+  int rescaled = 0;                   ///< 1 where the problem has been scaled anew here
 };
 
 /// What a branch is one of; whatever goes on with it must be the same.

@@ -49,6 +49,9 @@ class Stepper {
   const Vector& bend() const { return bend_; }
   const std::vector<Monitor>& at_here() const { return at_here_; }
 
+  /// Whether the problem has been scaled anew since its determinants were taken.
+  bool is_rescaled() const { return revision_ != problem_.revision(); }
+
   /// Goes into `regime` at the border where the point `here` lies: the tangent of the new piece, oriented
   /// into it.
   Correction enter(const Regime& regime);
