@@ -65,6 +65,29 @@ Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to,
                     [&](Branch& half) { settle(problem, half); });
 }
 
+/// By how much an observable is above the value of a level.
+class Above {
+ public:
+  Above(const Level& level, const Problem& problem)
+      : problem_(problem),
+        value_(level.value),
+        which_(index_of(observable_names(problem), level.observable)),
+        what_(problem.observables()[static_cast<std::size_t>(which_)]) {}
+
+  double operator()(const Vector& u, const Vector& p, const Regime& regime) const {
+    Vector values;
+    problem_.observe(u, p, regime, values);
+    return what_.near(values(which_), value_) - value_;
+  }
+  double period() const { return what_.period; }
+
+ private:
+  const Problem& problem_;
+  double value_;
+  Index which_;
+  Observable what_;
+};
+
 Branch told(Branch curve, const CurveWindow& window) {
   if (curve.checkpoint) curve.checkpoint->window = window;
   return curve;
@@ -104,27 +127,22 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
 
 double above(const Level& level, const Problem& problem, const Vector& u, const Vector& p,
              const Regime& regime) {
-  const Index which = index_of(observable_names(problem), level.observable);
-  Vector values;
-  problem.observe(u, p, regime, values);
-  return problem.observables()[static_cast<std::size_t>(which)].near(values(which), level.value) -
-         level.value;
+  return Above(level, problem)(u, p, regime);
 }
 
 UserEvent event_at(const Level& level, const Problem& problem) {
-  const Index which = index_of(observable_names(problem), level.observable);
-  const double period = problem.observables()[static_cast<std::size_t>(which)].period;
-  return {level.observable, [=, &problem](const Vector& u, const Vector& p, const Regime& regime) {
-            const double difference = above(level, problem, u, p, regime);
-            return period > 0 ? std::sin(two_pi / period * difference) : difference;
+  return {level.observable,
+          [above = Above(level, problem)](const Vector& u, const Vector& p, const Regime& regime) {
+            const double difference = above(u, p, regime);
+            return above.period() > 0 ? std::sin(two_pi / above.period() * difference) : difference;
           }};
 }
 
 bool is_at(const Level& level, const Problem& problem, const BranchPoint& event) {
-  const Index which = index_of(observable_names(problem), level.observable);
-  const double period = problem.observables()[static_cast<std::size_t>(which)].period;
-  const double difference = above(level, problem, event.unknowns, event.parameters, event.regime);
-  return event.label == level.observable && (period == 0 || std::abs(difference) < 0.25 * period);
+  const Above above(level, problem);
+  const double difference = above(event.unknowns, event.parameters, event.regime);
+  return event.label == level.observable &&
+         (above.period() == 0 || std::abs(difference) < 0.25 * above.period());
 }
 
 CurveStart curve_at(const Level& level, const Problem& base, const std::string& active,
