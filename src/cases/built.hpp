@@ -29,6 +29,16 @@ Built built_in_harmonics(std::shared_ptr<const Type> problem) {
   return {problem, guess, problem->system().orders};
 }
 
+/// One of one contact in one harmonic, which guesses from P and one more parameter.
+template <class Type>
+Built built_of_one_contact(std::shared_ptr<const Type> problem, const char* other) {
+  const auto guess = [problem, other](const Built::ValueOf& value,
+                                      const continuation::TraceOptions& /*limits*/) {
+    return problem->guess(value(other), value("P"));
+  };
+  return {problem, guess};
+}
+
 /// eta, P and those of the system.
 inline std::vector<std::string> forced_parameters() {
   std::vector<std::string> names = system_parameter_names();

@@ -17,10 +17,9 @@ Built build_forced(const ProblemRequest& request) {
     return built_in_harmonics(
         std::make_shared<const problems::HarmonicResponse>(build_harmonic_system(request.system)));
   const auto problem = std::make_shared<const problems::ForcedResponse>(build_system(request.system));
-  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
-    return problem->guess(value("eta"), value("P"));
-  };
-  return {problem, guess, {1}, problem};
+  Built built = built_of_one_contact(problem, "eta");
+  built.enclosed = problem;
+  return built;
 }
 
 }  // namespace

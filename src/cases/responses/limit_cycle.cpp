@@ -9,16 +9,11 @@ namespace arcslip {
 namespace {
 
 Built build_limit_cycle(const ProblemRequest& request) {
-  if (needs_balance(request.system, request.harmonics_tolerance)) {
-    const auto problem =
-        std::make_shared<const problems::HarmonicCycle>(build_harmonic_system(request.system));
-    return built_in_harmonics(problem);
-  }
-  const auto problem = std::make_shared<const problems::LimitCycle>(build_system(request.system));
-  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
-    return problem->guess(value("zeta_B"), value("P"));
-  };
-  return {problem, guess};
+  if (needs_balance(request.system, request.harmonics_tolerance))
+    return built_in_harmonics(
+        std::make_shared<const problems::HarmonicCycle>(build_harmonic_system(request.system)));
+  return built_of_one_contact(std::make_shared<const problems::LimitCycle>(build_system(request.system)),
+                              "zeta_B");
 }
 
 }  // namespace

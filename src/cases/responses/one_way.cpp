@@ -11,11 +11,8 @@ Built build_one_way(const ProblemRequest& request) {
   if (needs_balance(request.system, request.harmonics_tolerance))
     return built_in_harmonics(
         std::make_shared<const problems::HarmonicResponse>(build_harmonic_system(request.system)));
-  const auto problem = std::make_shared<const problems::OneWayResponse>(build_system(request.system));
-  const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& /*limits*/) {
-    return problem->guess(value("eta"), value("P"));
-  };
-  return {problem, guess};
+  return built_of_one_contact(std::make_shared<const problems::OneWayResponse>(build_system(request.system)),
+                              "eta");
 }
 
 }  // namespace
