@@ -126,17 +126,7 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
 }
 
 double HarmonicProblem::varied_scale(const Vector& u, const Vector& p) const {
-  using Kind = SystemParameter::Kind;
-  const SystemParameter& varied = *system_.varied;
-  constexpr double small = 1e-4;  // of the system's own value: what crosses zero has no size of its own there
-  const bool may_vanish =
-      varied.kind == Kind::damping || (varied.kind == Kind::element && varied.limits.low < 0);
-  const double eta = frequency(u, p);
-  const double least = varied.kind == Kind::growth ? value(layout_.preload, u, p) / (eta * eta)
-                       : may_vanish                ? small * std::abs(varied.value)
-                                                   : 0;
-  const double size = std::max(std::abs(value(layout_.varied, u, p)), least);
-  return size > 0 ? size : 1;
+  return system_.varied->scale(value(layout_.varied, u, p), value(layout_.preload, u, p), frequency(u, p));
 }
 
 HarmonicProblem::Place HarmonicProblem::place_of(Index unknown) const {

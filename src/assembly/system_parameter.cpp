@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "arcslip/assembly/sector_pair.hpp"
@@ -138,6 +139,16 @@ SystemParameter of_element(std::size_t i, std::size_t setting, const SystemParam
 }
 
 }  // namespace
+
+double SystemParameter::scale(double other, double preload, double eta) const {
+  constexpr double small = 1e-4;  // of the system's own value: what crosses zero has no size of its own there
+  const bool may_vanish = kind == Kind::damping || (kind == Kind::element && limits.low < 0);
+  const double least = kind == Kind::growth ? preload / (eta * eta)
+                       : may_vanish         ? small * std::abs(value)
+                                            : 0;
+  const double size = std::max(std::abs(other), least);
+  return size > 0 ? size : 1;
+}
 
 std::vector<std::string> system_parameter_names() {
   return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma", "cubic_stiffness"};

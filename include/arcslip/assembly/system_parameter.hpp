@@ -68,6 +68,9 @@ struct SystemParameter {
   /// Whether a contact is concerned.
   bool concerns(Index one) const { return contact < 0 || contact == one; }
 
+  /// A typical magnitude of it, > 0, where it has this value at a preload and a frequency.
+  double scale(double other, double preload, double eta) const;
+
   /// Whether a system may have this value.
   bool allows(double other) const {
     if (kind == Kind::element)
