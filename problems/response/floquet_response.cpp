@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 
 namespace arcslip::problems {
@@ -51,6 +51,8 @@ int other_highest(const SystemParameters& parameters) {
 
 }  // namespace
 
+std::atomic<long> FloquetResponse::made_ = 0;
+
 FloquetResponse::FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
                                  std::shared_ptr<const FloquetResponse> finer)
     : HarmonicResponse(system), disturbances_(system, waves), finer_(std::move(finer)) {}
@@ -90,7 +92,7 @@ RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vec
 /// What was found where a thread last looked: eigenvalues and test functions are asked for one after the
 /// other.
 struct FloquetResponse::Last {
-  const FloquetResponse* problem = nullptr;
+  long problem = 0;  ///< its number
   Vector unknowns;
   Vector parameters;
   continuation::Regime regime;
@@ -101,8 +103,8 @@ const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector
                                                    const continuation::Regime& regime) const {
   thread_local Last last;
   const bool known =
-      last.problem == this && last.regime == regime && last.unknowns == u && last.parameters == p;
-  if (!known) last = {this, u, p, regime, found(u, p, regime, patterns(u, p, regime), true)};
+      last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
+  if (!known) last = {number_, u, p, regime, found(u, p, regime, patterns(u, p, regime), true)};
   return last;
 }
 
@@ -212,14 +214,13 @@ std::set<Index> disturbed_waves(const SystemParameters& parameters) {
 }
 
 std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
-  const bool is_full = parameters.sectors && parameters.sectors->path() == SectorPath::full;
-  const std::shared_ptr<const SectorPair> modal = is_full ? reduced(*parameters.sectors) : parameters.sectors;
+  const std::shared_ptr<const Structures> modal = structures_of(parameters).in_modes();
   const auto build = [&](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
     SystemParameters in_modes = one;
-    in_modes.sectors = modal;
+    if (modal) in_modes.structures = modal;
     const RingWaves waves = ring_waves(in_modes, one.harmonics.back() + 1);
     const HarmonicSystem system = build_harmonic_system(one);
-    if (!is_full) return std::make_shared<FloquetResponse>(system, waves, std::move(finer));
+    if (!modal) return std::make_shared<FloquetResponse>(system, waves, std::move(finer));
     return std::make_shared<FloquetResponse>(system, build_harmonic_system(in_modes), waves,
                                              std::move(finer));
   };

@@ -100,18 +100,25 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
   const double preload_value = parameters(preload);
   Order order;
-  set_order(0, parameters, 0, order);
-  ContactMatrix stuck = order.joint.compliance;  // but for elements beside the contacts
-  for (Index j = contacts(); j < coordinates_.size(); ++j) {
-    stuck.col(j).setZero();
-    stuck(j, j) = 1;
+  bool is_sine = true;
+  for (Index a = 0; a < harmonics(); ++a) {
+    set_order(a, parameters, 0, order);
+    if (order.joint.free.isZero(0)) continue;
+    is_sine = a == 0;
+    ContactMatrix stuck = order.joint.compliance;  // but for elements beside the contacts
+    for (Index j = contacts(); j < coordinates_.size(); ++j) {
+      stuck.col(j).setZero();
+      stuck(j, j) = 1;
+    }
+    const ContactVector x = -(stuck.partialPivLu().solve(order.joint.free));
+    for (Index i = 0; i < coordinates_.size(); ++i)
+      guess.unknowns.segment<2>(2 * (i * harmonics() + a)) << x(i).real(), x(i).imag();
   }
-  const ContactVector x = -(stuck.partialPivLu().solve(order.joint.free));
   double holding = 0;  // load over that which lets nothing slip
-  for (Index i = 0; i < coordinates_.size(); ++i) {
-    guess.unknowns(2 * i * harmonics()) = x(i).real();
-    guess.unknowns(2 * i * harmonics() + 1) = x(i).imag();
-    if (i < contacts()) holding = std::max(holding, std::abs(x(i)) / slip_threshold(i, guess.parameters));
+  for (Index i = 0; i < contacts(); ++i) {
+    const HarmonicVector x = motion(guess.unknowns, i);
+    const double largest = is_sine ? std::abs(x(0)) : OddMotion(system_.orders, x).maximum().value;
+    holding = std::max(holding, largest / slip_threshold(i, guess.parameters));
   }
   if (!coordinates_.has_others()) {
     if (holding <= 1) return guess;

@@ -91,8 +91,8 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
   } else {
     coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * p(eta), joint);
   }
-  if (all_stick(regime) && which > 0 &&
-      !coordinates_.has_others()) {  // x_h = 0, also where C_h has a resonance
+  if (all_stick(regime) && which > 0 && !coordinates_.has_others() &&
+      joint.free.isZero(0)) {  // x_h = 0, also where C_h has a resonance
     joint.compliance.setZero();
     joint.compliance_eta.setZero();
     order.by_varied.setZero();

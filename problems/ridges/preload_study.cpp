@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/ridges/free_response.hpp"
 #include "arcslip/problems/ridges/peak_envelope.hpp"
 #include "arcslip/problems/ridges/peak_search.hpp"
@@ -28,9 +29,13 @@ void check(const SystemParameters& system, const PreloadRange& range) {
     throw std::invalid_argument("study_preload: the range of preloads must be positive and not empty");
   if (!(range.eta_low > 0 && range.eta_high > range.eta_low && std::isfinite(range.eta_high)))
     throw std::invalid_argument("study_preload: the window of eta must be positive and not empty");
-  // Sectors may have all their damping from elsewhere.
-  const auto passive = [&](double zeta) { return zeta > 0 || (zeta == 0 && system.sectors); };
-  if (!(passive(system.base_damping) && passive(system.damper_damping) && !system.has_others()))
+  // Beside zeta there may be other damping, which then may be all.
+  const auto passive = [](double zeta, const Loss& other) {
+    return zeta > 0 || (zeta == 0 && (other.viscous > 0 || other.mass > 0));
+  };
+  const PairLosses losses = structures_of(system).losses(system);
+  if (!(passive(system.base_damping, losses.base_fixed) &&
+        passive(system.damper_damping, losses.damper_fixed) && !system.has_others()))
     throw std::invalid_argument("study_preload: the system must be linear and passive but for friction");
   for (const double preload : range.stop_at) {
     if (!(preload >= range.from && preload <= range.to))

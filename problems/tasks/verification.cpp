@@ -110,8 +110,10 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
   return {std::abs(record.base()(0)), growth};
 }
 
-/// The ring in full, where it is one of rods or beams that can be assembled.
-std::optional<Ring> assembled(const SystemParameters& parameters) {
+/// The ring in full under the harmonics of its load up to a highest one, where it is one of rods or beams
+/// that can be assembled.
+std::optional<Ring> assembled(SystemParameters parameters, int highest) {
+  parameters.harmonics = odd_up_to(highest);
   try {
     return build_ring(parameters);
   } catch (const std::invalid_argument&) {
@@ -159,7 +161,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
   const HarmonicResponse& problem = known.problem();
   const int highest = std::min(2 * orders.back() + 13, 2 * most_harmonics - 1);
   const HarmonicResponse more = balanced(parameters, odd_up_to(highest));
-  std::optional<Ring> ring = options.in_time ? assembled(parameters) : std::nullopt;
+  std::optional<Ring> ring = options.in_time ? assembled(parameters, highest) : std::nullopt;
   std::vector<Verification> all;
   const std::vector<std::size_t> points = chosen(branch, options);
   for (const std::size_t i : points) {
@@ -172,7 +174,8 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     if (ring && point.type != PointType::regular) {
       if (!parameters.varied.empty())
         ring = assembled(
-            with_parameter(parameters, parameters.varied, point.parameters(HarmonicResponse::further)));
+            with_parameter(parameters, parameters.varied, point.parameters(HarmonicResponse::further)),
+            highest);
       const TimedResponse timed = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
       one.Y_time = timed.Y;
       one.growth = timed.growth;

@@ -13,6 +13,7 @@
 #include "app/result_table.hpp"
 #include "app/study_pictures.hpp"
 #include "arcslip/cases/case_file.hpp"
+#include "cases/structure_kind.hpp"
 
 namespace arcslip {
 namespace {
@@ -78,8 +79,9 @@ class Decision {
         system_(summary.at("case").at("system")),
         branch_(summary.at("case").at("branch")) {
     const std::string model = system_.at("model").get<std::string>();
-    is_sector_ = model == "sector";
-    is_friction_ = model == "rods" || model == "beams" || is_sector_;
+    const StructureKind* kind = structure_of(model);
+    is_friction_ = kind != nullptr;
+    is_relative_ = is_friction_ && kind->is_relative;
     is_requested_ = !summary.at("case").at("continuation").at("stop_at").empty();
     colours_ = colours_of(summary.at("branches"), is_friction_);
   }
@@ -157,7 +159,7 @@ class Decision {
   /// See plots/style.gp.
   Names settings(const std::string& parameter, const std::string& style, const std::string& names) const {
     const std::string title =
-        parameter == "eta" && is_friction_ && !is_sector_  // whose eta has the unit of its matrices
+        parameter == "eta" && is_relative_
             ? axis_title(parameter, true) + fmt::format("{}={}{{/:Italic ω}}/{{/:Italic Ω}}_D", blank, blank)
             : axis_title(parameter, is_friction_);
     return {fmt::format("{} {} branch", parameter, style), colours_.labels, colours_.groups,
@@ -184,7 +186,7 @@ class Decision {
   const ordered_json& system_;
   const ordered_json& branch_;
   bool is_friction_ = false;
-  bool is_sector_ = false;
+  bool is_relative_ = false;
   bool is_requested_ = false;
   Colours colours_;
 };

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
-#include "arcslip/assembly/system.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/elements/jenkins.hpp"
 #include "arcslip/elements/memoryless.hpp"
 
@@ -44,7 +44,7 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
         one.varied = [=](double value) { return cubic_spring({share * value, share, 0}, usual); };
     }
   }
-  const double nodes = parameters.sectors ? 1 : static_cast<double>(parameters.elements);
+  const double nodes = structures_of(parameters).nodes(parameters);
   for (std::size_t k = 0; k < parameters.others.size(); ++k) {
     const PlacedElement& placed = parameters.others[k];
     using Place = PlacedElement::Place;

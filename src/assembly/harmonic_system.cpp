@@ -5,22 +5,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
 namespace {
-
-ContactModes one_contact(const ModalModel& model) {
-  std::vector<ContactMode> modes;
-  for (const Mode& mode : model.modes()) {
-    const double shape = std::sqrt(mode.residue);
-    modes.push_back({mode.frequency, ContactVector::Constant(1, shape),
-                     shape > 0 ? mode.load_residue / shape : Complex(0)});
-  }
-  return {1, std::move(modes), model.loss()};
-}
 
 /// Of modes that deform a structure, the static compliance of one of its contact dofs.
 double static_compliance(const ContactModes& structure, Index dof) {
@@ -34,14 +24,7 @@ double static_compliance(const ContactModes& structure, Index dof) {
 }  // namespace
 
 ContactSystem build_wave(const SystemParameters& parameters) {
-  if (parameters.sectors) return build_contact_system(parameters);
-  const FrictionSystem system = build_system(parameters);
-  ContactSystem wave{one_contact(system.base),
-                     one_contact(system.damper),
-                     {{system.contact_stiffness, system.slip_per_preload}},
-                     system.outputs};
-  if (parameters.tells_lag) wave.outputs.push_back(driven_motion(wave.base.with_driven_motion()));
-  return wave;
+  return structures_of(parameters).wave(parameters);
 }
 
 void check(const HarmonicSystem& system) {
@@ -109,7 +92,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
       system = one_harmonic(build_wave(parameters));
       continue;
     }
-    wave.force = 0;
+    wave.force = parameters.force * parameters.excitation.share(h);
     wave.tells_lag = false;
     ContactSystem of_order = build_wave(wave);
     system.orders.push_back(h);
@@ -119,8 +102,9 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   }
   system.preload_growth = parameters.preload_growth;
   system.one_way = parameters.one_way;
-  system.base_loss_per_zeta = base_loss_per_zeta(parameters);
-  system.base_loss_fixed = base_loss_fixed(parameters);
+  const PairLosses losses = structures_of(parameters).losses(parameters);
+  system.base_loss_per_zeta = losses.base_per_zeta;
+  system.base_loss_fixed = losses.base_fixed;
   if (!parameters.varied.empty()) system.varied = system_parameter(parameters, parameters.varied);
   system.others = other_coordinates(parameters, [&](const Coordinate& one) {
     const double compliance = std::abs(one.base) * static_compliance(system.base[0], one.dof) +

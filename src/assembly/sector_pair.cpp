@@ -96,12 +96,14 @@ void SectorPair::check(const Kept& kept, const SectorWave& wave) const {
   });
 }
 
-void SectorPair::check(const SectorWave& wave) const {
+void SectorPair::check(Index wave_number, Index nodes) const {
+  const SectorWave wave{wave_number, nodes};
   check(base_, wave);
   if (damper_) check(*damper_, wave);
 }
 
-std::shared_ptr<const SectorPair> reduced(const SectorPair& pair) {
+std::shared_ptr<const Structures> SectorPair::in_modes() const {
+  if (path_ == SectorPath::reduced) return nullptr;
   const auto diagonal = [](SectorPart part) {
     FiniteSector& sector = part.sector;
     if (sector.damping.size() != 0)
@@ -110,17 +112,20 @@ std::shared_ptr<const SectorPair> reduced(const SectorPair& pair) {
     return part;
   };
   std::optional<SectorPart> damper;
-  if (pair.damper() != nullptr) damper = diagonal(*pair.damper());
-  return std::make_shared<const SectorPair>(diagonal(pair.base()), std::move(damper), pair.tolerance());
+  if (damper_) damper = diagonal(damper_->part);
+  return std::make_shared<const SectorPair>(diagonal(base_.part), std::move(damper), tolerance_);
 }
 
-bool needs_contact_system(const SystemParameters& parameters) {
-  return parameters.sectors &&
-         (parameters.contacts.size() > 1 || parameters.sectors->path() == SectorPath::full);
+bool SectorPair::is_one_contact(const SystemParameters& system) const {
+  return system.contacts.size() == 1 && path_ == SectorPath::reduced;
 }
 
-SectorUse sector_use(const SystemParameters& parameters) {
-  return {{parameters.wave_number, parameters.elements}, parameters.eta_low, parameters.eta_high};
+PairLosses SectorPair::losses(const SystemParameters& /*system*/) const {
+  PairLosses losses{.base_per_zeta = base_.part.loss_per_zeta(), .base_fixed = base_.part.fixed};
+  if (!damper_) return losses;
+  losses.damper_per_zeta = damper_->part.loss_per_zeta();
+  losses.damper_fixed = damper_->part.fixed;
+  return losses;
 }
 
 namespace {
@@ -134,8 +139,6 @@ struct Part {
   double force;  ///< factor of the load
   bool is_base;
   const char* letter;
-
-  ModalModel contact() const { return modal_model(modes, force, loss); }
 
   /// The contacts and, if one is asked for, an output after them.
   ContactModes contacts(std::optional<Index> output = {}) const {
@@ -154,13 +157,14 @@ struct Part {
     const ContactModes modal(count + (output ? 1 : 0), std::move(list), loss);
     if (solves == nullptr) return modal;
     if (output) {
-      return modal.solved_by([solves = solves, output = *output, force = force](double eta) {
-        return solves->with_output(output, eta, force);
-      });
+      return modal.solved_by([solves = solves, output = *output](
+                                 double eta, double load) { return solves->with_output(output, eta, load); },
+                             force);
     }
-    return modal.solved_by([solves = solves, force = force](double eta) { return solves->at(eta, force); },
-                           [solves = solves, force = force](double eta, const ContactVector& forces) {
-                             return solves->work(eta, force, forces);
+    return modal.solved_by([solves = solves](double eta, double load) { return solves->at(eta, load); },
+                           force,
+                           [solves = solves](double eta, double load, const ContactVector& forces) {
+                             return solves->work(eta, load, forces);
                            });
   }
 
@@ -168,7 +172,7 @@ struct Part {
     const ContactModes modal = contacts().with_driven_motion();
     if (solves == nullptr) return modal;
     return modal.solved_by(
-        [solves = solves, force = force](double eta) { return solves->with_driven_motion(eta, force); });
+        [solves = solves](double eta, double load) { return solves->with_driven_motion(eta, load); }, force);
   }
 
   void add_outputs(std::vector<ContactOutput>& outputs) const {
@@ -179,68 +183,71 @@ struct Part {
   }
 };
 
-Part base_part(const SystemParameters& parameters) {
-  const SectorPart& part = parameters.sectors->base();
-  const double zeta = parameters.base_damping;
-  const SectorUse use = sector_use(parameters);
-  const bool full = parameters.sectors->path() == SectorPath::full;
-  return {part,
-          parameters.sectors->base_modes(use, zeta),
-          full ? parameters.sectors->base_solves(use.wave, zeta) : nullptr,
-          part.loss(zeta),
-          parameters.force,
+/// The use that a system makes of its sectors.
+SectorUse use_of(const SystemParameters& system) {
+  return {{system.wave_number, system.elements}, system.eta_low, system.eta_high};
+}
+
+Part base_part(const SectorPair& pair, const SystemParameters& system) {
+  const double zeta = system.base_damping;
+  const SectorUse use = use_of(system);
+  const bool full = pair.path() == SectorPath::full;
+  return {pair.base(),
+          pair.base_modes(use, zeta),
+          full ? pair.base_solves(use.wave, zeta) : nullptr,
+          pair.base().loss(zeta),
+          system.force,
           true,
           "Y"};
 }
 
-std::optional<Part> damper_part(const SystemParameters& parameters) {
-  const SectorPart* part = parameters.sectors->damper();
-  if (part == nullptr) return std::nullopt;
-  const double zeta = parameters.damper_damping;
-  const SectorUse use = sector_use(parameters);
-  const bool full = parameters.sectors->path() == SectorPath::full;
-  return Part{*part,
-              parameters.sectors->damper_modes(use, zeta),
-              full ? parameters.sectors->damper_solves(use.wave, zeta) : nullptr,
-              part->loss(zeta),
+std::optional<Part> damper_part(const SectorPair& pair, const SystemParameters& system) {
+  if (pair.damper() == nullptr) return std::nullopt;
+  const double zeta = system.damper_damping;
+  const SectorUse use = use_of(system);
+  const bool full = pair.path() == SectorPath::full;
+  return Part{*pair.damper(),
+              pair.damper_modes(use, zeta),
+              full ? pair.damper_solves(use.wave, zeta) : nullptr,
+              pair.damper()->loss(zeta),
               0,
               false,
               "U"};
 }
 
-}  // namespace
-
-FrictionSystem build_sector_system(const SystemParameters& parameters) {
-  if (parameters.contacts.size() != 1)
-    throw SectorError("several contacts of a sector are no system with one contact");
-  if (parameters.sectors->path() == SectorPath::full)
-    throw SectorError("sparse solves of a sector are no modes, which a system with one contact is made of");
-  const SectorContact& contact = parameters.contacts.front();
-  const Part base = base_part(parameters);
-  FrictionSystem system{.base = base.contact(),
-                        .damper = {},
-                        .contact_stiffness = contact.stiffness,
-                        .slip_per_preload = contact.slip_per_preload,
-                        .base_loss_per_zeta = base.part.loss_per_zeta(),
-                        .preload_growth = parameters.preload_growth,
-                        .base_loss_fixed = base.part.fixed};
-  base.add_outputs(system.outputs);
-  if (const std::optional<Part> damper = damper_part(parameters)) {
-    system.damper = damper->contact();
-    damper->add_outputs(system.outputs);
+PartModes told(const char* name, const Part& part, double tolerance) {
+  const SectorModes& modes = part.modes;
+  PartModes told{name, modes.dofs, static_cast<Index>(modes.frequencies.size()), modes.factorisations};
+  if (part.solves != nullptr) {
+    told.is_solved = true;
+    told.factorisations = part.solves->factorisations();
+    return told;
   }
-  return system;
+  told.error = modes.error;
+  told.error_eta = modes.error_eta;
+  told.check_etas = modes.check_etas;
+  told.tolerance = tolerance;
+  return told;
 }
 
-ContactSystem build_contact_system(const SystemParameters& parameters) {
-  const Part base = base_part(parameters);
-  const std::optional<Part> damper = damper_part(parameters);
-  const ContactModes held(std::ssize(parameters.contacts), {}, {});
-  ContactSystem system{base.contacts(), damper ? damper->contacts() : held, parameters.contacts};
-  base.add_outputs(system.outputs);
-  if (damper) damper->add_outputs(system.outputs);
-  if (parameters.tells_lag) system.outputs.push_back(driven_motion(base.driven()));
-  return system;
+}  // namespace
+
+ContactSystem SectorPair::wave(const SystemParameters& system) const {
+  const Part base = base_part(*this, system);
+  const std::optional<Part> damper = damper_part(*this, system);
+  const ContactModes held(std::ssize(system.contacts), {}, {});
+  ContactSystem wave{base.contacts(), damper ? damper->contacts() : held, system.contacts};
+  base.add_outputs(wave.outputs);
+  if (damper) damper->add_outputs(wave.outputs);
+  if (system.tells_lag) wave.outputs.push_back(driven_motion(base.driven()));
+  return wave;
+}
+
+std::vector<PartModes> SectorPair::modes(const SystemParameters& system) const {
+  std::vector<PartModes> parts{told("base", base_part(*this, system), tolerance_)};
+  if (const std::optional<Part> damper = damper_part(*this, system))
+    parts.push_back(told("damper", *damper, tolerance_));
+  return parts;
 }
 
 Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness) {

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arcslip/assembly/reduced_pair.hpp"
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 
 namespace arcslip {
 
-std::string to_string(StructureModel model) {
-  if (model == StructureModel::sector) return "sector";
-  return model == StructureModel::rods ? "rods" : "beams";
-}
+std::string to_string(StructureModel model) { return model == StructureModel::rods ? "rods" : "beams"; }
 
 std::string to_string(DampingKind kind) {
   if (kind == DampingKind::modal) return "modal";
@@ -54,61 +50,12 @@ double base_damping_factor(const SystemParameters& parameters) {
 
 double damper_damping_factor(const SystemParameters& parameters) { return 2 * parameters.damper_damping; }
 
-ReducedPair reduce(const SystemParameters& parameters) {
-  const Index n = parameters.wave_number;
-  const Index elements = parameters.elements;
-  const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
-  ReducedPair pair{
-      reduce(make(parameters.mass_ratio, parameters.stiffness_ratio(), n, elements), n, elements),
-      reduce(make(1, 1, n, elements), n, elements)};
-  pair.base.load *= PreciseComplex(parameters.force * parameters.stiffness_ratio());
-  pair.damper.load.setZero();
-  return pair;
-}
-
-Loss base_loss_per_zeta(const SystemParameters& parameters) {
-  if (parameters.sectors) return parameters.sectors->base().loss_per_zeta();
-  if (parameters.base_damping_kind == DampingKind::structural) return {0, 2};
-  return {2 / parameters.frequency_ratio, 0};
-}
-
-Loss base_loss_fixed(const SystemParameters& parameters) {
-  return parameters.sectors ? parameters.sectors->base().fixed : Loss{};
-}
-
-Loss damper_loss_per_zeta(const SystemParameters& parameters) {
-  if (!parameters.sectors) return {2, 0};
-  const SectorPart* damper = parameters.sectors->damper();
-  return damper != nullptr ? damper->loss_per_zeta() : Loss{};
-}
-
-Loss damper_loss_fixed(const SystemParameters& parameters) {
-  const SectorPart* damper = parameters.sectors ? parameters.sectors->damper() : nullptr;
-  return damper != nullptr ? damper->fixed : Loss{};
-}
-
 double cubic_coefficient(const SystemParameters& parameters) {
   return parameters.cubic_stiffness * parameters.stiffness_ratio() / static_cast<double>(parameters.elements);
 }
 
 FrictionSystem build_system(const SystemParameters& parameters) {
-  if (parameters.sectors) return build_sector_system(parameters);
-  const ReducedPair pair = reduce(parameters);
-  const Loss base_loss = parameters.base_damping_kind == DampingKind::structural
-                             ? Loss{0, 2 * parameters.base_damping}
-                             : Loss{base_damping_factor(parameters), 0};
-  const ModalModel damper =
-      parameters.fixed_damper ? ModalModel() : ModalModel(pair.damper, 0, damper_damping_factor(parameters));
-  const auto elements = static_cast<double>(parameters.elements);
-  return {ModalModel(pair.base, 0, base_loss),
-          damper,
-          parameters.interface_stiffness / elements,
-          parameters.stiffness_ratio() / parameters.interface_stiffness,
-          base_loss_per_zeta(parameters),
-          cubic_coefficient(parameters),
-          parameters.preload_growth,
-          {},
-          {}};
+  return structures_of(parameters).one_contact(parameters);
 }
 
 }  // namespace arcslip

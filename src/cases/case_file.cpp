@@ -8,20 +8,19 @@
 #include <new>
 #include <tuple>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
-#include "cases/sector_section.hpp"
 #include "cases/system_section.hpp"
 #include "keys/toml_reader.hpp"
 
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title", "system", "geometry", "element", "branch", "study", "continuation"};
+  return {"title", "system", "geometry", "element", "excitation", "branch", "study", "continuation"};
 }
 
 namespace {
@@ -93,19 +92,16 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::
 
 /// Whether stiffness is complex, which has no motion in time.
 bool is_structural(const SystemParameters& system) {
-  if (!system.sectors) return system.base_damping_kind == DampingKind::structural;
-  const SectorPart* damper = system.sectors->damper();
-  return system.sectors->base().loss(system.base_damping).structural != 0 ||
-         (damper != nullptr && damper->loss(system.damper_damping).structural != 0);
+  const PairLosses losses = structures_of(system).losses(system);
+  return losses.base(system).structural != 0 || losses.damper(system).structural != 0;
 }
 
 /// Refuses sectors that disturbances cannot run through.
 void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
-  if (!system.sectors) return;
   for (const Index wave : problems::disturbed_waves(system)) {
     try {
-      system.sectors->check({wave, system.elements});
-    } catch (const SectorError& error) {
+      structures_of(system).check(wave, system.elements);
+    } catch (const std::invalid_argument& error) {
       section.fail("stability", fmt::format("disturbances of {} waves: {}", wave, error.what()));
     }
   }
@@ -127,13 +123,11 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.response->in_time) section.fail("stability", "only for the forced response");
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
-  if (system.sectors) {
-    try {
-      reduced(*system.sectors);
-    } catch (const SectorError& error) {
-      section.fail("stability", fmt::format("disturbances are told by modes, which this damping couples: {}",
-                                            error.what()));
-    }
+  try {
+    static_cast<void>(structures_of(system).in_modes());
+  } catch (const std::invalid_argument& error) {
+    section.fail("stability",
+                 fmt::format("disturbances are told by modes, which this damping couples: {}", error.what()));
   }
   check_disturbed_waves(section, system);
 }
@@ -231,9 +225,9 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   const std::vector<ListedKey> listed = for_each_keys(*document_, model_);
   for_each_.emplace(*document_, section_, listed, ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, listed, common_, parameter_);
-  use_ = {model_, parameter_, false, model_ == nullptr ? read_sectors(*document_) : nullptr};
+  use_ = {parameter_, false, model_ == nullptr ? load_structures(*document_) : nullptr};
   use_.is_free = common_.problem.response->has_own_frequency();
-  if (use_.sectors)
+  if (use_.structures)
     std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
 }
 
@@ -241,7 +235,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   auto [values, replacements, made] = for_each_->at(index);
   CaseBranch branch = common_;
   branch.values = std::move(values);
-  read_system(*document_, replacements, use_, branch.problem);
+  read_system(*document_, replacements, model_, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response->one_way;
   branch.problem.system.varied = varied_parameter(section_, branch);
@@ -264,7 +258,7 @@ void BranchSource::check_replaced() const {
   if (for_each_->keys().empty()) return;
   const ForEachSet lacking = for_each_->lacking();
   ProblemRequest problem = common_.problem;
-  read_system(*document_, lacking.replacements, use_, problem);
+  read_system(*document_, lacking.replacements, model_, use_, problem);
 }
 
 CaseBranch BranchSource::checked() const {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
 
 namespace arcslip {
@@ -21,7 +21,7 @@ std::string why_not_certifiable(const CaseBranch& request) {
   if (problem.system.harmonics.size() > 1 || problem.harmonics_tolerance)
     return "several harmonics, each of which is a further complex unknown, and whose friction depends on "
            "turning points of r(t) that have no closed form";
-  if (needs_contact_system(problem.system))
+  if (!structures_of(problem.system).is_one_contact(problem.system))
     return problem.system.contacts.size() > 1
                ? "several contacts, whose phases against each other are unknowns beside their amplitudes"
                : "the full path of a sector, whose compliance comes from sparse solves without an enclosure";

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 #include "arcslip/problems/ridges/free_response.hpp"
@@ -52,7 +52,7 @@ void compare_to_free(const StudyCase& study, const SystemParameters& system, Pre
   result.free_eta = result.free_Y = unknown;
   if (study.objective != "Y" || !system.others.empty()) return;
   problems::Peak free;
-  if (needs_contact_system(system)) {
+  if (!structures_of(system).is_one_contact(system)) {
     free = problems::free_peak(build_wave(system).base, study.range, study.options);
   } else {
     const FrictionSystem pair = build_system(system);

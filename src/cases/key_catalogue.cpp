@@ -5,8 +5,8 @@
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/element_section.hpp"
-#include "cases/geometry_section.hpp"
-#include "cases/sector_section.hpp"
+#include "cases/excitation_section.hpp"
+#include "cases/structure_kind.hpp"
 #include "cases/study_section.hpp"
 
 namespace arcslip {
@@ -55,21 +55,41 @@ std::vector<KeyWords> element_words() {
   return words;
 }
 
+std::vector<KeyWords> excitation_words() {
+  std::vector<KeyWords> words;
+  std::vector<std::string> names;
+  for (const ExcitationKind& kind : excitation_kinds()) {
+    const std::vector<KeyWords> keys = excitation_keys(kind).words();
+    if (words.empty()) words.push_back(keys.front());
+    words.push_back({kind.name, fmt::format("kind = \"{}\"", kind.name), "", kind.meaning});
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      words.push_back(keys[i]);
+      words.back().name = kind.name + "." + keys[i].name;
+    }
+    names.push_back(kind.name);
+  }
+  words.front().type = one_of(names);
+  words.front().meaning = "what its course is";
+  return words;
+}
+
 }  // namespace
 
 std::vector<KeySection> key_catalogue() {
   std::vector<KeySection> sections;
-  const auto section = [&](const char* name, const char* note, const std::vector<KeyWords>& keys) {
+  const auto section = [&](const std::string& name, const std::string& note,
+                           const std::vector<KeyWords>& keys) {
     add(sections.emplace_back(KeySection{name, note, {}}).keys, keys, "",
-        name == std::string("system") || name == std::string("geometry"));
+        name == "system" || name == "geometry");
   };
-  section("system", "rods and beams", ring_keys().words());
-  section("geometry", "two rings in SI units", geometry_keys().words());
-  section("system", "sectors", sector_keys().words());
-  section("system.base", "and of `[system.damper]`", part_keys(true).words());
+  for (const StructureKind& kind : structure_kinds()) {
+    section("system", kind.title, kind.keys());
+    for (const StructureKind::Section& one : kind.sections) section(one.name, one.note, one.keys());
+  }
   section("system", "models of the library", library_words());
   section("element", "beside the contacts, any number of them", element_words());
   sections.back().repeats = true;
+  section("excitation", "the load", excitation_words());
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());
   section("study", "", study_keys().words());

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
@@ -178,8 +178,8 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
 }  // namespace
 
 bool needs_balance(const SystemParameters& system, const std::optional<double>& harmonics_tolerance) {
-  return needs_contact_system(system) || system.harmonics.size() > 1 || harmonics_tolerance ||
-         system.has_others() || !system.varied.empty() || system.tells_lag;
+  return !structures_of(system).is_one_contact(system) || system.harmonics.size() > 1 ||
+         harmonics_tolerance || system.has_others() || !system.varied.empty() || system.tells_lag;
 }
 
 Built build(const ProblemRequest& request) {

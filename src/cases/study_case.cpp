@@ -6,7 +6,6 @@
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/geometry_section.hpp"
-#include "cases/sector_section.hpp"
 #include "cases/study_section.hpp"
 #include "cases/system_section.hpp"
 
@@ -19,19 +18,21 @@ using nlohmann::ordered_json;
 struct Source {
   std::shared_ptr<const TomlDocument> file;
   std::optional<ForEach> for_each;
-  std::shared_ptr<const SectorPair> sectors;
+  std::shared_ptr<const Structures> structures;
   problems::PreloadRange range;
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
-    read_system(*file, replacements, {nullptr, "P", true, sectors, range.eta_low, range.eta_high}, problem);
+    read_system(*file, replacements, nullptr, {"P", true, structures, range.eta_low, range.eta_high},
+                problem);
     return problem;
   }
 
   StudyDesign design(std::size_t index) const {
     auto [values, replacements, made] = for_each->at(index);
     const ProblemRequest problem = this->problem(replacements);
-    return {std::move(values), problem.system, problem.geometry, problem.harmonics_tolerance};
+    return {std::move(values), problem.system, problem.geometry, problem.harmonics_tolerance,
+            problem.structure};
   }
 };
 
@@ -50,6 +51,7 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
 
 ProblemRequest StudyDesign::problem() const {
   ProblemRequest request;
+  request.structure = structure;
   request.system = system;
   request.geometry = geometry;
   request.harmonics_tolerance = harmonics_tolerance;
@@ -79,7 +81,7 @@ StudyCase read_study(const CaseFile& file) {
   study.range.stop_at = study.options.stop_at;
   study.options.stop_after.clear();  // no branch of the search may end before its window does
   source->range = study.range;
-  source->sectors = read_sectors(document);
+  source->structures = load_structures(document);
   study.is_physical = has_geometry(document);
   const std::vector<ListedKey> allowed = listed_keys(document, nullptr);
   source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);

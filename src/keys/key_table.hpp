@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <type_traits>
@@ -124,6 +125,13 @@ struct Key {
     return Key({name, "true or false", "", meaning}, read, value, term...);
   }
 
+  /// One of settings that S is derived from.
+  template <class Base>
+  requires(std::derived_from<S, Base> && !std::same_as<S, Base>) Key(const Key<Base>& key)
+      : words(key.words), read(key.read), value(key.value), is_needed(key.is_needed), then(key.then) {
+    for (const auto& [text, holds] : key.only) only.emplace_back(text, holds);
+  }
+
   /// One of some names; `remark` follows them in messages.
   template <class Member, class... Term>
   static Key choice(const std::string& name, Member member, const Choices<Value<Member>>& choices,
@@ -207,6 +215,12 @@ struct Key {
     (term(*this), ...);
   }
 };
+
+/// Keys of settings that S is derived from.
+template <class S, class Base>
+std::vector<Key<S>> keys_of(const std::vector<Key<Base>>& keys) {
+  return {keys.begin(), keys.end()};
+}
 
 // Terms, which a key may have after its meaning.
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/version.hpp"
@@ -71,7 +71,19 @@ ordered_json highest_peak(const TracedBranch& traced, const ordered_json& specia
   return {{"eta", (*best)["eta"]}, {"Y", (*best)["Y"]}, {"R_over_S", (*best)["R_over_S"]}};
 }
 
-bool is_full(const SystemParameters& system) { return system.sectors->path() == SectorPath::full; }
+ordered_json modes_to_json(const std::vector<PartModes>& found) {
+  ordered_json parts = ordered_json::object();
+  for (const PartModes& one : found) {
+    ordered_json& part = parts[one.part] = {{"dofs", one.dofs}, {"modes", one.modes}};
+    if (!one.is_solved) {
+      part["error"] = one.error;
+      part["error_eta"] = one.error_eta;
+      part["check_etas"] = one.check_etas;
+    }
+    part["factorisations"] = one.factorisations;
+  }
+  return parts;
+}
 
 }  // namespace
 
@@ -84,8 +96,9 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
   add_geometry(traced.request->problem, summary);
-  if (const SystemParameters& system = traced.request->problem.system; system.sectors)
-    summary[is_full(system) ? "full_solves" : "reduction"] = modes_to_json(system);
+  const SystemParameters& system = traced.request->problem.system;
+  const std::vector<PartModes> found = structures_of(system).modes(system);
+  if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
   if (traced.request->problem.model == nullptr) summary["harmonics"] = traced.base.harmonics;
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   if (why_not_verifiable(*traced.request).empty()) {
@@ -140,45 +153,21 @@ std::string describe_units(const ProblemRequest& problem) {
 
 std::string describe_modes(const SystemParameters& system) {
   std::string text;
-  const ordered_json parts = modes_to_json(system);
-  for (const auto& [name, part] : parts.items()) {
+  for (const PartModes& one : structures_of(system).modes(system)) {
     if (!text.empty()) text += "\n  ";
-    if (is_full(system)) {
-      text += fmt::format("{}: full path, {} dofs solved for at each eta; {} modes show the resonances", name,
-                          part["dofs"].get<Index>(), part["modes"].get<Index>());
+    if (one.is_solved) {
+      text += fmt::format("{}: full path, {} dofs solved for at each eta; {} modes show the resonances",
+                          one.part, one.dofs, one.modes);
       continue;
     }
     text += fmt::format(
         "{}: {} of {} modes, error {:.1e}{} against the full solve at {} eta, at worst at eta = {:g}; {} "
         "factorisations",
-        name, part["modes"].get<Index>(), part["dofs"].get<Index>(), part["error"].get<double>(),
-        part["error"].get<double>() > system.sectors->tolerance() ? " (above reduction_tolerance)" : "",
-        part["check_etas"].size(), part["error_eta"].get<double>(), part["factorisations"].get<int>());
+        one.part, one.modes, one.dofs, one.error,
+        one.error > one.tolerance ? " (above reduction_tolerance)" : "", one.check_etas.size(), one.error_eta,
+        one.factorisations);
   }
   return text;
-}
-
-ordered_json modes_to_json(const SystemParameters& system) {
-  ordered_json parts = ordered_json::object();
-  const SectorUse use = sector_use(system);
-  const SectorPair& sectors = *system.sectors;
-  const auto add = [&](const char* name, const SectorModes& modes, const auto& solves) {
-    ordered_json& part = parts[name] = {{"dofs", modes.dofs}, {"modes", modes.frequencies.size()}};
-    if (is_full(system)) {
-      part["factorisations"] = solves()->factorisations();
-      return;
-    }
-    part["error"] = modes.error;
-    part["error_eta"] = modes.error_eta;
-    part["check_etas"] = modes.check_etas;
-    part["factorisations"] = modes.factorisations;
-  };
-  add("base", sectors.base_modes(use, system.base_damping),
-      [&] { return sectors.base_solves(use.wave, system.base_damping); });
-  if (sectors.damper() != nullptr)
-    add("damper", sectors.damper_modes(use, system.damper_damping),
-        [&] { return sectors.damper_solves(use.wave, system.damper_damping); });
-  return parts;
 }
 
 std::string describe_harmonics(const TracedBranch& traced) {

@@ -118,15 +118,16 @@ std::string study_table(const StudyCase& study, const StudyStore& store, const S
   text += "  kind\n";
   std::size_t rows = 0;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
-    const auto [values, system, geometry, tolerance] = study.design(design.curve);
+    const StudyDesign made = study.design(design.curve);
     text += fmt::format("{:>6}", design.curve);
-    for (const auto& [key, value] : values.items()) text += fmt::format(" {:>{}}", shown(value), width(key));
+    for (const auto& [key, value] : made.values.items())
+      text += fmt::format(" {:>{}}", shown(value), width(key));
     text += fmt::format(" {:>13.8g} {:>13.8g} {:>13.8g} {:>13.6g}", design.preload, design.eta, design.Y,
                         design.ratio);
     if (store.has_robust())
       text += fmt::format(" {:>13.6g} {:>13.6g}", design.robust_preload, design.robust_ratio);
-    if (geometry) {
-      const PhysicalScale scale(*geometry, system);
+    if (made.geometry) {
+      const PhysicalScale scale(*made.geometry, made.system);
       text += fmt::format(" {:>15.6g} {:>13.6g}", scale.preload_per_length(design.preload),
                           scale.displacement(design.Y));
     }

@@ -21,10 +21,11 @@ ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const
   }
 }
 
-ContactModes ContactModes::solved_by(Receptance receptance, ReceptanceWork work) const {
+ContactModes ContactModes::solved_by(Receptance receptance, double load, ReceptanceWork work) const {
   ContactModes solved = *this;
   solved.receptance_ = std::move(receptance);
   solved.receptance_work_ = std::move(work);
+  solved.receptance_load_ = load;
   return solved;
 }
 
@@ -78,7 +79,7 @@ ContactReceptance ContactModes::at(double eta) const {
 
 void ContactModes::add(double eta, ContactReceptance& sum) const {
   if (receptance_) {
-    const ContactReceptance response = receptance_(eta);
+    const ContactReceptance response = receptance_(eta, receptance_load_);
     sum.compliance += response.compliance;
     sum.compliance_eta += response.compliance_eta;
     sum.free += response.free;
@@ -101,7 +102,7 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
 }
 
 CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
-  if (receptance_) return receptance_work_(eta, forces);
+  if (receptance_) return receptance_work_(eta, receptance_load_, forces);
   CycleWork sum;
   for (const ContactMode& mode : modes_) {
     const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;
@@ -120,7 +121,7 @@ VariedReceptance ContactModes::varied(double eta, const Variation& at, const Var
   sum.compliance_rate.setZero(contacts_, contacts_);
   sum.free_rate.setZero(contacts_);
   if (receptance_) {
-    static_cast<ContactReceptance&>(sum) = receptance_(eta);
+    static_cast<ContactReceptance&>(sum) = receptance_(eta, receptance_load_);
     sum.free_rate = rate.load * sum.free;
     sum.free *= at.load;
     sum.free_eta *= at.load;
@@ -162,14 +163,7 @@ ContactModes ContactModes::varied(const Variation& at) const {
   ContactModes structure(contacts_, std::move(modes), at.loss);
   if (!receptance_) return structure;
   structure.loss_ = loss_;
-  return structure.solved_by(
-      [load = at.load, solved = receptance_](double eta) {
-        ContactReceptance response = solved(eta);
-        response.free *= load;
-        response.free_eta *= load;
-        return response;
-      },
-      receptance_work_);
+  return structure.solved_by(receptance_, at.load * receptance_load_, receptance_work_);
 }
 
 ContactOutput driven_motion(ContactModes base) { return {"lag", std::move(base), true, true}; }

@@ -82,8 +82,8 @@ ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, I
 }
 
 void refuse_what_is_not_viscous(const SystemParameters& parameters) {
-  if (parameters.model == StructureModel::sector || parameters.sectors) {
-    throw std::invalid_argument("build_ring: rods or beams are needed, not sectors");
+  if (parameters.structures) {
+    throw std::invalid_argument("build_ring: rods or beams are needed");
   }
   if (parameters.base_damping_kind != DampingKind::viscous) {
     throw std::invalid_argument("build_ring: motion in time needs viscous damping, not " +
@@ -91,15 +91,31 @@ void refuse_what_is_not_viscous(const SystemParameters& parameters) {
   }
 }
 
+/// The load's harmonics on the base's modes.
+std::vector<RingLoad> loads_on(const SystemParameters& parameters, const Modes& modes) {
+  const Index nodes = parameters.elements;
+  std::vector<RingLoad> loads;
+  for (const int h : parameters.harmonics) {
+    SystemParameters wave = parameters;
+    wave.wave_number = h * parameters.wave_number % nodes;
+    wave.force = parameters.force * parameters.excitation.share(h);
+    if (wave.force == 0) continue;
+    if (wave.wave_number == 0)
+      throw std::invalid_argument("build_ring: a harmonic of the load that pushes all nodes alike");
+    loads.push_back({h, modes.shapes.cast<double>().transpose() *
+                            travelling(reduce(wave).base.load, wave.wave_number, nodes)});
+    loads.back().amplitude(0) = 0;  // a travelling load has no mean
+  }
+  return loads;
+}
+
 /// The base's modes: all there is where the damper is held.
 Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
   const Index nodes = parameters.elements;
-  const ReducedPair pair = reduce(parameters);
   Ring ring;
   ring.stiffness = modes.stiffness.cast<double>();
   ring.damping = base_damping_factor(parameters) / (two_pi)*ring.stiffness;
-  ring.load =
-      modes.shapes.cast<double>().transpose() * travelling(pair.base.load, parameters.wave_number, nodes);
+  ring.loads = loads_on(parameters, modes);
   ring.base = at_contacts(modes.shapes, nodes);
   ring.damper = Matrix::Zero(nodes, ring.base.cols());
   ring.turn = modes.turn.cast<double>();
@@ -124,9 +140,10 @@ void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damp
   ring.stiffness.tail(elastic) = damper.stiffness.tail(elastic).cast<double>();
   ring.damping.conservativeResize(all);
   ring.damping.tail(elastic) = damping_factor / (two_pi)*ring.stiffness.tail(elastic);
-  ring.load.conservativeResize(all);
-  ring.load.tail(elastic).setZero();
-  ring.load(0) = 0;  // the travelling load has no mean
+  for (RingLoad& load : ring.loads) {
+    load.amplitude.conservativeResize(all);
+    load.amplitude.tail(elastic).setZero();
+  }
   ring.base.conservativeResize(nodes, all);
   ring.base.rightCols(elastic).setZero();
   ring.base.col(0).setConstant(-ratio * scale);
@@ -145,7 +162,6 @@ void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
   const Index own = ring.base.cols();
   const Index nodes = ring.base.rows();
   const Index elastic = damper.shapes.cols() - 1;
-  ring.load(0) = 0;  // the travelling load has no mean
   const auto joined = [&](const auto& rigid, const auto& of_base, const auto& of_damper, auto& all) {
     auto sum = all;
     sum.resize(1 + own + elastic);
@@ -155,7 +171,8 @@ void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
   const Vector stiffness = damper.stiffness.tail(elastic).cast<double>();
   joined(0.0, ring.stiffness, stiffness, ring.stiffness);
   joined(0.0, ring.damping, Vector(damping_factor / (two_pi)*stiffness), ring.damping);
-  joined(Complex(0), ring.load, ComplexVector::Zero(elastic).eval(), ring.load);
+  for (RingLoad& load : ring.loads)
+    joined(Complex(0), load.amplitude, ComplexVector::Zero(elastic).eval(), load.amplitude);
   const Matrix shapes = at_contacts(damper.shapes, nodes);
   const Matrix base = ring.base;
   ring.base = Matrix::Zero(nodes, 1 + own + elastic);

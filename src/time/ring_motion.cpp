@@ -98,7 +98,7 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
       state.velocity(c) += (Complex(0, w) * p).real();
     }
   };
-  add(1, ring_.load);
+  for (const RingLoad& load : ring_.loads) add(load.order, load.amplitude);
   for (const ContactHarmonic& harmonic : harmonics) {
     ComplexVector wave(nodes);
     for (Index i = 0; i < nodes; ++i) {
@@ -118,7 +118,9 @@ RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) 
 
 /// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
 bool RingMotion::expands(const RingState& state, double length) {
-  const Index order = series_order(rate_ * length + frequency_ * length) + (ring_.others.empty() ? 0 : 10);
+  double fastest = frequency_;  // of the load
+  for (const RingLoad& load : ring_.loads) fastest = std::max(fastest, load.order * frequency_);
+  const Index order = series_order(rate_ * length + fastest * length) + (ring_.others.empty() ? 0 : 10);
   std::vector<LawSeries> laws;
   for (std::size_t e = 0; e < ring_.others.size(); ++e)
     laws.emplace_back(ring_.others[e].law(), segment_.zones[e], order);
@@ -135,14 +137,21 @@ bool RingMotion::expands(const RingState& state, double length) {
   p.resize(ring_.coordinates(), order + 1);
   p.col(0) = state.position;
   p.col(1) = length * state.velocity;
-  Complex phase = std::polar(1.0, frequency_ * state.time);  // (jwh)^m/m! e^{jwt}
+  std::vector<Complex> phases;  // (jwh)^m/m! e^{jwt} of each frequency w of the load
+  for (const RingLoad& load : ring_.loads)
+    phases.push_back(std::polar(1.0, load.order * frequency_ * state.time));
   Vector forces(ring_.coordinates());
   double largest = 0;
   Index needed = order;
   bool is_summed = laws.empty();
   for (Index m = 0; m + 2 <= order; ++m) {
     const auto next = static_cast<double>(m + 1);
-    forces = ring_.load.real() * phase.real() - ring_.load.imag() * phase.imag();
+    forces.setZero();
+    for (std::size_t h = 0; h < phases.size(); ++h) {
+      const RingLoad& load = ring_.loads[h];
+      forces += load.amplitude.real() * phases[h].real() - load.amplitude.imag() * phases[h].imag();
+      phases[h] *= Complex(0, load.order * frequency_ * length / next);
+    }
     forces -= ring_.stiffness.cwiseProduct(p.col(m));
     forces -= (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
     if (sticking.rows() > 0) forces.noalias() -= sticking.transpose() * (k * (sticking * p.col(m)));
@@ -153,10 +162,9 @@ bool RingMotion::expands(const RingState& state, double length) {
       forces.noalias() -= motion.transpose() * laws[e].force();
     }
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
-    phase *= Complex(0, frequency_ * length / next);
     const double size = p.middleCols(m + 1, 2).cwiseAbs().maxCoeff();
     largest = std::max(largest, size);
-    if (next * size > negligible * largest || next < frequency_ * length) continue;
+    if (next * size > negligible * largest || next < fastest * length) continue;
     needed = m + 2;
     is_summed = true;
     break;

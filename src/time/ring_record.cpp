@@ -56,9 +56,11 @@ void EnergyRecord::follow(const RingSegment& segment, const RingState& state) {
   for (const Node& node : quadrature()) {
     const double t = node.place * segment.length;
     const Vector velocity = segment.rate(segment.position, t / segment.scale);
-    const Complex phase = std::polar(1.0, frequency_ * (segment.start + t));
     const double weight = node.weight * segment.length;
-    input_ += weight * (ring_.load.cast<Complex>() * phase).real().dot(velocity);
+    for (const RingLoad& load : ring_.loads) {
+      const Complex phase = std::polar(1.0, load.order * frequency_ * (segment.start + t));
+      input_ += weight * (load.amplitude * phase).real().dot(velocity);
+    }
     damping_ += weight * ring_.damping.dot(velocity.cwiseAbs2());
   }
   const Vector slid =

@@ -92,7 +92,9 @@ std::map<Index, std::vector<double>> printed_frequencies(const std::string& path
   return found;
 }
 
-const SectorPair& sectors_of(const Case& input) { return *input.branches.front().problem.system.sectors; }
+const SectorPair& sectors_of(const Case& input) {
+  return dynamic_cast<const SectorPair&>(*input.branches.front().problem.system.structures);
+}
 
 /// Frequencies of one of the two under a wave; that their response is right the program has compared.
 SectorModes modes(const FiniteSector& sector, Index wave_number) {

@@ -90,7 +90,8 @@ SectorModes reduced_response(const FiniteSector& sector) {
 std::string full_response(const FiniteSector& sector, double factorisation) {
   const Clock::time_point start = Clock::now();
   const FullReceptance solves(sector, wave, loss);
-  const ContactModes base = ContactModes(1, {}, {}).solved_by([&](double eta) { return solves.at(eta, 1); });
+  const ContactModes base =
+      ContactModes(1, {}, {}).solved_by([&](double eta, double load) { return solves.at(eta, load); }, 1);
   const problems::HarmonicResponse problem(one_harmonic({base, ContactModes(1, {}, {}), {{1e7, 1e-7}}}));
   trace(problem, problem.guess(eta_low, 1), over_window());
   const double time = std::chrono::duration<double>(Clock::now() - start).count();

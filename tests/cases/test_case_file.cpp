@@ -100,7 +100,7 @@ TEST_CASE("Wrong input is refused in one line with place, key, what was expected
       {"elements = 30", "elements = 30.5", ":5:12", "system.elements", "an integer", "got 30.5"},
       {"wave_number = 2", "wave_number = 0", ":4:15", "system.wave_number", "an integer >= 1", "got 0"},
       {"model = \"beams\"", "model = \"plates\"", ":3:9", "system.model",
-       R"("rods" or "beams" or "sector" or "ab")", "got \"plates\""},
+       R"("rods" or "beams" or "sector" or "spring_mass")", "got \"plates\""},
       {"model = \"beams\"", "model = \"rods\"", ":8:15", "system.slenderness", "only for beams", ""},
       {"force = 1.0", "force = 1.0\ninterface_stiffness = 10", ":10:23", "system.interface_stiffness",
        "not both", ""},

@@ -288,6 +288,18 @@ TEST_CASE("Dashpots at single dofs take the power that the load and the contacts
   CHECK(least > 1e-3);  // dashpots count everywhere
 }
 
+TEST_CASE("Where the load is continued the power is that of the load that acts") {
+  const TemporaryFolder folder;
+  const Case input = read_case(folder.write("case.toml", in_full(DashpotPair().system(folder, 2)) +
+                                                             "[branch]\nparameter = \"F\"\neta = 190\n"
+                                                             "from = 1\nto = 20\n"));
+  const auto traced = trace(input.branches.front());
+  CHECK(traced.front().branch.complete());
+  const auto summary = summarize(0, traced.front());
+  CHECK(summary["power_error"].get<double>() < 1e-8);
+  CHECK(summary["motion_error"].get<double>() < 1e-8);
+}
+
 TEST_CASE("Points of the full path are verified with more harmonics") {
   const TemporaryFolder folder;
   const std::string text =

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/sectors/dynamic_stiffness.hpp"
 #include "arcslip/structure/sector.hpp"
 #include "arcslip/time/ring_record.hpp"
@@ -66,7 +67,7 @@ TEST_CASE("A ring is refused where it is not one of rods or beams with viscous d
   structural.base_damping_kind = DampingKind::structural;
   CHECK_THROWS_AS(build_ring(structural), std::invalid_argument);
   SystemParameters sector = small_beams();
-  sector.model = StructureModel::sector;
+  sector.structures = std::make_shared<const SectorPair>(SectorPart{}, std::nullopt, 1e-10);
   CHECK_THROWS_AS(build_ring(sector), std::invalid_argument);
   CHECK_THROWS_AS(RingMotion(build_ring(small_beams()), 1, 0), std::invalid_argument);
   CHECK_THROWS_AS(RingMotion(build_ring(small_beams()), 0, 1), std::invalid_argument);

@@ -20,7 +20,7 @@ struct SystemParameters;
 /// All that a response in several harmonics needs to know.
 struct HarmonicSystem {
   std::vector<int> orders;                     ///< h, ascending: of a response odd and from 1
-  std::vector<ContactModes> base;              ///< of each order, the first with the travelling load
+  std::vector<ContactModes> base;              ///< of each order, with the load that it has
   std::vector<ContactModes> damper;            ///< of each order, without load
   std::vector<SectorContact> contacts;         ///< in the order of the structures' own
   double preload_growth = 0;                   ///< P_2 of the preload P + P_2 eta^2

@@ -12,7 +12,7 @@
 #include <mutex>
 #include <optional>
 
-#include "arcslip/assembly/system.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/sectors/sector_modes.hpp"
 
 namespace arcslip {
@@ -51,7 +51,7 @@ struct SectorUse {
 };
 
 /// Keeps what it has found. May be used from several threads.
-class SectorPair {
+class SectorPair : public Structures {
  public:
   /// Without damper the base rubs on what is held. `tolerance` is that of the modes' response, relative.
   SectorPair(SectorPart base, std::optional<SectorPart> damper, double tolerance,
@@ -73,8 +73,14 @@ class SectorPair {
   std::shared_ptr<const FullReceptance> base_solves(const SectorWave& wave, double zeta) const;
   std::shared_ptr<const FullReceptance> damper_solves(const SectorWave& wave, double zeta) const;
 
-  /// Refuses matrices that are not definite under this wave. Throws SectorError.
-  void check(const SectorWave& wave) const;
+  // Of the system's contacts, any number of them; one alone where it is reduced.
+  ContactSystem wave(const SystemParameters& system) const override;
+  bool is_one_contact(const SystemParameters& system) const override;
+  PairLosses losses(const SystemParameters& system) const override;
+  /// Refuses matrices that are not definite under this wave.
+  void check(Index wave_number, Index nodes) const override;
+  std::shared_ptr<const Structures> in_modes() const override;
+  std::vector<PartModes> modes(const SystemParameters& system) const override;
 
  private:
   /// What is made at the first call for it.
@@ -105,23 +111,6 @@ class SectorPair {
   SectorPath path_;
   mutable std::mutex mutex_;
 };
-
-/// The pair on the reduced path. Throws SectorError where its damping has no modes, as a matrix beyond mass
-/// and stiffness.
-std::shared_ptr<const SectorPair> reduced(const SectorPair& pair);
-
-/// The model of `parameters`, whose `sectors` are given, reduced and with one contact. Throws SectorError.
-FrictionSystem build_sector_system(const SystemParameters& parameters);
-
-/// The same of sectors with any number of contacts, reduced or in full. Throws SectorError.
-ContactSystem build_contact_system(const SystemParameters& parameters);
-
-/// Whether `parameters` are those of sectors that only a ContactSystem serves: with several contacts, or in
-/// full.
-bool needs_contact_system(const SystemParameters& parameters);
-
-/// The use that `parameters` make of their sectors.
-SectorUse sector_use(const SystemParameters& parameters);
 
 /// C = alpha M + beta K as a loss. Throws SectorError where C has any other part beyond 1e-10 of itself.
 Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness);

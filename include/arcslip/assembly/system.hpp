@@ -8,15 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/assembly/excitation.hpp"
 #include "arcslip/elements/element_kind.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
 
-class SectorPair;
+class Structures;
 
-/// What base and damper are made of.
-enum class StructureModel { rods, beams, sector };
+/// What base and damper are made of, unless `structures` says it.
+enum class StructureModel { rods, beams };
 
 /// As case files have it: its name.
 std::string to_string(StructureModel model);
@@ -64,15 +65,16 @@ struct SystemParameters {
   bool one_way = false;        ///< friction acts on the damper and not back on the base
   std::vector<int> harmonics = {1};        ///< h in which friction is balanced, odd and ascending from 1
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
+  Excitation excitation{nullptr, {}};      ///< the load's harmonics, of which the balanced ones act
 
   std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued
   bool tells_lag = false;   ///< whether the lag of the motion that the load does work on is wanted
 
-  /// Of model = sector, where n may be 0, N = `elements` is the number of sectors, K_FD = N k of the first
-  /// contact, and no ratio, cubic stiffness or fixed damper counts.
-  std::shared_ptr<const SectorPair> sectors = {};
-  std::vector<SectorContact> contacts = {};  ///< one or several
-  double eta_low = 0;                        ///< window of eta in which the modes give the response
+  /// Base and damper, if they are no rods or beams: then n may be 0, N = `elements` is the number of sectors,
+  /// K_FD = N k of the first contact, and no ratio, cubic stiffness or fixed damper counts.
+  std::shared_ptr<const Structures> structures = {};
+  std::vector<SectorContact> contacts = {};  ///< theirs, one or several
+  double eta_low = 0;                        ///< window of eta in which they must give the response
   double eta_high = 0;
 
   /// Whether elements act beside the contacts.
@@ -143,15 +145,6 @@ struct FrictionSystem {
 /// Damping factors beta of C = (beta/2 pi) K: 2 zeta_B/gamma and 2 zeta_D [paper, footnote 3].
 double base_damping_factor(const SystemParameters& parameters);
 double damper_damping_factor(const SystemParameters& parameters);
-
-/// Loss of the base over zeta_B: 2/gamma viscous or 2 structural, of sectors as their damping_kind says; and
-/// the rest of it.
-Loss base_loss_per_zeta(const SystemParameters& parameters);
-Loss base_loss_fixed(const SystemParameters& parameters);
-
-/// The same of the damper over zeta_D.
-Loss damper_loss_per_zeta(const SystemParameters& parameters);
-Loss damper_loss_fixed(const SystemParameters& parameters);
 
 /// k_3 of each spring between the base's nodes and ground.
 double cubic_coefficient(const SystemParameters& parameters);

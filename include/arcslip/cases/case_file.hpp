@@ -32,10 +32,13 @@ struct CurveRequest {
   bool is_backbone() const { return name == "phase_resonance"; }
 };
 
+struct StructureKind;
+
 /// The problem that a branch belongs to: one of the library's, or a system with friction.
 struct ProblemRequest {
   const problems::LibraryModel* model = nullptr;                ///< null for a system with friction
   problems::LibraryModel::Values settings;                      ///< the library model's
+  const StructureKind* structure = nullptr;                     ///< what base and damper are then
   SystemParameters system;                                      ///< unless it is one of the library's
   std::optional<Geometry> geometry;                             ///< where the system is given in SI units
   const ResponseKind* response = find_response_kind("forced");  ///< what is asked of a system with friction

@@ -18,6 +18,7 @@ struct StudyDesign {
   SystemParameters system;                         ///< with its values set
   std::optional<Geometry> geometry;                ///< where the system is given in SI units
   std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
+  const StructureKind* structure = nullptr;        ///< what base and damper are
 
   /// Its forced response.
   ProblemRequest problem() const;

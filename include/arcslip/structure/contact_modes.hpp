@@ -61,8 +61,8 @@ struct CycleWork {
 
 /// A structure's response at eta, and its work under given forces on its contacts, found in whatever way; may
 /// be called from several threads.
-using Receptance = std::function<ContactReceptance(double eta)>;
-using ReceptanceWork = std::function<CycleWork(double eta, const ContactVector& forces)>;
+using Receptance = std::function<ContactReceptance(double eta, double load)>;
+using ReceptanceWork = std::function<CycleWork(double eta, double load, const ContactVector& forces)>;
 
 /// One mode v_k as contacts and load see it.
 struct ContactMode {
@@ -78,10 +78,10 @@ class ContactModes {
   /// than `most_contacts`.
   ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss);
 
-  /// The same structure with its response by `receptance`, whatever its damping: the modes, undamped, serve
-  /// for its resonances alone.
-  /// Without `work` of its own, none may be asked for.
-  ContactModes solved_by(Receptance receptance, ReceptanceWork work = {}) const;
+  /// The same structure with its response by `receptance` under this factor of its load, whatever its
+  /// damping: the modes, undamped, serve for its resonances alone. Without `work` of its own, none may be
+  /// asked for.
+  ContactModes solved_by(Receptance receptance, double load, ReceptanceWork work = {}) const;
 
   /// With the motion that the load does work on, F^H d, as that of a further contact after all others. Of
   /// modes alone: what is solved for has to be solved for anew.
@@ -122,6 +122,7 @@ class ContactModes {
   Loss loss_;
   Receptance receptance_;  // in place of the sum, if there is one
   ReceptanceWork receptance_work_;
+  double receptance_load_ = 1;
 };
 
 /// One contact dof of each sector.

@@ -11,11 +11,11 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
-#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/results/results.hpp"
+#include "cases/structure_kind.hpp"
 #include "keys/printable.hpp"
 #include "results/output.hpp"
 
@@ -29,23 +29,6 @@ struct CheckOptions {
   bool derivatives = false;           ///< compare the problems' derivatives with differences
 };
 
-std::string describe_sector(const SystemParameters& system) {
-  std::vector<double> k;
-  std::vector<double> limits;
-  for (const SectorContact& contact : system.contacts) {
-    k.push_back(contact.stiffness);
-    limits.push_back(contact.slip_per_preload * contact.stiffness);
-  }
-  std::string text =
-      fmt::format("sector, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})",
-                  system.wave_number, system.elements, fmt::join(k, ", "), fmt::join(limits, ", "),
-                  system.force, system.base_damping, to_string(system.sectors->base().damping_kind));
-  if (system.sectors->damper() != nullptr)
-    text += fmt::format(", {:g} (damper, {})", system.damper_damping,
-                        to_string(system.sectors->damper()->damping_kind));
-  return text + "\n  " + describe_modes(system);
-}
-
 std::string describe(const ProblemRequest& problem) {
   if (problem.model != nullptr) {
     std::string text = fmt::format("{}: {}", problem.model->name, problem.model->title);
@@ -53,16 +36,7 @@ std::string describe(const ProblemRequest& problem) {
       text += fmt::format(", {} = {:g}", problem.model->settings[i].name, problem.settings[i]);
     return text;
   }
-  const SystemParameters& system = problem.system;
-  if (system.sectors) return describe_sector(system);
-  std::string text = fmt::format("{}, n = {}, N = {}, {}, zeta = {:g} (base), {:g} (damper)",
-                                 to_string(system.model), system.wave_number, system.elements,
-                                 describe_groups(problem), system.base_damping, system.damper_damping);
-  if (system.base_damping_kind == DampingKind::structural) text += ", structural damping of the base";
-  if (system.fixed_damper) text += ", damper held";
-  if (system.cubic_stiffness != 0) text += fmt::format(", cubic stiffness {:g}", system.cubic_stiffness);
-  if (system.preload_growth != 0) text += fmt::format(", preload growth {:g}", system.preload_growth);
-  return text;
+  return problem.structure->describe(problem);
 }
 
 /// What is held while the branch's parameter runs.

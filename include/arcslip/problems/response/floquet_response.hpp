@@ -11,6 +11,7 @@
 // harmonics leave out, or a reduction to modes; so that they change their number where the branch turns, the
 // sign of the determinant decides on that of the one nearest to zero.
 
+#include <atomic>
 #include <memory>
 
 #include "arcslip/assembly/system.hpp"
@@ -82,6 +83,8 @@ class FloquetResponse : public HarmonicResponse {
   RingDisturbances disturbances_;
   bool is_in_modes_ = true;  ///< as disturbances are
   std::shared_ptr<const FloquetResponse> finer_;
+  static std::atomic<long> made_;
+  const long number_ = ++made_;  ///< of no other one, also at an address that is used anew
 };
 
 /// The numbers of waves, 0 .. N/2, under which it and the response by which it tells its error are disturbed.

@@ -1,0 +1,21 @@
+// Pads that press on arcs of the ring and travel: within each wavelength one that pushes evenly over a part w
+// of it and, half a wavelength away, one that pulls. Its Fourier series has the odd harmonics sin(h pi w)/h.
+
+#include <cmath>
+
+#include "arcslip/assembly/excitation.hpp"
+#include "arcslip/types.hpp"
+
+namespace arcslip {
+
+ExcitationKind arcs_excitation() {
+  return {"arcs",
+          "even pressure on travelling arcs, one that pushes and one that pulls in each wavelength",
+          {{"width", 0.5, 0, 0.5, false, "w of an arc, over the wavelength; 0.5 is a square wave", false}},
+          [](const std::vector<double>& settings, int h) {
+            const double angle = pi * settings[0];
+            return std::sin(h * angle) / (h * std::sin(angle));
+          }};
+}
+
+}  // namespace arcslip

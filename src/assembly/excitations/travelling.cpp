@@ -1,0 +1,13 @@
+// A sine that travels: what the force is told for.
+
+#include "arcslip/assembly/excitation.hpp"
+
+namespace arcslip {
+
+ExcitationKind travelling_excitation() {
+  return {"travelling", "a sine that travels round the ring", {}, [](const std::vector<double>&, int h) {
+            return h == 1 ? 1.0 : 0.0;
+          }};
+}
+
+}  // namespace arcslip

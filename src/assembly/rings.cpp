@@ -1,0 +1,107 @@
+#include "assembly/rings.hpp"
+
+#include <cmath>
+
+#include "arcslip/assembly/reduced_pair.hpp"
+#include "assembly/system_numbers.hpp"
+
+namespace arcslip {
+namespace {
+
+using At = SystemParameter::At;
+
+ContactModes in_contact_modes(const ModalModel& model) {
+  std::vector<ContactMode> modes;
+  for (const Mode& mode : model.modes()) {
+    const double shape = std::sqrt(mode.residue);
+    modes.push_back({mode.frequency, ContactVector::Constant(1, shape),
+                     shape > 0 ? mode.load_residue / shape : Complex(0)});
+  }
+  return {1, std::move(modes), model.loss()};
+}
+
+/// All that goes with the base's stiffness, as K* grows by a factor with this rate.
+void follow_stiffness(At& at, double factor, double rate) {
+  at.here.base.stiffness = at.here.base.load = at.here.slip_per_preload = at.here.others = factor;
+  at.rate.base.stiffness = at.rate.base.load = at.rate.slip_per_preload = at.rate.others = rate;
+}
+
+void change_mass_ratio(At& at, double value, const SystemParameters& system) {
+  follow_stiffness(at, value / system.mass_ratio, 1 / system.mass_ratio);
+  at.here.base.mass = value / system.mass_ratio;
+  at.rate.base.mass = 1 / system.mass_ratio;
+}
+
+void change_frequency_ratio(At& at, double value, const SystemParameters& system) {
+  const double gamma = system.frequency_ratio;
+  follow_stiffness(at, value * value / (gamma * gamma), 2 * value / (gamma * gamma));
+  at.here.base_viscous = gamma / value;
+  at.rate.base_viscous = -gamma / (value * value);
+  at.here.base.loss.viscous *= gamma / value;  // 2 zeta_B/gamma
+  at.rate.base.loss.viscous = -at.here.base.loss.viscous / value;
+}
+
+/// Of an element, which is made anew at each value.
+void leave(At& /*at*/, double /*value*/, const SystemParameters& /*system*/) {}
+
+}  // namespace
+
+ReducedPair reduce(const SystemParameters& parameters) {
+  const Index n = parameters.wave_number;
+  const Index elements = parameters.elements;
+  const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
+  ReducedPair pair{
+      reduce(make(parameters.mass_ratio, parameters.stiffness_ratio(), n, elements), n, elements),
+      reduce(make(1, 1, n, elements), n, elements)};
+  pair.base.load *= PreciseComplex(parameters.force * parameters.stiffness_ratio());
+  pair.damper.load.setZero();
+  return pair;
+}
+
+ContactSystem Rings::wave(const SystemParameters& parameters) const {
+  const FrictionSystem system = one_contact(parameters);
+  ContactSystem wave{in_contact_modes(system.base),
+                     in_contact_modes(system.damper),
+                     {{system.contact_stiffness, system.slip_per_preload}},
+                     system.outputs};
+  if (parameters.tells_lag) wave.outputs.push_back(driven_motion(wave.base.with_driven_motion()));
+  return wave;
+}
+
+FrictionSystem Rings::one_contact(const SystemParameters& parameters) const {
+  const ReducedPair pair = reduce(parameters);
+  const Loss base_loss = parameters.base_damping_kind == DampingKind::structural
+                             ? Loss{0, 2 * parameters.base_damping}
+                             : Loss{base_damping_factor(parameters), 0};
+  const ModalModel damper =
+      parameters.fixed_damper ? ModalModel() : ModalModel(pair.damper, 0, damper_damping_factor(parameters));
+  const auto elements = static_cast<double>(parameters.elements);
+  return {ModalModel(pair.base, 0, base_loss),
+          damper,
+          parameters.interface_stiffness / elements,
+          parameters.stiffness_ratio() / parameters.interface_stiffness,
+          losses(parameters).base_per_zeta,
+          cubic_coefficient(parameters),
+          parameters.preload_growth,
+          {},
+          {}};
+}
+
+PairLosses Rings::losses(const SystemParameters& parameters) const {
+  const bool is_structural = parameters.base_damping_kind == DampingKind::structural;
+  return {.base_per_zeta = is_structural ? Loss{0, 2} : Loss{2 / parameters.frequency_ratio, 0},
+          .damper_per_zeta = {2, 0}};
+}
+
+std::vector<SystemParameter> Rings::parameters(const SystemParameters& system) const {
+  using S = SystemParameters;
+  using Kind = SystemParameter::Kind;
+  std::vector<SystemParameter> all{
+      system_number("M*", &S::mass_ratio, change_mass_ratio, Kind::ratio, system),
+      system_number("gamma", &S::frequency_ratio, change_frequency_ratio, Kind::ratio, system),
+      system_number("cubic_stiffness", &S::cubic_stiffness, leave, Kind::element, system)};
+  all.back().limits = any_value("", 0, "");
+  return all;
+}
+
+}  // namespace arcslip

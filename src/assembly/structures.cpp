@@ -1,0 +1,36 @@
+#include "arcslip/assembly/structures.hpp"
+
+#include <stdexcept>
+
+#include "assembly/rings.hpp"
+
+namespace arcslip {
+
+const Structures& structures_of(const SystemParameters& system) {
+  static const Rings rings;
+  return system.structures ? *system.structures : rings;
+}
+
+FrictionSystem Structures::one_contact(const SystemParameters& system) const {
+  if (!is_one_contact(system))
+    throw std::invalid_argument(
+        "several contacts, or solves in place of modes, are no system of one contact");
+  const ContactSystem wave = this->wave(system);
+  const auto in_modes = [](const ContactModes& structure) {
+    std::vector<Mode> modes;
+    for (const ContactMode& mode : structure.modes())
+      modes.push_back({mode.frequency, std::norm(mode.shape(0)), mode.shape(0) * mode.load});
+    return ModalModel(std::move(modes), structure.loss());
+  };
+  const PairLosses losses = this->losses(system);
+  return {.base = in_modes(wave.base),
+          .damper = in_modes(wave.damper),
+          .contact_stiffness = wave.contacts.front().stiffness,
+          .slip_per_preload = wave.contacts.front().slip_per_preload,
+          .base_loss_per_zeta = losses.base_per_zeta,
+          .preload_growth = system.preload_growth,
+          .base_loss_fixed = losses.base_fixed,
+          .outputs = wave.outputs};
+}
+
+}  // namespace arcslip

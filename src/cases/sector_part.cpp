@@ -1,0 +1,204 @@
+#include "cases/sector_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <new>
+
+#include "arcslip/sectors/matrix_market.hpp"
+#include "keys/input_file.hpp"
+
+namespace arcslip {
+namespace {
+
+/// The folder of a case file, which the names of other files start from. One in a pipe has none.
+std::string folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder.string();
+}
+
+/// What the file that the key names holds: `parse` of its text and its path.
+template <class Parse>
+auto parsed(PartSettings& part, const TomlSection& section, std::string_view key, std::size_t largest,
+            const Parse& parse,
+            const std::function<void(std::string_view, const std::string&)>& begins = {}) {
+  const std::string path = (std::filesystem::path(part.folder) / section.text(key, {})).string();
+  try {
+    const std::string text = read_text(path, largest, [&](std::string_view beginning) {
+      if (begins) begins(beginning, path);
+    });
+    for (const char c : text) {  // FNV-1a
+      part.fingerprint ^= static_cast<unsigned char>(c);
+      part.fingerprint *= 1099511628211U;
+    }
+    return parse(text, path);
+  } catch (const InputError& error) {
+    section.fail(key, error.what());
+  } catch (const MatrixTextError& error) {
+    section.fail(key, error.what());
+  } catch (const std::bad_alloc&) {
+    section.fail(key, path + ": there is not enough memory for it");
+  }
+}
+
+std::vector<Index> listed(const PartSettings& part, const TomlSection& section, std::string_view key) {
+  const Index size = part.sector.mass.rows();
+  const NumberRule rule{
+      [=](double dof) { return dof >= 1 && dof <= static_cast<double>(size) && dof == std::floor(dof); },
+      fmt::format(" that is a dof from 1 to {}", size)};
+  std::vector<Index> dofs;
+  for (const double dof : section.numbers(key, rule)) dofs.push_back(static_cast<Index>(dof) - 1);
+  return dofs;
+}
+
+void read_load(PartSettings& part, const TomlSection& section) {
+  const Index size = part.sector.mass.rows();
+  const char* expected = "a file of loads, or a table { dof = [...], value = [...] }";
+  ComplexVector& load = part.sector.load;
+  if (section.require("load", expected).is_string()) {
+    load = parsed(part, section, "load", largest_list, [&](const std::string& text, const std::string& path) {
+      return arcslip::read_load(text, path, size);
+    });
+  } else {
+    const TomlSection table = section.inside("load", expected);
+    table.allow_only({"dof", "value", "imaginary"});
+    table.require("dof", "an array of dofs");
+    table.require("value", "an array of numbers");
+    const std::vector<Index> dofs = listed(part, table, "dof");
+    const std::vector<double> real = table.numbers("value", any_number());
+    std::vector<double> imaginary(dofs.size());
+    if (table.has("imaginary")) imaginary = table.numbers("imaginary", any_number());
+    const auto check = [&](const char* key, std::size_t count) {
+      if (count != dofs.size())
+        table.fail(key, fmt::format("expected {} numbers, as many as dofs, got {}", dofs.size(), count));
+    };
+    check("value", real.size());
+    check("imaginary", imaginary.size());
+    load = ComplexVector::Zero(size);
+    for (std::size_t i = 0; i < dofs.size(); ++i) load(dofs[i]) += Complex(real[i], imaginary[i]);
+  }
+  if (load.isZero(0)) section.fail("load", "expected a force that is not 0");
+}
+
+using PartKey = Key<PartSettings>;
+
+PartKey matrix(const char* name, SparseMatrix FiniteSector::*member, const std::string& meaning,
+               const auto&... term) {
+  const auto read = [=](PartSettings& part, const TomlSection& section) {
+    section.require(name, "a Matrix Market file");
+    part.sector.*member = parsed(part, section, name, largest_matrix, read_matrix_market, check_banner);
+  };
+  return PartKey::special(name, "Matrix Market file", meaning, read, term...);
+}
+
+PartKey dofs(const char* name, std::vector<Index> FiniteSector::*member, const std::string& meaning,
+             const auto&... term) {
+  const auto read = [=](PartSettings& part, const TomlSection& section) {
+    const char* expected = "a file of dofs, or an array of them";
+    const toml::node& node = section.require(name, expected);
+    if (!node.is_string() && !node.is_array()) section.mismatch(name, expected);
+    part.sector.*member =
+        node.is_array() ? listed(part, section, name)
+                        : parsed(part, section, name, largest_list, [&](const auto& text, const auto& path) {
+                            return read_dofs(text, path, part.sector.mass.rows());
+                          });
+  };
+  return PartKey::special(name, "file or list of dofs", meaning, read, term...);
+}
+
+void check_contacts(const PartSettings& part, const TomlSection& section) {
+  const std::size_t count = part.sector.contacts.size();
+  if (count == 0 || count >= most_contacts)
+    section.fail("contact", fmt::format("expected from 1 to {} dofs, got {}", most_contacts - 1, count));
+}
+
+void check_kind(const PartSettings& part, const TomlSection& section) {
+  if (part.path == SectorPath::full && part.damping_kind == DampingKind::modal)
+    section.fail(
+        "damping_kind",
+        R"(expected "viscous" or "structural" with system.path = "full", for which "modal" has no matrix)");
+}
+
+bool is_viscous(const PartSettings& part, const TomlSection& /*section*/) {
+  return part.damping_kind == DampingKind::viscous;
+}
+
+/// Turns C into a loss of the modes.
+void diagonalise(PartSettings& part, const TomlSection& section) {
+  FiniteSector& sector = part.sector;
+  if (part.path != SectorPath::reduced || sector.damping.size() == 0) return;
+  try {
+    part.fixed = proportional_loss(sector.damping, sector.mass, sector.stiffness);
+  } catch (const SectorError& error) {
+    section.fail("damping", std::string(error.what()) + R"(; path = "full" in [system] takes any)");
+  }
+  sector.damping = SparseMatrix();
+}
+
+KeyTable<PartSettings> keys_of_part(bool loaded) {
+  using F = FiniteSector;
+  const std::vector<PartKey> keys{
+      matrix("mass", &F::mass, "M: real, coordinate, symmetric, or general and so but for rounding",
+             required),
+      matrix("stiffness", &F::stiffness, "K", required),
+      matrix("damping", &F::damping,
+             "C = alpha M + beta K; any other symmetric one with `path = \"full\"` alone", otherwise("none")),
+      dofs("left", &F::left, "the boundary to the sector before; dofs count from 1, in a file one a line",
+           required),
+      dofs("right", &F::right, "that to the next sector, paired with `left` in order", required),
+      dofs("interior", &F::interior, "the rest", otherwise("all others")),
+      dofs("contact", &F::contacts, "up to 12, not on the right; those of base and damper pair in order",
+           required, then(check_contacts)),
+      PartKey::choice("damping_kind", &PartSettings::damping_kind,
+                      {{"viscous", DampingKind::viscous},
+                       {"structural", DampingKind::structural},
+                       {"modal", DampingKind::modal}},
+                      "of the zeta in `damping`: C proportional to K; K (1 + 2j zeta); zeta for every mode",
+                      "", then(check_kind)),
+      PartKey("reference_frequency", &PartSettings::reference_frequency, positive(),
+              "eta at which the loss is 2 zeta", required,
+              only(R"(only beside damping_kind = "viscous")", is_viscous)),
+      PartKey("mass_factor", &PartSettings::mass_factor, at_least(0),
+              "alpha of a part alpha M of C; beside it or a C zeta adds to them and is 0 by default"),
+      dofs("output", &F::outputs,
+           "whose amplitudes follow in `branches.csv`: `Y_40` of the base, `U_40` of the damper",
+           otherwise("none"))};
+  if (!loaded) return keys;
+  return {keys,
+          {PartKey::special("load", "file or table",
+                            "of the base, the force on the sector of phase 0: a file of lines `dof value "
+                            "[imaginary part]`, or a table `{ dof, value, imaginary }` of lists",
+                            read_load, required)}};
+}
+
+}  // namespace
+
+const KeyTable<PartSettings>& part_keys(bool loaded) {
+  static const KeyTable<PartSettings> base = keys_of_part(true);
+  static const KeyTable<PartSettings> damper = keys_of_part(false);
+  return loaded ? base : damper;
+}
+
+SectorPart read_part(const TomlDocument& document, const std::string& path, SectorPath response) {
+  const TomlSection section(document, path);
+  const bool loaded = path == "system.base";
+  PartSettings part;
+  part.path = response;
+  part.folder = folder_of(document.path());
+  part.fingerprint = 14695981039346656037U;
+  part_keys(loaded).read(part, section);
+  if (!loaded) part.sector.load = ComplexVector::Zero(part.sector.mass.rows());
+  try {
+    part.sector = checked(std::move(part.sector));
+  } catch (const SectorError& error) {
+    document.fail(section.table(), path, error.what());
+  }
+  diagonalise(part, section);
+  part.fixed.mass += part.mass_factor / two_pi;
+  return std::move(static_cast<SectorPart&>(part));
+}
+
+}  // namespace arcslip

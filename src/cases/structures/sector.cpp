@@ -1,0 +1,218 @@
+// Any structure of N equal sectors: base and damper from the matrices of one sector each.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/results/results.hpp"
+#include "cases/sector_part.hpp"
+#include "cases/structure_kind.hpp"
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct SectorSettings : FrictionSettings {
+  SectorSettings() { has_damping_kind = false; }
+
+  std::shared_ptr<const SectorPair> sectors = {};
+  std::vector<double> contact_stiffness = {};  ///< of each contact
+  std::vector<double> limit_per_preload = {};
+  SectorPath path = SectorPath::reduced;
+  double reduction_tolerance = 1e-10;
+};
+
+using SectorKey = Key<SectorSettings>;
+
+void read_reduction_window(SectorSettings& settings, const TomlSection& section) {
+  std::tie(settings.eta_low, settings.eta_high) =
+      section.rising("reduction_window",
+                     "two numbers, 0 < low < high: the eta for which the modes of the sectors are found");
+}
+
+/// Reads a number for all contacts, or a list with one for each.
+SectorKey::Reader for_contacts(const std::string& name, std::vector<double> SectorSettings::*member) {
+  return [=](SectorSettings& settings, const TomlSection& section) {
+    const std::size_t count = settings.sectors->base().sector.contacts.size();
+    std::vector<double>& values = settings.*member;
+    const toml::table* table = section.table();
+    if (table == nullptr || !(*table)[name].is_array()) {
+      values.assign(count, section.number(name, positive()));
+      return;
+    }
+    values = section.numbers(name, positive());
+    if (values.size() != count)
+      section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
+                                     values.size()));
+  };
+}
+
+NumberRule wave_rule(const SectorSettings& settings) {
+  const Index most = settings.elements / 2;
+  return within(0, static_cast<double>(most), fmt::format(" >= 0 and <= sectors/2 = {}", most));
+}
+
+void check_path(const SectorSettings& settings, const TomlSection& section) {
+  const bool is_free = settings.use != nullptr && settings.use->is_free;
+  if (settings.path == SectorPath::full && is_free)
+    section.fail(
+        "path",
+        R"(expected "reduced" for nonlinear modes and limit cycles, which begin from modes, got "full")");
+}
+
+/// What is held to the modes and contacts that there are.
+void check_use(const TomlSection& section, const SectorSettings& settings) {
+  try {
+    settings.sectors->check(settings.wave_number, settings.elements);
+  } catch (const SectorError& error) {
+    section.fail("wave_number", fmt::format("at {}: {}", settings.wave_number, error.what()));
+  }
+}
+
+const KeyTable<SectorSettings>& sector_keys() {
+  const auto of = [](const SectorPart* part) -> ordered_json {
+    if (part == nullptr) return nullptr;
+    return {{"damping_kind", to_string(part->damping_kind)},
+            {"fingerprint", fmt::format("{:016x}", part->fingerprint)}};
+  };
+  const auto base = [=](const SectorSettings& settings) {
+    return of(settings.sectors ? &settings.sectors->base() : nullptr);
+  };
+  const auto damper = [=](const SectorSettings& settings) {
+    return of(settings.sectors ? settings.sectors->damper() : nullptr);
+  };
+  const auto window = [](const SectorSettings& settings) {
+    return ordered_json{settings.eta_low, settings.eta_high};
+  };
+  const auto has_no_range = [](const SectorSettings& settings, const TomlSection&) {
+    return !(settings.eta_low > 0);
+  };
+  static const KeyTable<SectorSettings> keys{
+      {SectorKey::special("model", "\"sector\"", "any structure of N equal sectors", {},
+                          otherwise("required"), unlisted),
+       SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N", required),
+       SectorKey("wave_number", &SectorSettings::wave_number, {" >= 0 and <= sectors/2", wave_rule},
+                 "n, nodal diameters", required),
+       SectorKey::special("contact_stiffness", "number or list",
+                          "k of the contact of a sector; of several contacts that of all, or a list",
+                          for_contacts("contact_stiffness", &SectorSettings::contact_stiffness), required,
+                          parameter("K_FD"))},
+      keys_of<SectorSettings>(shared_keys()),
+      {SectorKey::special("limit_per_preload", "number or list",
+                          "L: a contact slips where its force is L P, S = L P/k",
+                          for_contacts("limit_per_preload", &SectorSettings::limit_per_preload),
+                          resolved([](const SectorSettings&) { return 1.0; })),
+       SectorKey("force", &SectorSettings::force, positive(), "factor of the load", parameter("F")),
+       preload_growth_key(),
+       SectorKey::choice("path", &SectorSettings::path,
+                         {{"reduced", SectorPath::reduced}, {"full", SectorPath::full}},
+                         "the response by modes, or by a sparse LU factorisation at each eta", "", unlisted,
+                         then(check_path)),
+       SectorKey("reduction_tolerance", &SectorSettings::reduction_tolerance,
+                 within(1e-14, 1e-2, " >= 1e-14 and <= 0.01"),
+                 "relative change of the response at which modes are no longer added", unlisted),
+       SectorKey::special(
+           "reduction_window", "two numbers",
+           "the eta for which the modes serve or, with `path = \"full\"`, are found as resonances",
+           read_reduction_window,
+           needed("the range of `[branch]` or `[study]`; required of limit cycles", has_no_range),
+           resolved(window)),
+       SectorKey::special("base", "table", "the base's sector", {}, otherwise("required"), unlisted,
+                          resolved(base)),
+       SectorKey::special("damper", "table", "the damper's", {}, otherwise("none: the contact is to ground"),
+                          unlisted, resolved(damper))}};
+  return keys;
+}
+
+std::shared_ptr<const Structures> load_sectors(const TomlDocument& document) {
+  const TomlSection section(document, "system");
+  section.allow_only(sector_keys().names());
+  section.require("base", "a table with the matrices of the base's sector");
+  SectorSettings settings;
+  for (const char* key : {"reduction_tolerance", "path"}) sector_keys().read(key, settings, section);
+  std::optional<SectorPart> damper;
+  if (section.has("damper")) damper = read_part(document, "system.damper", settings.path);
+  SectorPart base = read_part(document, "system.base", settings.path);
+  const std::size_t contacts = base.sector.contacts.size();
+  if (damper && damper->sector.contacts.size() != contacts)
+    TomlSection(document, "system.damper")
+        .fail("contact", fmt::format("expected {} dofs, as many as of the base, got {}", contacts,
+                                     damper->sector.contacts.size()));
+  return std::make_shared<const SectorPair>(std::move(base), std::move(damper), settings.reduction_tolerance,
+                                            settings.path);
+}
+
+void read_sector(const StructureKind::Source& source, ProblemRequest& problem) {
+  SectorSettings settings;
+  settings.use = &source.use;
+  settings.structures = source.use.structures;
+  settings.sectors = std::static_pointer_cast<const SectorPair>(settings.structures);
+  settings.eta_low = source.use.eta_low;
+  settings.eta_high = source.use.eta_high;
+  const SectorPart& base = settings.sectors->base();
+  const SectorPart* damper = settings.sectors->damper();
+  settings.fixed_damper = damper == nullptr;
+  settings.is_base_damped = base.is_damped();
+  settings.is_damper_damped = damper != nullptr && damper->is_damped();
+  if (settings.is_base_damped) settings.base_damping = 0;
+  if (settings.is_damper_damped) settings.damper_damping = 0;
+  const std::size_t count = base.sector.contacts.size();
+  settings.limit_per_preload.assign(count, 1);
+  sector_keys().read(settings, source.section);
+  const std::vector<double>& k = settings.contact_stiffness;
+  settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
+  for (std::size_t i = 0; i < count; ++i)
+    settings.contacts.push_back({k[i], settings.limit_per_preload[i] / k[i]});
+  check_use(source.section, settings);
+  take(std::move(settings), problem);
+}
+
+ordered_json sector_resolved(const ProblemRequest& problem, const ordered_json& /*given*/) {
+  SectorSettings settings;
+  static_cast<SystemParameters&>(settings) = problem.system;
+  settings.sectors = std::static_pointer_cast<const SectorPair>(settings.structures);
+  settings.harmonics_tolerance = problem.harmonics_tolerance;
+  settings.path = settings.sectors->path();
+  settings.reduction_tolerance = settings.sectors->tolerance();
+  return sector_keys().values(settings);
+}
+
+std::string sector_in_words(const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  std::vector<double> k;
+  std::vector<double> limits;
+  for (const SectorContact& contact : system.contacts) {
+    k.push_back(contact.stiffness);
+    limits.push_back(contact.slip_per_preload * contact.stiffness);
+  }
+  const auto& sectors = static_cast<const SectorPair&>(*system.structures);
+  std::string text =
+      fmt::format("sector, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})",
+                  system.wave_number, system.elements, fmt::join(k, ", "), fmt::join(limits, ", "),
+                  system.force, system.base_damping, to_string(sectors.base().damping_kind));
+  if (sectors.damper() != nullptr)
+    text +=
+        fmt::format(", {:g} (damper, {})", system.damper_damping, to_string(sectors.damper()->damping_kind));
+  return text + "\n  " + describe_modes(system);
+}
+
+}  // namespace
+
+StructureKind sector_structure() {
+  return {.name = "sector",
+          .title = "sectors",
+          .models = {"sector"},
+          .keys = [] { return sector_keys().words(); },
+          .sections = {{"system.base", "and of `[system.damper]`", [] { return part_keys(true).words(); }}},
+          .load = load_sectors,
+          .read = read_sector,
+          .resolved = sector_resolved,
+          .describe = sector_in_words};
+}
+
+}  // namespace arcslip
