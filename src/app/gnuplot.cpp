@@ -18,6 +18,7 @@
 #include <system_error>
 
 #include "app/interrupt.hpp"
+#include "app/share.hpp"
 #include "results/atomic_file.hpp"
 #include "results/output.hpp"
 
@@ -32,12 +33,10 @@ constexpr std::array formats = {"png", "svg"};
 constexpr int not_found = 127;
 constexpr int not_started = 126;
 
-/// Where the scripts are: beside the program, as in the build tree so after installation.
 fs::path scripts_folder() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  fs::path folder = program.parent_path().parent_path() / "share/arcslip/plots";
-  if (error || !fs::exists(folder / "style.gp", error)) {
+  fs::path folder = share_folder() / "plots";
+  if (!fs::exists(folder / "style.gp", error)) {
     throw OutputError(fmt::format("{}: holds no gnuplot scripts; install arcslip anew", folder.string()));
   }
   return folder;

@@ -23,6 +23,7 @@ Examples
   arcslip run problems/figure_8.toml -o fine --set continuation.max_step=0.02
   arcslip run problems/figure_8.toml --certify    and a proof that nothing was jumped
   arcslip plot out/figure_8                       its pictures, PNG and SVG
+  arcslip report out/figure_8                     a page to send, with pictures to zoom: out/figure_8/report.html
   arcslip check problems/figure_8.toml            what would run
   arcslip check problems/enz.toml --derivatives   and whether the problem's derivatives are exact
   arcslip run problems/rotor_ring.toml            a system given in SI units

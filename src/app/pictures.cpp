@@ -10,10 +10,11 @@
 #include <system_error>
 
 #include "app/picture_text.hpp"
-#include "app/result_table.hpp"
 #include "app/study_pictures.hpp"
 #include "arcslip/cases/case_file.hpp"
+#include "arcslip/version.hpp"
 #include "cases/structure_kind.hpp"
+#include "results/result_table.hpp"
 
 namespace arcslip {
 namespace {
@@ -53,22 +54,6 @@ Colours colours_of(const ordered_json& branches, bool is_friction) {
   return {quote_all(labels), fmt::format("{}", fmt::join(groups, " "))};
 }
 
-/// The table that pictures of a run are drawn from: that of its curves, unless the branches have been changed
-/// since, or it is not there.
-std::string drawn_table(const std::string& folder) {
-  const auto path = [&](const char* name) { return fs::path(folder) / name; };
-  const auto header = [&](const char* name) {
-    std::ifstream file(path(name));
-    std::string line;
-    std::getline(file, line);
-    return line;
-  };
-  std::error_code none;
-  const bool newer =
-      fs::last_write_time(path("branches.csv"), none) > fs::last_write_time(path("curves.csv"), none);
-  return !newer && header("curves.csv") == header("branches.csv") ? "curves.csv" : "branches.csv";
-}
-
 /// Decides what is drawn of a run.
 class Decision {
  public:
@@ -81,7 +66,7 @@ class Decision {
     const std::string model = system_.at("model").get<std::string>();
     const StructureKind* kind = structure_of(model);
     is_friction_ = kind != nullptr;
-    is_relative_ = is_friction_ && kind->is_relative;
+    is_relative_ = is_friction_ && kind->frequency_unit.empty();
     is_requested_ = !summary.at("case").at("continuation").at("stop_at").empty();
     colours_ = colours_of(summary.at("branches"), is_friction_);
   }
@@ -193,7 +178,21 @@ class Decision {
 
 }  // namespace
 
-std::vector<Picture> pictures_of(const std::string& folder) {
+std::string drawn_table(const std::string& folder) {
+  const auto path = [&](const char* name) { return fs::path(folder) / name; };
+  const auto header = [&](const char* name) {
+    std::ifstream file(path(name));
+    std::string line;
+    std::getline(file, line);
+    return line;
+  };
+  std::error_code none;
+  const bool newer =
+      fs::last_write_time(path("branches.csv"), none) > fs::last_write_time(path("curves.csv"), none);
+  return !newer && header("curves.csv") == header("branches.csv") ? "curves.csv" : "branches.csv";
+}
+
+ordered_json summary_of(const std::string& folder) {
   std::error_code none;
   if (!fs::is_directory(folder, none)) {
     throw InputError(
@@ -202,9 +201,41 @@ std::vector<Picture> pictures_of(const std::string& folder) {
   const std::string path = (fs::path(folder) / "summary.json").string();
   std::ifstream file = open_results(path);
   try {
-    const ordered_json summary = ordered_json::parse(file);
+    return ordered_json::parse(file);
+  } catch (const ordered_json::parse_error& error) {
+    throw InputError(fmt::format("{}: is not JSON (byte {})", path, error.byte));
+  }
+}
+
+std::string reading(const std::string& folder, const ordered_json& summary,
+                    const std::function<std::string()>& use) {
+  const std::string version =
+      summary.is_object() && summary.contains("arcslip") ? summary.at("arcslip").dump() : "";
+  const std::string other =
+      version.empty() || version == fmt::format("\"{}\"", release)
+          ? ""
+          : fmt::format(" (the results are of arcslip {}, this is \"{}\"; run the case again)", version,
+                        release);
+  const auto refuse = [&] {
+    return InputError(fmt::format("{}: is not a summary that arcslip has written{}",
+                                  (fs::path(folder) / "summary.json").string(), other));
+  };
+  try {
+    return use();
+  } catch (const InputError& error) {
+    throw InputError(error.what() + other);
+  } catch (const ordered_json::exception&) {
+    throw refuse();
+  } catch (const std::out_of_range&) {
+    throw refuse();
+  }
+}
+
+std::vector<Picture> pictures_of(const std::string& folder) {
+  const ordered_json summary = summary_of(folder);
+  std::vector<Picture> all;
+  reading(folder, summary, [&] {
     const bool has_run = !summary.at("case").contains("study");
-    std::vector<Picture> all;
     if (has_run) {
       const ResultTable table(fs::path(folder) / "branches.csv", {"branch", "point", "type", "regime"},
                               "points");
@@ -214,18 +245,13 @@ std::vector<Picture> pictures_of(const std::string& folder) {
       const ordered_json& study = has_run ? summary.at("study") : summary;
       for (Picture& picture : study_pictures(folder, study.at("case"))) all.push_back(std::move(picture));
     }
-    if (!all.empty()) return all;
-    throw InputError(
-        fmt::format("{}: nothing to draw; expected sweep.csv of at most {} designs beside it, or one or two "
-                    "keys of for_each with numbers",
-                    (fs::path(folder) / "optimum.csv").string(), most_curves));
-  } catch (const ordered_json::parse_error& error) {
-    throw InputError(fmt::format("{}: is not JSON (byte {})", path, error.byte));
-  } catch (const ordered_json::exception&) {
-    throw InputError(fmt::format("{}: is not a summary that arcslip has written", path));
-  } catch (const std::out_of_range&) {
-    throw InputError(fmt::format("{}: is not a summary that arcslip has written", path));
-  }
+    return "";
+  });
+  if (!all.empty()) return all;
+  throw InputError(
+      fmt::format("{}: nothing to draw; expected sweep.csv of at most {} designs beside it, or one or two "
+                  "keys of for_each with numbers",
+                  (fs::path(folder) / "optimum.csv").string(), most_curves));
 }
 
 }  // namespace arcslip

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "app/picture_text.hpp"
-#include "app/result_table.hpp"
 #include "arcslip/cases/case_file.hpp"
+#include "results/result_table.hpp"
 
 namespace arcslip {
 namespace {

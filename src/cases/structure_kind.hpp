@@ -71,7 +71,8 @@ struct StructureKind {
   /// A system in words, on a line.
   std::function<std::string(const ProblemRequest& problem)> describe;
 
-  bool is_relative = false;  ///< whether eta is relative to the damper's natural frequency
+  std::string frequency_unit =
+      {};  ///< of eta in SI units; "" where it is relative to the damper's own frequency
 };
 
 /// All of them, in alphabetical order.

@@ -143,8 +143,7 @@ StructureKind rings_structure() {
           .sections = {{"geometry", "two rings in SI units", [] { return geometry_keys().words(); }, true}},
           .read = read_rings,
           .resolved = rings_resolved,
-          .describe = rings_in_words,
-          .is_relative = true};
+          .describe = rings_in_words};
 }
 
 }  // namespace arcslip

@@ -212,7 +212,8 @@ StructureKind sector_structure() {
           .load = load_sectors,
           .read = read_sector,
           .resolved = sector_resolved,
-          .describe = sector_in_words};
+          .describe = sector_in_words,
+          .frequency_unit = "Hz"};
 }
 
 }  // namespace arcslip

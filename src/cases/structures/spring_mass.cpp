@@ -217,7 +217,8 @@ StructureKind spring_mass_structure() {
           .keys = [] { return spring_mass_keys().words(); },
           .read = read_spring_mass,
           .resolved = spring_mass_resolved,
-          .describe = spring_mass_in_words};
+          .describe = spring_mass_in_words,
+          .frequency_unit = "rad/s"};
 }
 
 }  // namespace arcslip

@@ -1,4 +1,4 @@
-#include "app/result_table.hpp"
+#include "results/result_table.hpp"
 
 #include <fmt/format.h>
 
@@ -76,23 +76,33 @@ void ResultTable::require(const std::vector<std::string>& names) const {
   }
 }
 
-std::vector<std::vector<ordered_json>> ResultTable::read(const std::vector<std::string>& names) const {
-  require(names);
-  std::vector<std::size_t> places;
-  for (const std::string& name : names)
-    places.push_back(
-        static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), name) - columns_.begin()));
+void ResultTable::for_each_row(
+    const std::function<void(const std::vector<std::string>& fields)>& visitor) const {
   std::ifstream file = open_results(path_);
   std::string line;
   std::getline(file, line);
-  std::vector<std::vector<ordered_json>> values(names.size());
   for (std::size_t number = 2; std::getline(file, line); ++number) {
     const std::vector<std::string> fields = fields_of(line);
     if (fields.size() != columns_.size())
       throw InputError(fmt::format("{}: line {} has {} fields; expected {}", path_.string(), number,
                                    fields.size(), columns_.size()));
-    for (std::size_t k = 0; k < places.size(); ++k) values[k].push_back(value_of(fields[places[k]]));
+    visitor(fields);
   }
+}
+
+std::size_t ResultTable::place(const std::string& name) const {
+  require({name});
+  return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), name) - columns_.begin());
+}
+
+std::vector<std::vector<ordered_json>> ResultTable::read(const std::vector<std::string>& names) const {
+  std::vector<std::size_t> places(names.size());
+  std::transform(names.begin(), names.end(), places.begin(),
+                 [&](const std::string& name) { return place(name); });
+  std::vector<std::vector<ordered_json>> values(names.size());
+  for_each_row([&](const std::vector<std::string>& fields) {
+    for (std::size_t k = 0; k < places.size(); ++k) values[k].push_back(value_of(fields[places[k]]));
+  });
   return values;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,6 +25,12 @@ class ResultTable {
   bool has(const std::string& name) const;
   /// Throws InputError where a column is missing.
   void require(const std::vector<std::string>& names) const;
+
+  /// Where a column stands, counted from 0. Throws InputError where it is missing.
+  std::size_t place(const std::string& name) const;
+
+  /// All rows in their order, each with as many fields as there are columns. Throws InputError.
+  void for_each_row(const std::function<void(const std::vector<std::string>& fields)>& visitor) const;
 
   /// The values of some columns, one after the other: numbers, or texts where they are none. Throws
   /// InputError.

@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "results/answer.hpp"
+
+namespace arcslip {
+namespace {
+
+using nlohmann::ordered_json;
+using nlohmann::literals::operator""_json_pointer;
+using Sentences = std::vector<std::string>;
+
+/// "preload = 1", of a branch what for_each sets on it.
+std::string values_text(const ordered_json& branch) {
+  std::string told;
+  for (const auto& [key, value] : branch.at("values").items()) {
+    told += (told.empty() ? "" : ", ") +
+            setting_text(key, value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : value.dump());
+  }
+  return told.empty() ? fmt::format("branch {}", branch.at("branch").get<std::size_t>()) : told;
+}
+
+/// The highest peak of a branch among its special points; null without one.
+const ordered_json* peak_of(const ordered_json& branch) {
+  const ordered_json* highest = nullptr;
+  if (!branch.at("peak").is_object()) return nullptr;
+  for (const ordered_json& point : branch.at("special")) {
+    if (point.at("type") == "peak" && point.contains("Y") &&
+        (highest == nullptr || point.at("Y") > highest->at("Y")))
+      highest = &point;
+  }
+  return highest;
+}
+
+/// How high a peak is and where; `parameter` is that of the branch.
+std::string place_text(const ordered_json& peak, const std::string& parameter) {
+  const auto number = [&](const std::string& name) { return peak.at(name).get<double>(); };
+  const bool moves = parameter != "eta" && peak.contains(parameter);
+  if (peak.contains("Y_m")) {
+    return fmt::format("{} at {:.5g} Hz{}", length_text(number("Y_m")), number("frequency_Hz"),
+                       moves ? fmt::format(", {} = {:.5g}", parameter, number(parameter)) : "");
+  }
+  return fmt::format("Y = {:.4g} at eta = {:.5g}{}", number("Y"), number("eta"),
+                     moves ? fmt::format(", {} = {:.5g}", parameter, number(parameter)) : "");
+}
+
+/// The highest peaks of forced responses.
+Sentences peaks_answer(const ordered_json& branches, const std::string& parameter) {
+  struct Found {
+    const ordered_json* branch;
+    const ordered_json* peak;
+    double height() const { return peak->at("Y").get<double>(); }
+  };
+  std::vector<Found> found;
+  for (const ordered_json& branch : branches) {
+    if (const ordered_json* peak = peak_of(branch)) found.push_back({&branch, peak});
+  }
+  if (found.empty()) return {};
+  const auto place = [&](const Found& one) { return place_text(*one.peak, parameter); };
+  const auto values = [](const Found& one) { return values_text(*one.branch); };
+  const auto [low, high] = std::minmax_element(
+      found.begin(), found.end(), [](const Found& a, const Found& b) { return a.height() < b.height(); });
+  const double apart = high->height() / low->height();
+  if (found.size() == 1) return {fmt::format("Highest peak {}.", place(*high))};
+  if (apart < 1.005)
+    return {fmt::format("On {} branches the highest peak is alike: {}.", found.size(), place(*high))};
+  // More harmonics are no other design: what counts is how they change the answer.
+  if (low->branch->at("values").size() == 1 && low->branch->at("values").contains("harmonics"))
+    return {fmt::format("The highest peak is {} with {}, {} with {}.", place(found.front()),
+                        values(found.front()), place(found.back()), values(found.back()))};
+  return {
+      fmt::format("Of {} branches the highest peak is lowest with {}: {}. It is highest with {}: {}, {:.3g} "
+                  "times as high.",
+                  found.size(), values(*low), place(*low), values(*high), place(*high), apart)};
+}
+
+using Count = std::pair<std::string, std::size_t>;  ///< of a type of special points
+
+/// "peaks", "Hopf point".
+std::string plural_of(const Count& count) {
+  constexpr std::array named = {std::pair{"hopf", "Hopf point"},
+                                std::pair{"neimark_sacker", "Neimark-Sacker point"},
+                                std::pair{"bogdanov_takens", "Bogdanov-Takens point"},
+                                std::pair{"zero_hopf", "zero-Hopf point"},
+                                std::pair{"hopf_hopf", "double Hopf point"},
+                                std::pair{"symmetry_breaking", "breaking of symmetry"}};
+  std::string name = count.first;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  for (const auto& [type, words] : named) {
+    if (count.first == type) name = words;
+  }
+  if (count.second == 1) return name;
+  if (count.first == "symmetry_breaking") return "breakings of symmetry";
+  return name + (name.ends_with("ch") ? "es" : "s");
+}
+
+/// "5 branches of 2565 points in all, with 12 peaks, 9 switches, ...".
+std::string count_answer(const ordered_json& branches) {
+  std::vector<Count> counts;
+  std::size_t points = 0;
+  for (const ordered_json& branch : branches) {
+    points += branch.at("points").get<std::size_t>();
+    for (const ordered_json& point : branch.at("special")) {
+      const std::string type = point.at("type").get<std::string>();
+      if (type == "start" || type == "end" || type == "user") continue;
+      const auto known =
+          std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == type; });
+      if (known == counts.end()) {
+        counts.emplace_back(type, 1);
+      } else {
+        ++known->second;
+      }
+    }
+  }
+  std::string text = fmt::format("{} branch{} of {} points in all", branches.size(),
+                                 branches.size() == 1 ? "" : "es", points);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? ", with " : ", ", counts[i].second, plural_of(counts[i]));
+  return text + ".";
+}
+
+/// Which branches did not come to an end that is as good as any.
+Sentences ends_answer(const ordered_json& branches) {
+  constexpr std::array ends = {"reached_end", "left_range", "closed_loop", "requested", "left_regime"};
+  constexpr std::size_t most = 3;
+  Sentences sentences;
+  std::size_t open = 0;
+  for (const ordered_json& branch : branches) {
+    const std::string stop = branch.at("stop").get<std::string>();
+    if (std::find(ends.begin(), ends.end(), stop) != ends.end()) continue;
+    if (++open <= most)
+      sentences.push_back(fmt::format("Branch {} is not whole: {}.", branch.at("branch").get<std::size_t>(),
+                                      branch.at("explanation").get<std::string>()));
+  }
+  if (open > most) sentences.push_back(fmt::format("{} more branches are not whole.", open - most));
+  return sentences;
+}
+
+Sentences certificates_answer(const ordered_json& branches) {
+  std::size_t asked = 0;
+  std::size_t proven = 0;
+  for (const ordered_json& branch : branches) {
+    if (!branch.contains("certificate")) continue;
+    ++asked;
+    if (branch.at("certificate").at("proven").get<bool>()) ++proven;
+  }
+  if (asked == 0) return {};
+  return {fmt::format("{} of {} branches are proven by interval arithmetic: nothing was jumped.", proven,
+                      branches.size())};
+}
+
+}  // namespace
+
+std::vector<std::string> run_answer(const ordered_json& summary) {
+  const ordered_json& branches = summary.at("branches");
+  const ordered_json input = summary.value("/case/branch"_json_pointer, ordered_json::object());
+  const std::string response = input.value("response", "forced");
+  Sentences sentences;
+  if (response == "forced" || response == "one_way")
+    sentences = peaks_answer(branches, input.value("parameter", "eta"));
+  sentences.push_back(count_answer(branches));
+  for (const Sentences& more : {ends_answer(branches), certificates_answer(branches)})
+    sentences.insert(sentences.end(), more.begin(), more.end());
+  if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
+  return sentences;
+}
+
+std::string verification_answer(const ResultTable& verified) {
+  std::size_t points = 0;
+  std::size_t timed = 0;
+  double by_harmonics = 0;
+  double by_time = 0;
+  const auto columns = verified.read({"type", "difference_harmonics", "difference_time"});
+  for (std::size_t i = 0; i < columns.front().size(); ++i) {
+    if (columns[0][i] == "interrupted") continue;
+    ++points;
+    by_harmonics = std::fmax(by_harmonics, std::abs(columns[1][i].get<double>()));
+    const double difference = std::abs(columns[2][i].get<double>());
+    if (std::isnan(difference)) continue;
+    ++timed;
+    by_time = std::max(by_time, difference);
+  }
+  if (points == 0) return "";
+  std::string text = fmt::format(
+      "{} points were solved anew: with more harmonics Y differs by at most {:.2g}", points, by_harmonics);
+  if (timed > 0) text += fmt::format(", in time at {} of them by at most {:.2g}", timed, by_time);
+  return text + ", relative.";
+}
+
+}  // namespace arcslip

@@ -1,0 +1,298 @@
+"""Reports as Chromium shows them: that pictures and tables hold the numbers of the files, that they can be used, and that
+nothing is asked for from elsewhere.
+
+    report_browser.py PROGRAM CASES
+
+Exit status 77, skipped, where there is no Chromium or no plotly.js, but not where CI is set.
+"""
+
+import json
+import math
+import os
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+import chromium  # noqa: E402
+import report_page  # noqa: E402
+from report_page import Report, contrast, number  # noqa: E402
+
+SKIPPED = 77
+CHART = "study.for_each={ mass_ratio = { from = 1.0, to = 100.0, count = 6, scale = \"log\" }, " \
+        "frequency_ratio = { from = 1.0, to = 5.0, count = 5 } }"
+
+
+class Figure8(Report):
+    """A run with certificates."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("run", "figure_8", "--certify"))
+
+    def test_nothing_comes_from_elsewhere(self):
+        self.check_nothing_outside()
+
+    def test_it_fits_a_phone(self):
+        self.check_phone()
+
+    def test_curves_hold_all_points_and_stuck_branches_once(self):
+        table = self.table("curves.csv")
+        drawn = self.assertHolds("amplitude", table, "eta", "Y")
+        self.assertEqual(self.assertHolds("relative", table, "eta", "R_over_S"), set(range(len(table))))
+        left_out = set(range(len(table))) - drawn
+        self.assertGreater(len(left_out), 1000)
+        self.assertEqual({table[row]["regime"] for row in left_out}, {"stick"})
+        # Each point that is left out lies on what is drawn for all.
+        common = sorted((x, y) for trace in self.traces("amplitude") if "common" in trace["keys"]
+                        for x, y in zip(trace["x"], trace["y"]) if x is not None)
+        for row in list(left_out)[::50]:
+            x, y = float(table[row]["eta"]), float(table[row]["Y"])
+            above = next((i for i, point in enumerate(common) if point[0] >= x), len(common) - 1)
+            low, high = common[max(0, above - 1)], common[above]
+            at = low[1] + (high[1] - low[1]) * (x - low[0]) / (high[0] - low[0] or 1)
+            self.assertNear(at, y, 0.01)
+
+    def test_special_points_are_those_of_the_summary_in_pictures_and_table(self):
+        with open(os.path.join(self.folder, "summary.json")) as file:
+            summary = json.load(file)
+        special = [point for branch in summary["branches"] for point in branch["special"]]
+        drawn = [(x, y) for trace in self.traces("amplitude") if trace["keys"][0].startswith("type ") for x, y in zip(trace["x"], trace["y"])]
+        wanted = [point for point in special if point["type"] in ("peak", "trough", "switch")]
+        self.assertEqual(len(drawn), len({(point["type"], f"{point['eta']:.8g}", f"{point['Y']:.8g}") for point in wanted}))
+        for point in wanted:
+            self.assertTrue(any(math.isclose(x, point["eta"], rel_tol=1e-9) and math.isclose(y, point["Y"], rel_tol=1e-8) for x, y in drawn))
+        columns = self.columns("special")
+        cells = self.cells("special")
+        self.assertEqual(len(cells), len(special))
+        for shown, point in zip(cells, special):
+            for name in ("eta", "P", "R_over_S", "Y"):
+                self.assertEqual(float(shown[columns.index(name)]), point[name])
+
+    def test_branches_can_be_told_without_colour(self):
+        symbols = [trace["marker"]["symbol"] for trace in self.traces("amplitude") if trace["mode"] == "markers" and trace["keys"][0].startswith("branch")]
+        self.assertEqual(len(set(symbols)), 5)
+        widths = {part: {trace["line"]["width"] for trace in self.traces("amplitude") if part in trace["keys"] and trace["mode"] == "lines"} for part in ("stick", "slip")}
+        self.assertGreater(min(widths["slip"]), 1.5 * max(widths["stick"]))
+        for colour in self.page.evaluate("[...palette, ink, commonLook.colour]"):
+            self.assertGreaterEqual(contrast(colour), 3)
+
+    def test_the_key_takes_curves_out_and_back(self):
+        for key in ("branch 1", "stick", "type peak", "common"):
+            with self.subTest(key):
+                of_key = lambda: [trace["visible"] for trace in self.traces("amplitude") if key in trace["keys"]]
+                self.assertTrue(of_key() and all(of_key()))
+                self.assertEqual(self.press("amplitude", key), "false")
+                self.assertFalse(any(of_key()))
+                self.assertTrue(any(trace["visible"] for trace in self.traces("amplitude")))
+                self.assertEqual(self.press("amplitude", key), "true")
+                self.assertTrue(all(of_key()))
+
+    def test_zoom_by_mouse_and_by_call(self):
+        before = self.axis("amplitude")["range"]
+        self.drag("amplitude")
+        after = self.axis("amplitude")["range"]
+        self.assertLess(after[1] - after[0], 0.5 * (before[1] - before[0]))
+        self.page.evaluate("Plotly.relayout('plot-amplitude', { 'xaxis.range': [0.5, 0.7] }).then(() => 1)")
+        self.assertEqual(self.axis("amplitude")["range"], [0.5, 0.7])
+        self.open()
+        self.assertEqual(self.axis("amplitude")["range"], before)
+
+    def test_linear_axes_and_other_quantities(self):
+        self.assertEqual(self.axis("amplitude", "yaxis")["type"], "log")
+        self.page.evaluate("document.querySelector('#figure-amplitude .controls input').click()")
+        self.settle()
+        self.assertEqual(self.axis("amplitude", "yaxis")["type"], "linear")
+        self.choose("amplitude", "psi")
+        self.settle()
+        self.assertHolds("amplitude", self.table("curves.csv"), "eta", "psi")
+        self.assertIn("[rad]", self.page.evaluate("document.querySelector('#plot-amplitude .ytitle').textContent"))
+        self.open()
+
+    def test_values_are_told_under_the_pointer(self):
+        place = self.page.evaluate(
+            "(plot => { plot.scrollIntoView({ block: 'center' }); const trace = plot.data.find(one => one.mode === 'lines' && one.y.some(y => y > 1));"
+            "const i = trace.y.findIndex(y => y > 1); const { xaxis, yaxis } = plot._fullLayout; const box = plot.getBoundingClientRect();"
+            "return [box.x + xaxis._offset + xaxis.d2p(trace.x[i]), box.y + yaxis._offset + yaxis.d2p(trace.y[i])]; })(document.getElementById('plot-amplitude'))")
+        for shift in (20, 3, 0):
+            self.page.send("Input.dispatchMouseEvent", type="mouseMoved", x=place[0] + shift, y=place[1])
+            self.settle()
+        self.assertIn("P = 0.1", self.page.evaluate("document.querySelector('#plot-amplitude .hoverlayer').textContent"))
+        self.assertIn("R/S = ", self.page.evaluate("document.querySelector('#figure-amplitude .readout').textContent"))
+
+    def test_answer_and_certificates_are_in_words(self):
+        answer = self.page.evaluate("document.getElementById('answer').textContent")
+        self.assertIn("lowest with preload = 1: Y = 0.007189 at η = 3.8411", answer)
+        self.assertIn("5 of 5 branches are proven", answer)
+        self.assertEqual(len(self.cells("certificates")), 5)
+
+    def test_it_prints(self):
+        path = os.path.join(self.kept.name, "report.pdf")
+        self.page.print(path)
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(5), b"%PDF-")
+
+
+class Chart(Report):
+    """A study of two keys."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("study", "chart", "--set", CHART))
+
+    def test_nothing_comes_from_elsewhere(self):
+        self.check_nothing_outside()
+
+    def test_it_fits_a_phone(self):
+        self.check_phone()
+
+    def test_the_map_shows_each_design_by_its_value(self):
+        table = self.table("optimum.csv")
+        self.assertEqual(len(table), 30)
+        for name in ("ratio_opt", "P_opt"):
+            with self.subTest(name):
+                self.choose("map", name)
+                self.settle()
+                traces = self.traces("map")
+                areas = [trace for trace in traces if trace["fill"] == "toself"]
+                order = self.page.evaluate("Array.from({ length: steps }, (_, i) => shade(i))")
+                level = []
+                for row in table:
+                    x, y = float(row["mass_ratio"]), float(row["frequency_ratio"])
+                    found = [order.index(area["colour"]) for area in areas for i in range(0, len(area["x"]), 6)
+                             if min(area["x"][i:i + 4]) < x < max(area["x"][i:i + 4]) and min(area["y"][i:i + 4]) < y < max(area["y"][i:i + 4])]
+                    self.assertEqual(len(found), 1)
+                    level.append((float(row[name]), found[0]))
+                level.sort()
+                self.assertEqual([one[1] for one in level], sorted(one[1] for one in level))
+                self.assertEqual((level[0][1], level[-1][1]), (0, len(order) - 1))
+        star = next(trace for trace in self.traces("map") if trace["keys"] == ["type optimum"])
+        best = min(table, key=lambda row: float(row["ratio_opt"]))
+        self.assertEqual((star["x"][0], star["y"][0]), (float(best["mass_ratio"]), float(best["frequency_ratio"])))
+
+    def test_tables_are_those_of_the_files(self):
+        table = self.table("optimum.csv")
+        self.assertTable("optimum", table)
+        self.assertTable("optimum-all", table)
+
+    def test_it_can_be_enlarged(self):
+        before = self.axis("map", "yaxis")["range"]
+        self.drag("map")
+        after = self.axis("map", "yaxis")["range"]
+        self.assertLess(after[1] - after[0], 0.5 * (before[1] - before[0]))
+        self.open()
+
+
+class Scatter(Report):
+    """A study in SI units with scatter, beside its run."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("study", "rotor_ring"), ("run", "rotor_ring"))
+
+    def test_nothing_comes_from_elsewhere(self):
+        self.check_nothing_outside()
+
+    def test_it_fits_a_phone(self):
+        self.check_phone()
+
+    def test_quantiles_are_those_of_the_file_in_micrometres(self):
+        table = self.table("quantiles.csv")
+        size = {row["curve"]: float(row["Y_m"]) / float(row["Y_opt"]) for row in self.table("optimum.csv")}
+        lines = [trace for trace in self.traces("quantiles") if trace["mode"] == "lines" and not trace["fill"]]
+        self.assertEqual(len(lines), 6)
+        for trace in lines:
+            name = trace["keys"][1].replace("q ", "Y_q")
+            self.assertEqual(len(trace["rows"]), sum(row["curve"] == table[trace["rows"][0]]["curve"] for row in table))
+            for row, x, y in zip(trace["rows"], trace["x"], trace["y"]):
+                self.assertNear(x, float(table[row]["preload_N_per_m"]))
+                self.assertNear(y, 1e6 * float(table[row][name]) * size[table[row]["curve"]])
+        robust = [trace for trace in self.traces("quantiles") if "type robust" in trace["keys"]]
+        for trace, row in zip(robust, self.table("robust.csv")):
+            self.assertNear(trace["x"][0], float(row["preload_N_per_m"]))
+            self.assertNear(trace["y"][0], 1e6 * float(row["Y_q95_m"]))
+        bands = [trace for trace in self.traces("quantiles") if trace["fill"]]
+        self.assertEqual(len(bands), 2)
+        self.choose("quantiles", "ratio")
+        self.settle()
+        trace = next(trace for trace in self.traces("quantiles") if trace["keys"][-1] == "q 95" and trace["mode"] == "lines")
+        for row, y in zip(trace["rows"], trace["y"]):
+            self.assertNear(y, float(table[row]["ratio_q95"]))
+        self.open()
+
+    def test_peaks_and_branches_are_in_units(self):
+        rows = self.assertHolds("peaks", self.table("sweep.csv"), "preload_N_per_m", "Y_m", 1e-6)
+        self.assertEqual(len(rows), len(self.table("sweep.csv")))
+        self.assertHolds("amplitude", self.table("curves.csv"), "frequency_Hz", "Y_m", 1e-6)
+        titles = self.page.evaluate("['.xtitle', '.ytitle'].map(one => document.querySelector('#plot-amplitude ' + one).textContent)")
+        self.assertEqual(titles, ["frequency f [Hz]", "amplitude of the base Y [µm]"])
+
+    def test_the_answer_is_in_units(self):
+        answer = self.page.evaluate("document.getElementById('answer').textContent")
+        for text in ("Of 2 designs the damper does most with damper.width = 0.012 m. ",
+                     "Best preload 335.1 N/m: highest peak 2.491 µm at 2269 Hz, 92 % below the free base",
+                     "With scatter the best preload is 388.5 N/m: 95 % of all stay below 3.541 µm"):
+            self.assertIn(text, answer)
+
+    def test_tables_are_those_of_the_files(self):
+        self.assertTable("optimum", self.table("optimum.csv"))
+        self.assertTable("robust", self.table("robust.csv"))
+
+    def test_designs_can_be_taken_out(self):
+        self.assertEqual(self.press("quantiles", "design 0"), "false")
+        shown = [trace["keys"][0] for trace in self.traces("quantiles") if trace["visible"]]
+        self.assertEqual(set(shown), {"design 1"})
+        self.press("quantiles", "design 0")
+
+
+class Verified(Report):
+    """A run of several harmonics whose points were solved anew."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("run", "harmonics", "--verify", "--set", "branch.from=3.4", "--set", "branch.to=3.43", "--set", "continuation.stop_at=[]",
+                  "--set", "system.elements=4", "--set", "branch.for_each={ harmonics = [9] }"))
+
+    def test_nothing_comes_from_elsewhere(self):
+        self.check_nothing_outside()
+
+    def test_harmonics_stand_beside_one_another_on_one_scale(self):
+        titles = self.page.evaluate("document.getElementById('plot-harmonics').layout.annotations.map(one => one.text)")
+        self.assertEqual(titles, [f"<b>harmonic {number}</b>" for number in (1, 3, 5, 7, 9)])
+        self.page.evaluate("Plotly.relayout('plot-harmonics', { 'yaxis.range': [-6, -3] }).then(() => 1)")
+        for axis in ("yaxis", "yaxis2", "yaxis5"):
+            self.assertEqual(self.axis("harmonics", axis)["range"], [-6, -3])
+        table = self.table("curves.csv")
+        seen = {}
+        for trace in self.page.evaluate("document.getElementById('plot-harmonics').data.filter(one => one.mode === 'lines').map(one => [one.yaxis, one.customdata, one.y])"):
+            for row, y in zip(trace[1], trace[2]):
+                if row is not None:
+                    seen[trace[0], row] = y
+        for (panel, row), y in seen.items():
+            column = {"y": "Y", "y2": "Y_h3", "y3": "Y_h5", "y4": "Y_h7", "y5": "Y_h9"}[panel]
+            self.assertNear(y, number(table[row][column]))
+
+    def test_points_solved_anew_are_those_of_the_file(self):
+        self.assertTable("verified", self.table("verify.csv"))
+        self.assertIn("points were solved anew", self.page.evaluate("document.getElementById('answer').textContent"))
+
+    def test_a_picture_can_be_kept(self):
+        image = self.page.evaluate("Plotly.toImage('plot-amplitude', { format: 'png', width: 400, height: 300 })")
+        self.assertTrue(image.startswith("data:image/png;base64,"))
+        self.assertGreater(len(image), 5000)
+
+
+def missing():
+    """What the test cannot do without, or nothing."""
+    if chromium.find() is None:
+        return "chromium"
+    share = os.path.join(os.path.dirname(os.path.dirname(report_page.program)), "share/arcslip/report/plotly-basic.min.js")
+    return "" if os.path.exists(share) else share
+
+
+if __name__ == "__main__":
+    report_page.program, report_page.cases = (os.path.abspath(path) for path in sys.argv[1:3])
+    lacking = missing()
+    if lacking:
+        print(f"{lacking} is missing: nothing is opened")
+        sys.exit(1 if os.environ.get("CI") == "true" else SKIPPED)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)
