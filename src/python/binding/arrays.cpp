@@ -1,0 +1,122 @@
+#include "python/binding/arrays.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+namespace arcslip::python {
+namespace {
+
+/// A view that cannot be written through.
+py::array view(std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const double* data,
+               const py::handle& owner) {
+  py::array array(py::dtype::of<double>(), std::move(shape), std::move(strides), data, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+std::string shape_of(const py::array& array) {
+  return py::str(array.attr("shape")).cast<std::string>();
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& got, const std::string& expected) {
+  throw py::value_error(fmt::format("{}: expected {}, got {}", what, expected, got));
+}
+
+std::string type_of(const py::handle& given) {
+  return py::str(py::type::handle_of(given).attr("__name__")).cast<std::string>();
+}
+
+/// Any nested sequence of numbers as an array; what numpy makes an array of objects of is refused.
+py::array as_array(const py::handle& given, const std::string& what) {
+  if (py::isinstance<py::array>(given)) return py::reinterpret_borrow<py::array>(given);
+  if (given.is_none()) refuse(what, "None", "numbers");
+  const py::array array = py::array::ensure(given);
+  if (!array) refuse(what, "a " + type_of(given), "numbers");
+  return array;
+}
+
+/// As real or complex numbers in the order of memory that Eigen has.
+template <class Number, int layout>
+py::array_t<Number, layout | py::array::forcecast> converted(const py::array& array, const std::string& what) {
+  const char kind = array.dtype().kind();
+  const bool is_complex = kind == 'c';
+  if (is_complex && !std::is_same_v<Number, Complex>) refuse(what, "complex numbers", "real numbers");
+  if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b' && !is_complex)
+    refuse(what, fmt::format("an array of {}", py::str(array.dtype()).cast<std::string>()), "numbers");
+  return py::array_t<Number, layout | py::array::forcecast>(array);
+}
+
+template <class Number, class Out>
+void take_vector(const py::handle& given, const std::string& what, Out out) {
+  const py::array array = as_array(given, what);
+  const bool is_one = out.size() == 1 && array.ndim() == 0;
+  if (!is_one && (array.ndim() != 1 || array.shape(0) != out.size()))
+    refuse(what, "an array of shape " + shape_of(array), fmt::format("shape ({},)", out.size()));
+  const auto numbers = converted<Number, py::array::c_style>(array, what);
+  std::copy_n(numbers.data(), out.size(), out.data());
+}
+
+}  // namespace
+
+py::array lend(const Matrix& columns, const py::handle& owner) {
+  constexpr auto each = static_cast<py::ssize_t>(sizeof(double));
+  return view({columns.cols(), columns.rows()}, {each * columns.rows(), each}, columns.data(), owner);
+}
+
+py::array lend_column(const Matrix& columns, Index which, const py::handle& owner) {
+  return view({columns.rows()}, {sizeof(double)}, columns.col(which).data(), owner);
+}
+
+py::array lend(const Vector& vector, const py::handle& owner) {
+  return view({vector.size()}, {sizeof(double)}, vector.data(), owner);
+}
+
+py::array give(Matrix columns) {
+  auto kept = std::make_unique<Matrix>(std::move(columns));
+  const Matrix& matrix = *kept;
+  const py::capsule owner(kept.release(), [](void* pointer) { delete static_cast<Matrix*>(pointer); });
+  return lend(matrix, owner);
+}
+
+py::array give(const Vector& vector) { return py::array_t<double>(vector.size(), vector.data()); }
+
+py::array give(const ComplexVector& vector) { return py::array_t<Complex>(vector.size(), vector.data()); }
+
+void take(const py::handle& given, const std::string& what, Eigen::Ref<Vector> out) {
+  take_vector<double>(given, what, out);
+}
+
+void take(const py::handle& given, const std::string& what, Eigen::Ref<ComplexVector> out) {
+  take_vector<Complex>(given, what, out);
+}
+
+void take(const py::handle& given, const std::string& what, Eigen::Ref<Matrix> out) {
+  const py::array array = as_array(given, what);
+  const bool is_one = out.size() == 1 && array.ndim() == 0;
+  const bool is_column = out.cols() == 1 && array.ndim() == 1 && array.shape(0) == out.rows();
+  if (!is_one && !is_column &&
+      (array.ndim() != 2 || array.shape(0) != out.rows() || array.shape(1) != out.cols()))
+    refuse(what, "an array of shape " + shape_of(array), fmt::format("shape ({}, {})", out.rows(), out.cols()));
+  const auto numbers = converted<double, py::array::f_style>(array, what);
+  out = Eigen::Map<const Matrix>(numbers.data(), out.rows(), out.cols());
+}
+
+Vector take_all(const py::handle& given, const std::string& what) {
+  const py::array array = as_array(given, what);
+  if (array.ndim() > 1) refuse(what, "an array of shape " + shape_of(array), "one row of numbers");
+  Vector all(array.size());
+  take(array, what, all);
+  return all;
+}
+
+ComplexVector take_all_complex(const py::handle& given, const std::string& what) {
+  const py::array array = as_array(given, what);
+  if (array.ndim() > 1) refuse(what, "an array of shape " + shape_of(array), "one row of numbers");
+  ComplexVector all(array.size());
+  take(array, what, all);
+  return all;
+}
+
+}  // namespace arcslip::python
