@@ -49,7 +49,7 @@ py::array_t<Number, layout | py::array::forcecast> converted(const py::array& ar
 }
 
 template <class Number, class Out>
-void take_vector(const py::handle& given, const std::string& what, Out out) {
+void take_vector(const py::handle& given, const std::string& what, Out& out) {
   const py::array array = as_array(given, what);
   const bool is_one = out.size() == 1 && array.ndim() == 0;
   if (!is_one && (array.ndim() != 1 || array.shape(0) != out.size()))
@@ -84,15 +84,15 @@ py::array give(const Vector& vector) { return py::array_t<double>(vector.size(),
 
 py::array give(const ComplexVector& vector) { return py::array_t<Complex>(vector.size(), vector.data()); }
 
-void take(const py::handle& given, const std::string& what, Eigen::Ref<Vector> out) {
-  take_vector<double>(given, what, out);
+void take(const py::handle& given, const std::string& what, Vector& out) {
+  take_vector<double, Vector>(given, what, out);
 }
 
-void take(const py::handle& given, const std::string& what, Eigen::Ref<ComplexVector> out) {
-  take_vector<Complex>(given, what, out);
+void take(const py::handle& given, const std::string& what, ComplexVector& out) {
+  take_vector<Complex, ComplexVector>(given, what, out);
 }
 
-void take(const py::handle& given, const std::string& what, Eigen::Ref<Matrix> out) {
+void take(const py::handle& given, const std::string& what, Matrix& out) {
   const py::array array = as_array(given, what);
   const bool is_one = out.size() == 1 && array.ndim() == 0;
   const bool is_column = out.cols() == 1 && array.ndim() == 1 && array.shape(0) == out.rows();

@@ -29,10 +29,10 @@ py::array give(const ComplexVector& vector);
 /// What a user's function returned, or gave as an argument, as real numbers of this shape (rows, or rows x
 /// columns of a matrix). One number will do where one is expected. Throws py::value_error that begins with
 /// `what` and says which shape or type it got.
-void take(const py::handle& given, const std::string& what, Eigen::Ref<Vector> out);
-void take(const py::handle& given, const std::string& what, Eigen::Ref<Matrix> out);
+void take(const py::handle& given, const std::string& what, Vector& out);
+void take(const py::handle& given, const std::string& what, Matrix& out);
 /// The same of complex numbers.
-void take(const py::handle& given, const std::string& what, Eigen::Ref<ComplexVector> out);
+void take(const py::handle& given, const std::string& what, ComplexVector& out);
 
 /// As many numbers as there are.
 Vector take_all(const py::handle& given, const std::string& what);

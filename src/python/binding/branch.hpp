@@ -58,7 +58,7 @@ class BranchHandle {
 template <class Work>
 auto BranchHandle::heard(const Work& work) const {
   Interruption interruption;
-  const PythonProblem::Listener listener(problem_.get(), interruption);
+  const PythonProblem::Listener listener(interruption);
   auto result = work();
   interruption.rethrow();
   if (interruption.interrupted()) {

@@ -15,6 +15,8 @@ using continuation::Gradient;
 using continuation::Observable;
 using continuation::Regime;
 
+thread_local Interruption* PythonProblem::listener_ = nullptr;
+
 /// Whether `work` came to its end; with the interpreter's lock.
 template <class Work>
 bool PythonProblem::guarded(const Work& work) const {
@@ -39,13 +41,19 @@ void PythonProblem::activate(const std::string& parameter) {
 
 namespace {
 
+/// Only what is moved off the real axis is complex.
+py::object number_of(double value) { return py::float_(value); }
+py::object number_of(const Complex& value) {
+  return value.imag() != 0 ? py::cast(value) : py::object(py::float_(value.real()));
+}
+
 template <class Numbers>
 py::object parameters_in_form(const std::string& form, const std::vector<std::string>& names,
                               const Numbers& p) {
-  if (form == "number") return py::cast(p(0));
+  if (form == "number") return number_of(p(0));
   if (form == "array") return give(p);
   py::dict named;
-  for (std::size_t i = 0; i < names.size(); ++i) named[names[i].c_str()] = p(static_cast<Index>(i));
+  for (std::size_t i = 0; i < names.size(); ++i) named[names[i].c_str()] = number_of(p(static_cast<Index>(i)));
   return named;
 }
 

@@ -56,23 +56,17 @@ class PythonProblem : public continuation::Problem {
   PythonProblem(PythonFunctions functions, PythonTraits traits)
       : functions_(std::move(functions)), traits_(std::move(traits)) {}
 
-  /// Who is told of what the functions raise, while it lives.
+  /// Who is told of what functions raise in this thread, while it lives.
   class Listener {
    public:
-    Listener(const PythonProblem* problem, Interruption& interruption)
-        : problem_(problem), before_(problem != nullptr ? problem->listener_ : nullptr) {
-      if (problem != nullptr) problem->listener_ = &interruption;
-    }
-    ~Listener() {
-      if (problem_ != nullptr) problem_->listener_ = before_;
-    }
+    explicit Listener(Interruption& interruption) : before_(listener_) { listener_ = &interruption; }
+    ~Listener() { listener_ = before_; }
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
     Listener(Listener&&) = delete;
     Listener& operator=(Listener&&) = delete;
 
    private:
-    const PythonProblem* problem_;
     Interruption* before_;
   };
 
@@ -134,7 +128,7 @@ class PythonProblem : public continuation::Problem {
 
   PythonFunctions functions_;
   PythonTraits traits_;
-  mutable Interruption* listener_ = nullptr;
+  static thread_local Interruption* listener_;
   // Where borders were last asked for, so that they can be counted; used with the lock held.
   mutable std::map<continuation::Regime, int> border_counts_;
   mutable Vector last_u_;
