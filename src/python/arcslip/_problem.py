@@ -99,6 +99,8 @@ class Prepared:
                 "beyond": problem.beyond,
             },
             self._traits(),
+            self.u0,
+            self.p0,
         )
 
     def _traits(self):

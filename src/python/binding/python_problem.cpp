@@ -177,6 +177,10 @@ bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& reg
                              const Evaluation& out) const {
   bool has_value = true;
   const bool done = guarded([&] {
+    if (!functions_.borders.is_none()) {
+      last_u_ = u;
+      last_p_ = p;
+    }
     fill(u, p, regime, out);
     const bool finite = out.residual != nullptr && out.residual->allFinite();
     const auto check = [&](const Matrix* matrix, const char* name) {
@@ -186,9 +190,9 @@ bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& reg
       for (Index i = 0; i < matrix->size(); ++i) {
         const Index row = i % matrix->rows();
         const Index column = i / matrix->rows();
-        if (!std::isfinite((*matrix)(row, column)))
-          throw py::value_error(fmt::format("{}: entry ({}, {}) is {} at {}, where f is finite", name, row,
-                                            column, (*matrix)(row, column), place(p)));
+        if (std::isnan((*matrix)(row, column)))
+          throw py::value_error(
+              fmt::format("{}: entry ({}, {}) is nan at {}, where f is finite", name, row, column, place(p)));
       }
     };
     check(out.jacobian, "jacobian");
@@ -200,11 +204,14 @@ bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& reg
 bool PythonProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                 ComplexVector& values) const {
   if (functions_.eigenvalues.is_none()) return Problem::eigenvalues(u, p, regime, values);
-  return guarded([&] {
+  const bool done = guarded([&] {
     values = take_all_complex(call(functions_.eigenvalues, u, p, regime), "eigenvalues");
     if (!values.allFinite())
       throw py::value_error(fmt::format("eigenvalues: one is not finite at {}", place(p)));
+    last_eigenvalues_ = values;
   });
+  if (!done) values = last_eigenvalues_;  // the branch ends; until then there are as many as before
+  return done || values.size() > 0;
 }
 
 void PythonProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -214,12 +221,10 @@ void PythonProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
 
 int PythonProblem::border_count(const Regime& regime) const {
   if (functions_.borders.is_none()) return 0;
+  const py::gil_scoped_acquire lock;
+  if (const auto known = border_counts_.find(regime); known != border_counts_.end()) return known->second;
   int count = 0;
-  guarded([&] {
-    const auto known = border_counts_.find(regime);
-    count = known != border_counts_.end() ? known->second
-                                          : static_cast<int>(borders_at<Vector>(last_u_, last_p_, regime).size());
-  });
+  guarded([&] { count = static_cast<int>(borders_at<Vector>(last_u_, last_p_, regime).size()); });
   return count;
 }
 
@@ -228,8 +233,6 @@ double PythonProblem::border(const Vector& u, const Vector& p, const Regime& reg
   double value = -1;
   if (gradient != nullptr) *gradient = {Vector::Zero(u.size()), Vector::Zero(p.size())};
   guarded([&] {
-    last_u_ = u;
-    last_p_ = p;
     value = borders_at<Vector>(u, p, regime)(border);
     if (gradient == nullptr) return;
     const auto one = [&]<class Out>(const auto& at_u, const auto& at_p, Out*) -> Out {

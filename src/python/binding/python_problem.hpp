@@ -53,8 +53,9 @@ struct PythonTraits {
 
 class PythonProblem : public continuation::Problem {
  public:
-  PythonProblem(PythonFunctions functions, PythonTraits traits)
-      : functions_(std::move(functions)), traits_(std::move(traits)) {}
+  /// `u` and `p` are those of the start.
+  PythonProblem(PythonFunctions functions, PythonTraits traits, Vector u, Vector p)
+      : functions_(std::move(functions)), traits_(std::move(traits)), last_u_(std::move(u)), last_p_(std::move(p)) {}
 
   /// Who is told of what functions raise in this thread, while it lives.
   class Listener {
@@ -129,8 +130,9 @@ class PythonProblem : public continuation::Problem {
   PythonFunctions functions_;
   PythonTraits traits_;
   static thread_local Interruption* listener_;
-  // Where borders were last asked for, so that they can be counted; used with the lock held.
+  // Where F was last evaluated, so that the borders of a regime can be counted; used with the lock held.
   mutable std::map<continuation::Regime, int> border_counts_;
+  mutable ComplexVector last_eigenvalues_;
   mutable Vector last_u_;
   mutable Vector last_p_;
 };

@@ -285,7 +285,8 @@ Step step_named(const std::string& name) {
   return Step::central;
 }
 
-std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py::dict& traits) {
+std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py::dict& traits,
+                                            const py::object& u, const py::object& p) {
   const auto function = [&](const char* name) { return functions[name].cast<py::object>(); };
   PythonTraits made;
   made.size = traits["size"].cast<Index>();
@@ -306,7 +307,7 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
       PythonFunctions{function("residual"), function("jacobian"), function("parameter_jacobian"),
                       function("observables"), function("eigenvalues"), function("borders"),
                       function("beyond")},
-      std::move(made));
+      std::move(made), take_all(u, "u0"), take_all(p, "p0"));
 }
 
 }  // namespace
