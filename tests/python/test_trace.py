@@ -57,7 +57,7 @@ def test_the_branch_is_that_of_the_same_problem_in_cpp():
     theirs = arcslip.run(case).branches[0]
     mine = arcslip.trace(f, theirs.unknowns[0], {"x3": 0.0}, range=(0, 1))
     folds = [[p["x3"] for p in branch.special if p["type"] == "fold"] for branch in (mine, theirs)]
-    assert len(folds[0]) == 2 and folds[0] == pytest.approx(folds[1], abs=1e-9)
+    assert folds[0] and folds[0] == pytest.approx(folds[1], abs=1e-9)
     assert len(mine) == len(theirs) and mine.unknowns[-1] == pytest.approx(theirs.unknowns[-1], abs=1e-8)
 
 

@@ -178,11 +178,17 @@ class Prepared:
             self.observables = lambda *arguments: {name: f(*arguments) for name, f in functions.items()}
         if self.observables is None and not self.unknowns:
             self.observables = lambda u, *_: {"norm": np.sqrt(u @ u / len(u))}
-        self.observed = [] if self.observables is None else [*self._call(self.observables, self.u0, self.p0)]
+        self.observed = [] if self.observables is None else self._names_observed()
         all_names = [*self.names, *self.unknowns, *self.observed]
         twice = {name for name in all_names if all_names.count(name) > 1}
         if twice:
             raise ValueError(f"'{sorted(twice)[0]}': two columns have this name")
+
+    def _names_observed(self):
+        observed = self._call(self.observables, self.u0, self.p0)
+        if not isinstance(observed, dict) or not all(isinstance(name, str) for name in observed):
+            raise ValueError(f"observables: expected a dict of numbers by name, got {observed!r}")
+        return list(observed)
 
     def _source(self, given, function, z):
         if given is not None:
