@@ -51,7 +51,7 @@ def compare_with_program(program):
 
 
 def duffing(harmonics=15, samples=256):
-    """Duffing's oscillator in harmonics: friction-free, but with a force that is evaluated in time."""
+    """Duffing's oscillator in odd harmonics, with its cubic force evaluated in time."""
     t = 2 * np.pi * np.arange(samples) / samples
     orders = np.arange(1, harmonics + 1, 2)
     shapes = np.hstack([np.cos(np.outer(t, orders)), np.sin(np.outer(t, orders))])

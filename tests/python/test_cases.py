@@ -244,6 +244,26 @@ def test_ctrl_c_ends_the_work_with_what_was_traced(cases, tmp_path):
     assert json.loads((tmp_path / "out/summary.json").read_text())["interrupted"] is True
 
 
+def test_the_program_goes_on_with_a_run_that_was_interrupted_here(cases, program, tmp_path):
+    case = cases / "figure_8.toml"
+    seen = []
+
+    def interrupts(*numbers):
+        seen.append(numbers)
+        if len(seen) == 3:
+            raise KeyboardInterrupt
+
+    with pytest.warns(RuntimeWarning, match="interrupted"):
+        slow = ["continuation.max_step=0.002"]
+        result = arcslip.run(case, out=tmp_path / "part", set=slow, progress=interrupts)
+    assert result.interrupted and (tmp_path / "part/run.checkpoint").exists()
+    settings = [x for s in slow for x in ("--set", s)]
+    assert program("run", case, "--resume", tmp_path / "part", "--quiet", *settings).returncode == 0
+    assert program("run", case, "-o", tmp_path / "whole", "--quiet", *settings).returncode == 0
+    for file in ("branches.csv", "curves.csv"):
+        assert (tmp_path / "part" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+
+
 def test_a_certificate_is_in_the_summary(cases):
     result = arcslip.run(cases / "rods.toml", set=["branch.to=1.5"], certify=True)
     assert "certificate" in result.summary["branches"][0]

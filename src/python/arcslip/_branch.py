@@ -201,7 +201,13 @@ class Branch(_Columns):
         return plot(self, ax, x, y, style)
 
     def to_csv(self, folder):
-        """Write branch.csv, the columns with 17 digits, and summary.json into a folder, which is made if needed."""
+        """Write branch.csv, the columns with 17 digits, and summary.json.
+
+        Parameters
+        ----------
+        folder : path
+            Where to; made if it is not there.
+        """
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "branch.csv"), "w", encoding="utf-8") as file:
             file.write("point," + ",".join(self.columns) + "\n")

@@ -104,7 +104,12 @@ class Run:
         self._core.write(os.fsdecode(folder))
 
     def plot(self, ax=None, x=None, y=None, **style):
-        """Draw all branches; see `Branch.plot`.
+        """Draw all branches.
+
+        Parameters
+        ----------
+        ax, x, y, **style
+            As `Branch.plot` takes them.
 
         Returns
         -------
@@ -245,7 +250,13 @@ class Study:
         return {column: _column([row[i] for row in rows]) for i, column in enumerate(header)}
 
     def to_csv(self, folder):
-        """Write the tables and summary.json into a folder."""
+        """Write the tables and summary.json.
+
+        Parameters
+        ----------
+        folder : path
+            Where to; made if it is not there.
+        """
         os.makedirs(folder, exist_ok=True)
         for name, text in self._files.items():
             with open(os.path.join(folder, name), "w", encoding="utf-8", newline="") as file:

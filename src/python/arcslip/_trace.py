@@ -153,8 +153,8 @@ def solve_all(problem, u0, p0, *, box=None, starts=100, regime=0, parameter=None
 
     Parameters
     ----------
-    problem, p0, regime
-        As `trace` takes them.
+    problem, p0, regime, parameter
+        As `trace` takes them; the last one only names a single number p0.
     u0 : array of shape (n,), or a list of such
         Guesses.
     box : (array, array), optional

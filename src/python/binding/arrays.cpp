@@ -16,9 +16,7 @@ py::array view(std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
   return array;
 }
 
-std::string shape_of(const py::array& array) {
-  return py::str(array.attr("shape")).cast<std::string>();
-}
+std::string shape_of(const py::array& array) { return py::str(array.attr("shape")).cast<std::string>(); }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& got, const std::string& expected) {
   throw py::value_error(fmt::format("{}: expected {}, got {}", what, expected, got));
@@ -39,7 +37,8 @@ py::array as_array(const py::handle& given, const std::string& what) {
 
 /// As real or complex numbers in the order of memory that Eigen has.
 template <class Number, int layout>
-py::array_t<Number, layout | py::array::forcecast> converted(const py::array& array, const std::string& what) {
+py::array_t<Number, layout | py::array::forcecast> converted(const py::array& array,
+                                                             const std::string& what) {
   const char kind = array.dtype().kind();
   const bool is_complex = kind == 'c';
   if (is_complex && !std::is_same_v<Number, Complex>) refuse(what, "complex numbers", "real numbers");
@@ -98,7 +97,8 @@ void take(const py::handle& given, const std::string& what, Matrix& out) {
   const bool is_column = out.cols() == 1 && array.ndim() == 1 && array.shape(0) == out.rows();
   if (!is_one && !is_column &&
       (array.ndim() != 2 || array.shape(0) != out.rows() || array.shape(1) != out.cols()))
-    refuse(what, "an array of shape " + shape_of(array), fmt::format("shape ({}, {})", out.rows(), out.cols()));
+    refuse(what, "an array of shape " + shape_of(array),
+           fmt::format("shape ({}, {})", out.rows(), out.cols()));
   const auto numbers = converted<double, py::array::f_style>(array, what);
   out = Eigen::Map<const Matrix>(numbers.data(), out.rows(), out.cols());
 }

@@ -38,8 +38,7 @@ BranchPoint as_point(const continuation::Sample& sample) {
 py::dict columns_of(Table table) {
   py::dict columns;
   const py::object rows = give(std::move(table.values));
-  for (std::size_t k = 0; k < table.names.size(); ++k)
-    columns[table.names[k].c_str()] = rows[py::int_(k)];
+  for (std::size_t k = 0; k < table.names.size(); ++k) columns[table.names[k].c_str()] = rows[py::int_(k)];
   return columns;
 }
 
@@ -159,28 +158,38 @@ Table BranchHandle::tabulate(const std::vector<BranchPoint>& points, Detail deta
     row.insert(row.end(), {static_cast<double>(point.unstable), point.arclength,
                            static_cast<double>(point.iterations), point.residual});
     row.insert(row.end(), in_units.begin(), in_units.end());
-    table.values.row(static_cast<Index>(i)) = Eigen::Map<const Vector>(row.data(), std::ssize(row)).transpose();
+    table.values.row(static_cast<Index>(i)) =
+        Eigen::Map<const Vector>(row.data(), std::ssize(row)).transpose();
   }
   return table;
 }
 
 const Table& BranchHandle::table() {
-  if (!table_) table_ = heard([&] { return tabulate(branch().points, Detail::full); });
+  if (!table_) {
+    table_ = std::make_shared<const Table>(heard([&] { return tabulate(branch().points, Detail::full); }));
+    traced_.told = std::shared_ptr<const Matrix>(table_, &table_->values);
+  }
   return *table_;
 }
 
 const Matrix& BranchHandle::unknowns() {
-  if (!unknowns_) unknowns_ = gathered(branch(), [](const BranchPoint& p) -> auto& { return p.unknowns; });
+  if (!unknowns_)
+    unknowns_ = gathered(
+        branch(), [](const BranchPoint& p) -> auto& { return p.unknowns; });
   return *unknowns_;
 }
 
 const Matrix& BranchHandle::tangents() {
-  if (!tangents_) tangents_ = gathered(branch(), [](const BranchPoint& p) -> auto& { return p.tangent; });
+  if (!tangents_)
+    tangents_ = gathered(
+        branch(), [](const BranchPoint& p) -> auto& { return p.tangent; });
   return *tangents_;
 }
 
 const Matrix& BranchHandle::parameters() {
-  if (!parameters_) parameters_ = gathered(branch(), [](const BranchPoint& p) -> auto& { return p.parameters; });
+  if (!parameters_)
+    parameters_ = gathered(
+        branch(), [](const BranchPoint& p) -> auto& { return p.parameters; });
   return *parameters_;
 }
 
@@ -223,11 +232,14 @@ void bind_branch(py::module_& module) {
            })
       .def("parameter_names",
            [](const BranchHandle& self) { return self.traced().problem().parameter_names(); })
-      .def_property_readonly("parameter",
-                             [](const BranchHandle& self) { return self.traced().request->options.parameter; })
-      .def_property_readonly("values", [](const BranchHandle& self) { return self.traced().request->values.dump(); })
-      .def_property_readonly("stop", [](const BranchHandle& self) { return std::string(to_string(self.branch().stop)); })
-      .def_property_readonly("explanation", [](const BranchHandle& self) { return self.branch().explanation; })
+      .def_property_readonly(
+          "parameter", [](const BranchHandle& self) { return self.traced().request->options.parameter; })
+      .def_property_readonly("values",
+                             [](const BranchHandle& self) { return self.traced().request->values.dump(); })
+      .def_property_readonly(
+          "stop", [](const BranchHandle& self) { return std::string(to_string(self.branch().stop)); })
+      .def_property_readonly("explanation",
+                             [](const BranchHandle& self) { return self.branch().explanation; })
       .def_property_readonly("warning", [](const BranchHandle& self) { return self.branch().warning; })
       .def_property_readonly("complete", [](const BranchHandle& self) { return self.branch().complete(); })
       .def_property_readonly("seconds", [](const BranchHandle& self) { return self.traced().seconds; })

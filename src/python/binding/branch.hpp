@@ -49,7 +49,7 @@ class BranchHandle {
   TracedBranch traced_;
   std::shared_ptr<PythonProblem> problem_;
   std::shared_ptr<continuation::ExtendedProblem> curve_;
-  std::optional<Table> table_;
+  std::shared_ptr<const Table> table_;
   std::optional<Matrix> unknowns_;
   std::optional<Matrix> tangents_;
   std::optional<Matrix> parameters_;

@@ -64,7 +64,9 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
           store.add(design.curve, design.values, design.result, design.scatter());
           ++work.computed;
         },
-        [&] { return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.count); }); });
+        [&] {
+          return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.count); });
+        });
   }
   work.seconds = seconds_since(start);
   StudyOutcome outcome{interruption.is_stopped(), before + work.computed, study.count, {}, {}};
@@ -75,6 +77,7 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
   work.checks = check_best_preloads(study, store, [&] { return interruption.go_on(); });
   write_results(options.folder, study, store, work);
   store.tidy();
+  outcome.interrupted = interruption.is_stopped();
   outcome.warnings = warnings_of(work.checks);
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
     outcome.failures.push_back(fmt::format("design {}: {}", design.curve, design.failure));

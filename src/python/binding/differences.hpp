@@ -28,8 +28,9 @@ void by_one(Step step, const Vector& z, Index k, double scale, Column column, co
   Vector behind = z;
   ahead(k) += h * size;
   behind(k) -= h * size;
-  column = (function(ahead, static_cast<Vector*>(nullptr)) - function(behind, static_cast<Vector*>(nullptr))) /
-           (ahead(k) - behind(k));
+  column =
+      (function(ahead, static_cast<Vector*>(nullptr)) - function(behind, static_cast<Vector*>(nullptr))) /
+      (ahead(k) - behind(k));
 }
 
 template <class Function>

@@ -23,12 +23,14 @@ void Interruption::rethrow() {
 bool Interruption::look(const Tell& tell) {
   constexpr std::chrono::milliseconds patience(50);
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < patience) return true;
+  const bool tells = tell && !progress_.is_none() && now - told_ >= patience;
+  if (!tells && now - last_ < patience) return true;
   last_ = now;
+  if (tells) told_ = now;
   const py::gil_scoped_acquire lock;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (tell && !progress_.is_none()) progress_(*tell());
+    if (tells) progress_(*tell());
   } catch (py::error_already_set& raised) {
     note_raised(*this, raised);
   }

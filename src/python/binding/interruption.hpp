@@ -41,12 +41,13 @@ class Interruption {
 
   py::object progress_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point told_ = last_;
   bool interrupted_ = false;
   std::exception_ptr error_;
 };
 
-/// Takes what Python has raised: KeyboardInterrupt ends the work as Ctrl-C does, all else is kept to be raised
-/// again with its traceback. With the lock held, in a catch clause.
+/// Takes what Python has raised: KeyboardInterrupt ends the work as Ctrl-C does, all else is kept to be
+/// raised again with its traceback. With the lock held, in a catch clause.
 void note_raised(Interruption& interruption, py::error_already_set& raised);
 
 }  // namespace arcslip::python

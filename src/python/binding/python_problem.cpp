@@ -53,7 +53,8 @@ py::object parameters_in_form(const std::string& form, const std::vector<std::st
   if (form == "number") return number_of(p(0));
   if (form == "array") return give(p);
   py::dict named;
-  for (std::size_t i = 0; i < names.size(); ++i) named[names[i].c_str()] = number_of(p(static_cast<Index>(i)));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    named[names[i].c_str()] = number_of(p(static_cast<Index>(i)));
   return named;
 }
 
@@ -78,8 +79,8 @@ Regime PythonProblem::to_regime(const py::handle& given) const {
   if (py::isinstance<py::int_>(given)) return {given.cast<int>()};
   const auto states = given.cast<std::vector<int>>();
   if (std::ssize(states) != traits_.switches)
-    throw py::value_error(fmt::format("regime: expected the states of {} switches, got {}", traits_.switches,
-                                      states.size()));
+    throw py::value_error(
+        fmt::format("regime: expected the states of {} switches, got {}", traits_.switches, states.size()));
   Regime regime;
   for (std::size_t i = 0; i < states.size(); ++i) regime = regime.with(static_cast<Index>(i), states[i]);
   return regime;
@@ -125,8 +126,8 @@ Out PythonProblem::borders_at(const U& u, const P& p, const Regime& regime) cons
   }
   const auto [place, is_new] = border_counts_.try_emplace(regime, static_cast<int>(values.size()));
   if (!is_new && place->second != values.size())
-    throw py::value_error(fmt::format("borders: {} numbers of a regime that had {}", values.size(),
-                                      place->second));
+    throw py::value_error(
+        fmt::format("borders: {} numbers of a regime that had {}", values.size(), place->second));
   return values;
 }
 
@@ -150,9 +151,8 @@ void PythonProblem::fill_jacobian(const Vector& u, const Vector& p, const Regime
     take(call(functions_.jacobian, u, p, regime), "jacobian", out);
     return;
   }
-  by_each_unknown(traits_.by_unknowns, u, traits_.unknown_scale, out, [&]<class Out>(const auto& at, Out*) {
-    return residual_at<Out>(at, p, regime);
-  });
+  by_each_unknown(traits_.by_unknowns, u, traits_.unknown_scale, out,
+                  [&]<class Out>(const auto& at, Out*) { return residual_at<Out>(at, p, regime); });
 }
 
 void PythonProblem::fill_parameter_jacobian(const Vector& u, const Vector& p, const Regime& regime,
@@ -161,9 +161,8 @@ void PythonProblem::fill_parameter_jacobian(const Vector& u, const Vector& p, co
     take(call(functions_.parameter_jacobian, u, p, regime), "parameter_jacobian", out);
     return;
   }
-  by_each_parameter(traits_.by_parameters, p, traits_, out, [&]<class Out>(const auto& at, Out*) {
-    return residual_at<Out>(u, at, regime);
-  });
+  by_each_parameter(traits_.by_parameters, p, traits_, out,
+                    [&]<class Out>(const auto& at, Out*) { return residual_at<Out>(u, at, regime); });
 }
 
 void PythonProblem::fill(const Vector& u, const Vector& p, const Regime& regime,

@@ -37,11 +37,11 @@ struct PythonFunctions {
 struct PythonTraits {
   Index size = 0;
   std::vector<std::string> parameters;
-  std::string form = "dict";              ///< how functions get p: "dict", "number" or "array"
-  std::vector<std::string> unknowns;      ///< names of the first unknowns, which are observables then
-  std::vector<std::string> observables;   ///< names of those that the function gives
-  std::vector<std::string> active;        ///< parameters by which derivatives are taken that are not given
-  bool is_equilibrium = false;            ///< whether F is the right-hand side of u' = F
+  std::string form = "dict";             ///< how functions get p: "dict", "number" or "array"
+  std::vector<std::string> unknowns;     ///< names of the first unknowns, which are observables then
+  std::vector<std::string> observables;  ///< names of those that the function gives
+  std::vector<std::string> active;       ///< parameters by which derivatives are taken that are not given
+  bool is_equilibrium = false;           ///< whether F is the right-hand side of u' = F
   Index switches = 0;
   Vector unknown_scale;    ///< n, typical magnitudes, > 0
   Vector parameter_scale;  ///< of the parameters
@@ -55,7 +55,10 @@ class PythonProblem : public continuation::Problem {
  public:
   /// `u` and `p` are those of the start.
   PythonProblem(PythonFunctions functions, PythonTraits traits, Vector u, Vector p)
-      : functions_(std::move(functions)), traits_(std::move(traits)), last_u_(std::move(u)), last_p_(std::move(p)) {}
+      : functions_(std::move(functions)),
+        traits_(std::move(traits)),
+        last_u_(std::move(u)),
+        last_p_(std::move(p)) {}
 
   /// Who is told of what functions raise in this thread, while it lives.
   class Listener {

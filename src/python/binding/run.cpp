@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "arcslip/cases/certification.hpp"
@@ -17,8 +18,9 @@ CaseRun::CaseRun(const CaseFile& file, bool certify)
   if (certify_) {
     const std::string why = why_not_certifiable(plan_.branch(0));
     if (!why.empty())
-      throw InputError(fmt::format("{}: certify is for forced responses of one contact with linear structures; not for {}",
-                                   file_.path(), why));
+      throw InputError(
+          fmt::format("{}: certify is for forced responses of one contact with linear structures; not for {}",
+                      file_.path(), why));
   }
   file_.named("system", [&] { build(plan_.branch(0).problem); });
 }
@@ -38,36 +40,85 @@ void CaseRun::trace(const std::optional<std::string>& folder, Interruption& inte
     trace_request(i, files.get(), interruption);
   interrupted_ = interruption.is_stopped();
   seconds_ = seconds();
-  if (files) files->finish(seconds_, interrupted_);
+  if (!files) return;
+  files->finish(seconds_, interrupted_);
+  if (!interrupted_ && journals_.empty()) {
+    remove_checkpoint(*folder);
+  } else {
+    write_checkpoint(*folder, plan_, reached_, journals_);
+  }
+}
+
+namespace {
+
+/// Whether it would go on where it was left.
+bool has_more(const TracedBranch& traced) {
+  const auto& first = traced.branch.first_stop;
+  return is_unfinished(traced.branch.stop) || (first && is_unfinished(*first));
+}
+
+bool is_whole(const TracedBranch& traced) {
+  const auto& first = traced.branch.first_stop;
+  return is_end(traced.branch.stop) && (!first || is_end(*first)) &&
+         (!traced.certificate || traced.certificate->proven());
+}
+
+}  // namespace
+
+continuation::Journal& CaseRun::journal_of(std::size_t request, bool has_several, const RunFiles& files) {
+  if (journals_.empty()) reached_ = {request, files.count(), points_, complete_, files.header()};
+  const auto [place, is_new] = journals_.try_emplace(request);
+  place->second.begin(has_several || place != journals_.begin());
+  return place->second;
+}
+
+/// Of a request that is whole, unless one before it is not: of those behind it some are kept.
+void CaseRun::forget(std::size_t request, const std::vector<TracedBranch>& traced) {
+  constexpr std::size_t most_kept = 1'000'000;
+  if (journals_.begin()->first != request) {
+    for (const TracedBranch& one : traced) kept_points_ += one.branch.points.size();
+    if (kept_points_ <= most_kept) return;
+  }
+  journals_.erase(request);
 }
 
 void CaseRun::trace_request(std::size_t i, RunFiles* files, Interruption& interruption) {
   CaseBranch request = plan_.branch(i);
   std::size_t points = 0;
   request.options.go_on = [&] { return interruption.go_on(); };
+  if (files != nullptr) {
+    const bool has_several = request.curve || request.switching || request.all_solutions || request.start ||
+                             request.problem.harmonics_tolerance || certify_;
+    request.options.journal = &journal_of(i, has_several, *files);
+  }
   const auto watch = [&](const continuation::BranchPoint& point) {
     ++points;
     return interruption.go_on([&] { return py::make_tuple(i, plan_.count, points, point.arclength); });
   };
   std::vector<TracedBranch> traced;
-  std::string failure;
   try {
     file_.named("system", [&] { traced = arcslip::trace(request, watch); });
   } catch (const InputError& error) {
-    failure = error.what();
-  }
-  request.options.go_on = {};
-  if (!failure.empty()) {
-    entries_.push_back({nullptr, request, failure});
-    failures_.push_back(failure);
+    request.options.go_on = {};
+    entries_.push_back({nullptr, request, error.what()});
+    failures_.emplace_back(error.what());
+    complete_ = false;
     if (files != nullptr) add(*files, entries_.back());
   }
-  for (TracedBranch& one : traced) {
-    if (certify_) certify(one);
-    branches_.push_back(std::make_shared<BranchHandle>(settled(std::move(one))));
-    entries_.push_back({branches_.back(), {}, {}});
-    if (files != nullptr) add(*files, entries_.back());
-  }
+  if (files != nullptr && !interruption.is_stopped() && std::none_of(traced.begin(), traced.end(), has_more))
+    forget(i, traced);
+  for (TracedBranch& one : traced) take(std::move(one), files);
+}
+
+void CaseRun::take(TracedBranch traced, RunFiles* files) {
+  if (certify_) certify(traced);
+  complete_ = complete_ && is_whole(traced);
+  points_ += traced.branch.points.size();
+  branches_.push_back(std::make_shared<BranchHandle>(settled(std::move(traced))));
+  entries_.push_back({branches_.back(), {}, {}});
+  if (files == nullptr) return;
+  branches_.back()->table();  // which is told once, for the files and for Python
+  add(*files, entries_.back());
 }
 
 void CaseRun::add(RunFiles& files, const Entry& entry) {
@@ -91,12 +142,8 @@ std::string CaseRun::summary() const {
     branches.push_back(entry.branch ? summarize(number, entry.branch->traced())
                                     : summary_of_failed(number, entry.request, entry.failure));
   }
-  return ordered_json{{"arcslip", release},
-                      {"title", plan_.title},
-                      {"case", plan_.resolved},
-                      {"branches", branches},
-                      {"seconds", seconds_},
-                      {"interrupted", interrupted_}}
+  return ordered_json{{"arcslip", release},   {"title", plan_.title}, {"case", plan_.resolved},
+                      {"branches", branches}, {"seconds", seconds_},  {"interrupted", interrupted_}}
       .dump();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "python/binding/branch.hpp"
+#include "results/run_checkpoint.hpp"
 #include "results/run_files.hpp"
 
 namespace arcslip::python {
@@ -17,7 +18,8 @@ class CaseRun {
   CaseRun(const CaseFile& file, bool certify);
 
   /// Traces all branches, or those that come before an interruption; into a folder, if one is given, as they
-  /// come. Without the lock. Throws InputError, OutputError.
+  /// come; an interrupted run leaves a checkpoint there, from which the program goes on. Without the lock.
+  /// Throws InputError, OutputError.
   void trace(const std::optional<std::string>& folder, Interruption& interruption);
 
   const std::vector<std::shared_ptr<BranchHandle>>& branches() const { return branches_; }
@@ -42,7 +44,10 @@ class CaseRun {
   };
 
   void trace_request(std::size_t i, RunFiles* files, Interruption& interruption);
+  void take(TracedBranch traced, RunFiles* files);
   static void add(RunFiles& files, const Entry& entry);
+  continuation::Journal& journal_of(std::size_t request, bool has_several, const RunFiles& files);
+  void forget(std::size_t request, const std::vector<TracedBranch>& traced);
 
   CaseFile file_;
   CasePlan plan_;
@@ -50,6 +55,11 @@ class CaseRun {
   std::vector<Entry> entries_;
   std::vector<std::shared_ptr<BranchHandle>> branches_;
   std::vector<std::string> failures_;
+  RunCheckpoint reached_;  ///< before the first request that has a journal
+  Journals journals_;      ///< of the first request that is not whole and those behind it
+  std::size_t kept_points_ = 0;
+  std::size_t points_ = 0;
+  bool complete_ = true;
   bool interrupted_ = false;
   double seconds_ = 0;
 };

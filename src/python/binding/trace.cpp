@@ -72,6 +72,7 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
   traced.request = request;
   traced.branch = std::move(branch);
   traced.certificate.reset();
+  traced.told.reset();
   return traced;
 }
 
@@ -91,8 +92,7 @@ void require_exact(const PythonProblem& problem, const Guess& guess, const Trace
   Interruption interruption;
   const PythonProblem::Listener listener(interruption);
   const Index parameter = continuation::index_of(problem.parameter_names(), options.parameter);
-  const auto wrong =
-      problem.wrong_derivative(guess.unknowns, guess.parameters, guess.regime, parameter, {});
+  const auto wrong = problem.wrong_derivative(guess.unknowns, guess.parameters, guess.regime, parameter, {});
   interruption.rethrow();
   if (wrong) throw py::value_error(*wrong);
 }
@@ -169,8 +169,8 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
     Branch branch = unlocked(options, progress, [&](const auto& observer) {
       return continuation::trace(*handle.traced().base.problem, guess, options, observer);
     });
-    handles.push_back(
-        std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)), handle.problem(), nullptr));
+    handles.push_back(std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)),
+                                                     handle.problem(), nullptr));
   }
   return handles;
 }
@@ -213,7 +213,8 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   options.stop_after.clear();
   options.stop_at.clear();
   set_options(given, handle.problem(), options);
-  if (options.parameter == active) throw py::value_error("parameter: it is that of the branch; expected another");
+  if (options.parameter == active)
+    throw py::value_error("parameter: it is that of the branch; expected another");
   continuation::index_of(base.parameter_names(), options.parameter);
   if (handle.problem()) handle.problem()->activate(options.parameter);
   if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
@@ -252,8 +253,9 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
     throw py::value_error("resume: the branch has come to its end; there is nothing further");
   Branch after = unlocked(options, progress, [&](const auto& observer) {
     const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
-    return handle.curve() ? continuation::resume(*handle.curve(), checkpoint, options, observer)
-                          : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
+    return handle.curve()
+               ? continuation::resume(*handle.curve(), checkpoint, options, observer)
+               : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
   });
   TracedBranch traced = beside(handle, options, joined(handle.branch(), std::move(after)));
   traced.curve = handle.curve();
@@ -314,22 +316,22 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
 
 void bind_trace(py::module_& module) {
   py::class_<PythonProblem, std::shared_ptr<PythonProblem>>(module, "Problem").def(py::init(&make_problem));
-  module.def("trace", [](const std::shared_ptr<PythonProblem>& problem, const py::object& u,
-                         const py::object& p, const py::object& regime, const std::string& how,
-                         const py::object& lower, const py::object& upper, bool check, const py::dict& options,
-                         const py::object& progress) {
-    std::pair<Vector, Vector> box;
-    if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
-    return trace(problem, u, p, regime, how, box, check, options, progress);
-  });
-  module.def("solve_all", [](const std::shared_ptr<PythonProblem>& problem,
-                             const std::vector<py::object>& starts, const py::object& p,
-                             const py::object& regime, const py::object& lower, const py::object& upper,
-                             int count) {
-    std::pair<Vector, Vector> box;
-    if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
-    return solve_all(problem, starts, p, regime, box, count);
-  });
+  module.def("trace",
+             [](const std::shared_ptr<PythonProblem>& problem, const py::object& u, const py::object& p,
+                const py::object& regime, const std::string& how, const py::object& lower,
+                const py::object& upper, bool check, const py::dict& options, const py::object& progress) {
+               std::pair<Vector, Vector> box;
+               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
+               return trace(problem, u, p, regime, how, box, check, options, progress);
+             });
+  module.def("solve_all",
+             [](const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
+                const py::object& p, const py::object& regime, const py::object& lower,
+                const py::object& upper, int count) {
+               std::pair<Vector, Vector> box;
+               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
+               return solve_all(problem, starts, p, regime, box, count);
+             });
   module.def("start_from", start_from);
   module.def("switch_at", switch_at);
   module.def("curve_through", curve_through);

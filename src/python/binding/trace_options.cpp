@@ -25,9 +25,8 @@ void set_stop_after(const py::handle& given, TraceOptions& options) {
   for (const auto& [name, count] : given.cast<std::map<std::string, long>>()) {
     const bool is_event = std::any_of(options.events.begin(), options.events.end(),
                                       [&, label = name](const auto& event) { return event.name == label; });
-    options.stop_after.push_back(
-        is_event ? continuation::StopAfter{PointType::event, count, name}
-                 : continuation::StopAfter{type_named(name), count, {}});
+    options.stop_after.push_back(is_event ? continuation::StopAfter{PointType::event, count, name}
+                                          : continuation::StopAfter{type_named(name), count, {}});
   }
 }
 
@@ -62,12 +61,10 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
        }},
       {"stop_at", plain(&TraceOptions::stop_at)},
       {"extrema_of", plain(&TraceOptions::extrema_of)},
-      {"events",
-       [](const py::handle& given, const Problem& problem, TraceOptions& options) {
-         set_events(given, problem, options);
-       }},
-      {"stop_after",
-       [](const py::handle& given, const Problem&, TraceOptions& options) { set_stop_after(given, options); }},
+      {"events", [](const py::handle& given, const Problem& problem,
+                    TraceOptions& options) { set_events(given, problem, options); }},
+      {"stop_after", [](const py::handle& given, const Problem&,
+                        TraceOptions& options) { set_stop_after(given, options); }},
       {"tolerance", plain(&TraceOptions::tolerance)},
       {"max_step", plain(&TraceOptions::max_step)},
       {"min_step", plain(&TraceOptions::min_step)},
@@ -79,7 +76,8 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
 
 }  // namespace
 
-void set_options(const py::dict& given, const std::shared_ptr<PythonProblem>& problem, TraceOptions& options) {
+void set_options(const py::dict& given, const std::shared_ptr<PythonProblem>& problem,
+                 TraceOptions& options) {
   for (const auto& [name, set] : setters()) {
     if (!given.contains(name)) continue;
     try {
