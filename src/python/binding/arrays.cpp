@@ -99,8 +99,9 @@ void take(const py::handle& given, const std::string& what, Matrix& out) {
       (array.ndim() != 2 || array.shape(0) != out.rows() || array.shape(1) != out.cols()))
     refuse(what, "an array of shape " + shape_of(array),
            fmt::format("shape ({}, {})", out.rows(), out.cols()));
-  const auto numbers = converted<double, py::array::f_style>(array, what);
-  out = Eigen::Map<const Matrix>(numbers.data(), out.rows(), out.cols());
+  using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto numbers = converted<double, py::array::c_style>(array, what);
+  out = Eigen::Map<const ByRows>(numbers.data(), out.rows(), out.cols());
 }
 
 Vector take_all(const py::handle& given, const std::string& what) {
