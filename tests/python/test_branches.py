@@ -140,3 +140,53 @@ def test_a_branch_is_written_with_all_digits(tmp_path):
     header, *rows = (tmp_path / "branch.csv").read_text().splitlines()
     column = header.split(",").index("u0")
     assert [float(row.split(",")[column]) for row in rows] == list(branch["u0"])
+
+
+def test_a_curve_of_peaks_in_two_parameters():
+    """Of the amplitude 1/sqrt((1 - w^2)^2 + (2 zeta w)^2), at w = sqrt(1 - 2 zeta^2)."""
+
+    def f(u, p):
+        w, zeta = p["w"], p["zeta"]
+        return u**2 * ((1 - w**2) ** 2 + (2 * zeta * w) ** 2) - 1
+
+    branch = arcslip.trace(f, [1.0], {"w": 0.1, "zeta": 0.1}, "w", range=(0.1, 2), extrema_of=["u0"])
+    (peak,) = [point for point in branch.special if point["type"] == "peak"]
+    curve = branch.continue_in_two(peak, "zeta", (0.05, 0.6), observable="u0")
+    assert curve["zeta"][0] == 0.05 and curve["zeta"][-1] == 0.6
+    assert curve["w"] == pytest.approx(np.sqrt(1 - 2 * curve["zeta"] ** 2), abs=1e-6)
+
+
+def test_a_curve_is_gone_on_with_and_never_in_two_threads_at_once():
+    branch = arcslip.trace(Cubic(), [0.0], {"lambda": 0.0, "mu": 0.0}, "lambda", range=(-1, 1))
+    fold = next(point for point in branch.special if point["type"] == "fold")
+    whole = branch.continue_in_two(fold, "mu", (-2, 1))
+    part = branch.continue_in_two(fold, "mu", (-2, 1), max_points=4)
+    rest = part.resume(max_points=1000)
+    assert rest.unknowns.tobytes() == whole.unknowns.tobytes()
+    assert len(part["lambda"]) == len(part) < len(rest)
+
+
+def test_what_a_branch_finds_of_its_curve_is_refused_while_it_is_traced():
+    seen = []
+
+    def f(u, p):
+        if curves:
+            try:
+                curves[0].summary
+            except RuntimeError as error:
+                seen.append(str(error))
+        return p["lambda"] - (1 + p["mu"]) * u + u**3
+
+    curves = []
+    branch = arcslip.trace(f, [0.0], {"lambda": 0.0, "mu": 0.0}, "lambda", range=(-1, 1))
+    fold = next(point for point in branch.special if point["type"] == "fold")
+    part = branch.continue_in_two(fold, "mu", (-2, 1), max_points=4)
+    curves.append(part)
+    part.resume(max_points=5)
+    assert seen and "another thread is at work" in seen[0]
+
+
+def test_columns_make_a_dict():
+    branch = arcslip.trace(circle, [1.0], {"lambda": 0.0}, range=(-2, 2))
+    columns = dict(branch)
+    assert list(columns) == branch.columns and len(columns["u0"]) == len(branch)

@@ -284,3 +284,20 @@ def test_a_picture_shows_the_columns(figure_8):
 def test_paths_may_be_of_bytes_or_pathlib(cases):
     assert arcslip.check(os.fsencode(cases / "rods.toml").decode()).good
     assert arcslip.check(pathlib.Path(cases / "rods.toml")).good
+
+
+def test_branches_of_cases_are_gone_on_with_as_those_of_functions(cases):
+    case = {"system": {"model": "cusp"}, "branch": {"parameter": "mu", "from": -2.0, "to": 2.0}}
+    case["system"]["lambda"] = 1.0
+    (branch,) = arcslip.run(case).branches
+    fold = next(point for point in branch.special if point["type"] == "fold")
+    curve = branch.continue_in_two(fold, "lambda", (-1.0, 2.0))
+    assert any(point["type"] == "cusp" for point in curve.special)
+    middle = branch.start_from(len(branch) // 2)
+    assert middle.unknowns[-1] == pytest.approx(branch.unknowns[-1], abs=1e-8)
+    (of_case, *_) = arcslip.run(cases / "cusp_curve.toml", set=["continuation.max_points=6"]).branches
+    assert len(of_case.resume(max_points=1000)) > len(of_case)
+    with pytest.raises(ValueError, match="start_from: not from a curve"):
+        of_case.start_from(2)
+    with pytest.raises(ValueError, match="events: only of problems that are written in Python"):
+        branch.start_from(2, events={"a": lambda u, p: 0.0})

@@ -20,6 +20,9 @@ class _Columns:
     def __contains__(self, name):
         return name in self.columns
 
+    def __iter__(self):
+        return iter(self.columns)
+
     def keys(self):
         """The names of the columns."""
         return list(self.columns)

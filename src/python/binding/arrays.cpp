@@ -30,7 +30,7 @@ std::string type_of(const py::handle& given) {
 py::array as_array(const py::handle& given, const std::string& what) {
   if (py::isinstance<py::array>(given)) return py::reinterpret_borrow<py::array>(given);
   if (given.is_none()) refuse(what, "None", "numbers");
-  const py::array array = py::array::ensure(given);
+  py::array array = py::array::ensure(given);
   if (!array) refuse(what, "a " + type_of(given), "numbers");
   return array;
 }

@@ -122,16 +122,34 @@ py::dict work_of(const BranchHandle& handle) {
 
 }  // namespace
 
-BranchHandle::BranchHandle(TracedBranch traced, std::shared_ptr<PythonProblem> problem,
-                           std::shared_ptr<continuation::ExtendedProblem> curve)
-    : traced_(std::move(traced)), problem_(std::move(problem)), curve_(std::move(curve)) {}
+BranchHandle::BranchHandle(TracedBranch traced, std::shared_ptr<PythonProblem> problem)
+    : traced_(std::move(traced)), problem_(std::move(problem)) {
+  if (!traced_.curve) return;
+  // It was made to be traced, and is const only for those who read what was.
+  curve_ = std::const_pointer_cast<continuation::ExtendedProblem>(traced_.curve);
+  curve_used_ = std::make_shared<std::atomic<bool>>(false);
+}
+
+BranchHandle::BranchHandle(TracedBranch traced, const BranchHandle& beside)
+    : BranchHandle(std::move(traced), beside.problem_) {
+  curve_used_ = beside.curve_used_;
+}
+
+CurveUse::CurveUse(std::atomic<bool>* flag) : flag_(flag) {
+  if (flag_ != nullptr && flag_->exchange(true))
+    throw std::runtime_error("another thread is at work with this curve in two parameters");
+}
+
+CurveUse::~CurveUse() {
+  if (flag_ != nullptr) *flag_ = false;
+}
 
 BranchHandle settled(TracedBranch traced) {
   auto request = std::make_shared<CaseBranch>(*traced.request);
   request->options.go_on = {};
   request->options.journal = nullptr;
   traced.request = request;
-  return {std::move(traced), nullptr, nullptr};
+  return {std::move(traced), nullptr};
 }
 
 Index BranchHandle::parameter() const {

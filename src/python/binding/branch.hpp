@@ -2,6 +2,7 @@
 
 // A traced branch as Python has it, of a case file or of a problem written in Python.
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -19,16 +20,34 @@ struct Table {
   Matrix values;  ///< rows x names
 };
 
+/// A curve's problem has a state, which serves one thread: while this lives, no other.
+class CurveUse {
+ public:
+  /// Without a flag there is nothing to be alone with. Throws std::runtime_error where another thread is.
+  explicit CurveUse(std::atomic<bool>* flag);
+  ~CurveUse();
+  CurveUse(const CurveUse&) = delete;
+  CurveUse& operator=(const CurveUse&) = delete;
+  CurveUse(CurveUse&&) = delete;
+  CurveUse& operator=(CurveUse&&) = delete;
+
+ private:
+  std::atomic<bool>* flag_;
+};
+
 class BranchHandle {
  public:
-  /// `problem` is what the branch is one of where that is written in Python, `curve` where it is a curve.
-  BranchHandle(TracedBranch traced, std::shared_ptr<PythonProblem> problem,
-               std::shared_ptr<continuation::ExtendedProblem> curve);
+  /// `problem` is what the branch is one of where that is written in Python, else null.
+  BranchHandle(TracedBranch traced, std::shared_ptr<PythonProblem> problem);
+  /// The same curve, or branch, gone on with.
+  BranchHandle(TracedBranch traced, const BranchHandle& beside);
 
   const TracedBranch& traced() const { return traced_; }
   const continuation::Branch& branch() const { return traced_.branch; }
   const std::shared_ptr<PythonProblem>& problem() const { return problem_; }
-  const std::shared_ptr<continuation::ExtendedProblem>& curve() const { return curve_; }
+  /// Of a curve in two parameters its problem, else null; to be used by itself, see CurveUse.
+  continuation::ExtendedProblem* curve() const { return curve_.get(); }
+  std::atomic<bool>* curve_flag() const { return curve_used_.get(); }
   Index parameter() const;
   const continuation::BranchPoint& point(std::size_t i) const;
 
@@ -49,6 +68,7 @@ class BranchHandle {
   TracedBranch traced_;
   std::shared_ptr<PythonProblem> problem_;
   std::shared_ptr<continuation::ExtendedProblem> curve_;
+  std::shared_ptr<std::atomic<bool>> curve_used_;
   std::shared_ptr<const Table> table_;
   std::optional<Matrix> unknowns_;
   std::optional<Matrix> tangents_;
@@ -57,6 +77,7 @@ class BranchHandle {
 
 template <class Work>
 auto BranchHandle::heard(const Work& work) const {
+  const CurveUse alone(curve_flag());
   Interruption interruption;
   const PythonProblem::Listener listener(interruption);
   auto result = work();

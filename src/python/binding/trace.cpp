@@ -73,6 +73,7 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
   traced.branch = std::move(branch);
   traced.certificate.reset();
   traced.told.reset();
+  traced.curve.reset();
   return traced;
 }
 
@@ -127,7 +128,7 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   for (const Branch& branch : branches) {
     TracedBranch traced = traced_of(problem, options, branch);
     traced.seconds = seconds.count() / static_cast<double>(branches.size());
-    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem, nullptr));
+    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }
   return handles;
 }
@@ -169,8 +170,8 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
     Branch branch = unlocked(options, progress, [&](const auto& observer) {
       return continuation::trace(*handle.traced().base.problem, guess, options, observer);
     });
-    handles.push_back(std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)),
-                                                     handle.problem(), nullptr));
+    handles.push_back(
+        std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)), handle.problem()));
   }
   return handles;
 }
@@ -228,7 +229,7 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   });
   TracedBranch traced = beside(handle, options, std::move(branch));
   traced.curve = curve;
-  return std::make_shared<BranchHandle>(std::move(traced), handle.problem(), curve);
+  return std::make_shared<BranchHandle>(std::move(traced), handle.problem());
 }
 
 /// A branch with the points that follow it; those with negative arclength lie before it.
@@ -251,6 +252,7 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
   TraceOptions options = options_of(handle, given);
   if (!handle.branch().checkpoint)
     throw py::value_error("resume: the branch has come to its end; there is nothing further");
+  const CurveUse alone(handle.curve_flag());
   Branch after = unlocked(options, progress, [&](const auto& observer) {
     const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
     return handle.curve()
@@ -258,8 +260,8 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
                : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
   });
   TracedBranch traced = beside(handle, options, joined(handle.branch(), std::move(after)));
-  traced.curve = handle.curve();
-  return std::make_shared<BranchHandle>(std::move(traced), handle.problem(), handle.curve());
+  traced.curve = handle.traced().curve;
+  return std::make_shared<BranchHandle>(std::move(traced), handle);
 }
 
 /// From a text that was kept: the points that follow.
@@ -278,7 +280,7 @@ std::shared_ptr<BranchHandle> trace_on(const std::shared_ptr<PythonProblem>& pro
   Branch branch = unlocked(options, progress, [&](const auto& observer) {
     return continuation::resume(*problem, checkpoint, options, observer);
   });
-  return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem, nullptr);
+  return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem);
 }
 
 Step step_named(const std::string& name) {
