@@ -95,6 +95,31 @@ def bratu(n=100):
     return "Bratu", f, np.zeros(n), 0.0, (0.0, 4.0), {"jacobian": jacobian, "parameter_jacobian": parameter_jacobian}
 
 
+def sparse_bratu(n=5000):
+    """The same with compressed columns."""
+    rows = [[i for i in (j - 1, j, j + 1) if 0 <= i < n] for j in range(n)]
+    indices = np.concatenate(rows)
+    indptr = np.concatenate([[0], np.cumsum([len(column) for column in rows])])
+    diagonal = indices == np.repeat(np.arange(n), np.diff(indptr))
+
+    def f(u, p):
+        value = -2 * u + p * np.exp(u) / (n + 1) ** 2
+        value[1:] += u[:-1]
+        value[:-1] += u[1:]
+        return value
+
+    def jacobian(u, p):
+        data = np.where(diagonal, -2.0, 1.0)
+        data[diagonal] += p * np.exp(u) / (n + 1) ** 2
+        return data, indices, indptr
+
+    def parameter_jacobian(u, p):
+        return np.exp(u) / (n + 1) ** 2
+
+    parts = {"jacobian": jacobian, "parameter_jacobian": parameter_jacobian}
+    return "Bratu, sparse", f, np.zeros(n), 0.0, (0.0, 4.0), parts
+
+
 def without_jacobian(made):
     name, f, u0, p0, range_, _ = made
     return f"{name}, complex steps", f, u0, p0, range_, {}
@@ -112,7 +137,9 @@ def compare_with_calls(name, f, u0, p0, range_, parts):
         return record
 
     recording = {key: recorded(function) for key, function in parts.items()}
-    arcslip.trace(recorded(f), u0, p0, range=range_, check=False, **recording)
+    sparse = len(u0) > 1000
+    arcslip.trace(arcslip.Problem(recorded(f), sparse=sparse, **recording), u0, p0, range=range_, check=False)
+    problem = arcslip.Problem(f, sparse=sparse, **parts)
     own, whole = [], []
     for _ in range(REPEATS):
         begun = time.process_time()
@@ -120,7 +147,7 @@ def compare_with_calls(name, f, u0, p0, range_, parts):
             function(u, p)
         own.append(time.process_time() - begun)
         begun = time.process_time()
-        branch = arcslip.trace(f, u0, p0, range=range_, check=False, **parts)
+        branch = arcslip.trace(problem, u0, p0, range=range_, check=False)
         whole.append(time.process_time() - begun)
     each = 1e6 * min(own) / len(calls)
     print(
@@ -133,7 +160,7 @@ def main():
     warnings.simplefilter("ignore")
     if len(sys.argv) > 1:
         compare_with_program(sys.argv[1])
-    for made in (duffing(), bratu(), without_jacobian(duffing()), without_jacobian(bratu(20))):
+    for made in (duffing(), bratu(), sparse_bratu(), without_jacobian(duffing()), without_jacobian(bratu(20))):
         compare_with_calls(*made)
 
 

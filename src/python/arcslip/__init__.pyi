@@ -90,6 +90,7 @@ class Problem:
     parameters: Sequence[str]
     unknowns: Sequence[str]
     equilibrium: bool
+    sparse: bool
     switches: int
     unknown_scale: ArrayLike
     parameter_scale: ArrayLike

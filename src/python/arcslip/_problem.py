@@ -29,6 +29,9 @@ class Problem:
         (u, p) -> dict of numbers by name, or a dict of functions (u, p) -> number: further columns.
     eigenvalues : callable, optional
         (u, p) -> complex numbers that tell stability, by the signs of their real parts.
+    sparse : bool
+        Whether `jacobian` returns a sparse matrix, as scipy's, or (data, indices, indptr) of compressed columns, always
+        with the same pattern. Equilibria of sparse problems do not tell their stability.
     equilibrium : bool
         Whether F is the right-hand side of u' = F, so that the Jacobian's eigenvalues tell stability.
     unknowns : sequence of str
@@ -49,6 +52,7 @@ class Problem:
     parameters = ()
     unknowns = ()
     equilibrium = False
+    sparse = False
     switches = 1
     unknown_scale = 1.0
     parameter_scale = 1.0
@@ -105,6 +109,8 @@ class Prepared:
 
     def _traits(self):
         problem = self.problem
+        if problem.sparse and problem.jacobian is None:
+            raise ValueError("jacobian: missing; a sparse problem needs it")
         if problem.borders is not None and problem.beyond is None:
             raise ValueError("beyond: missing; a problem with borders needs it")
         return {
@@ -114,6 +120,7 @@ class Prepared:
             "unknowns": self.unknowns,
             "observables": self.observed,
             "active": [self.parameter],
+            "sparse": bool(problem.sparse),
             "equilibrium": bool(problem.equilibrium),
             "switches": int(problem.switches) if problem.borders is not None else 0,
             "unknown_scale": _scale(problem.unknown_scale, len(self.u0), "unknown_scale"),

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <pybind11/stl.h>
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 
 namespace arcslip::python {
@@ -102,6 +105,47 @@ void take(const py::handle& given, const std::string& what, Matrix& out) {
   using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto numbers = converted<double, py::array::c_style>(array, what);
   out = Eigen::Map<const ByRows>(numbers.data(), out.rows(), out.cols());
+}
+
+void take(const py::handle& given, const std::string& what, Index n, SparseMatrix& out) {
+  py::object parts = py::reinterpret_borrow<py::object>(given);
+  if (py::hasattr(given, "tocsc")) {
+    const py::object columns = given.attr("tocsc")();
+    if (!columns.attr("has_canonical_format").cast<bool>()) columns.attr("sum_duplicates")();
+    if (columns.attr("shape").cast<std::pair<Index, Index>>() != std::pair(n, n))
+      refuse(what, "shape " + py::str(columns.attr("shape")).cast<std::string>(),
+             fmt::format("shape ({}, {})", n, n));
+    parts = py::make_tuple(columns.attr("data"), columns.attr("indices"), columns.attr("indptr"));
+  }
+  if (!py::isinstance<py::tuple>(parts) || py::len(parts) != 3)
+    refuse(what, "a " + type_of(given), "a sparse matrix, or data, indices and indptr of compressed columns");
+  using Integers = py::array_t<int, py::array::c_style | py::array::forcecast>;
+  const auto values = take_all(parts[py::int_(0)], what);
+  const auto rows = parts[py::int_(1)].cast<Integers>();
+  const auto starts = parts[py::int_(2)].cast<Integers>();
+  const bool fits =
+      starts.size() == n + 1 && rows.size() == values.size() && starts.data()[0] == 0 &&
+      starts.data()[n] == values.size() && std::is_sorted(starts.data(), starts.data() + n + 1) &&
+      std::all_of(rows.data(), rows.data() + rows.size(), [n](int row) { return row >= 0 && row < n; });
+  if (!fits)
+    refuse(what, "others", fmt::format("indices of the compressed columns of a {} x {} matrix", n, n));
+  for (Index j = 0; j < n; ++j) {
+    const int* column = rows.data() + starts.data()[j];
+    const int* end = rows.data() + starts.data()[j + 1];
+    if (std::adjacent_find(column, end, std::greater_equal<>()) != end)
+      refuse(what, fmt::format("column {} otherwise", j), "ascending indices in each column, each once");
+  }
+  const Eigen::Map<const SparseMatrix> matrix(n, n, values.size(), starts.data(), rows.data(), values.data());
+  const bool known = out.nonZeros() > 0;
+  if (known && (out.nonZeros() != matrix.nonZeros() ||
+                !std::equal(rows.data(), rows.data() + rows.size(), out.innerIndexPtr()) ||
+                !std::equal(starts.data(), starts.data() + n + 1, out.outerIndexPtr())))
+    throw py::value_error(what + ": its pattern is not what it was; keep zeros that may become others");
+  if (known) {
+    std::copy_n(values.data(), values.size(), out.valuePtr());
+  } else {
+    out = matrix;
+  }
 }
 
 Vector take_all(const py::handle& given, const std::string& what) {

@@ -31,6 +31,9 @@ py::array give(const ComplexVector& vector);
 /// `what` and says which shape or type it got.
 void take(const py::handle& given, const std::string& what, Vector& out);
 void take(const py::handle& given, const std::string& what, Matrix& out);
+/// A sparse one: what has `tocsc`, as scipy's have, or (data, indices, indptr) of compressed columns. Its
+/// pattern has to be that of `out`, unless that is empty.
+void take(const py::handle& given, const std::string& what, Index n, SparseMatrix& out);
 /// The same of complex numbers.
 void take(const py::handle& given, const std::string& what, ComplexVector& out);
 

@@ -126,7 +126,7 @@ void bind_cases(py::module_& module) {
   module.attr("version") = release;
   py::register_local_exception<InputError>(module, "InputError", PyExc_ValueError);
   py::register_local_exception<OutputError>(module, "OutputError", PyExc_OSError);
-  py::class_<CaseFile>(module, "Case");
+  const py::class_<CaseFile> opaque(module, "Case");
   module.def("open_case", open_case, py::arg("name"), py::arg("text"), py::arg("settings"));
   module.def("check", check);
   module.def("run", run_case);

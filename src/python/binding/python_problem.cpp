@@ -168,8 +168,52 @@ void PythonProblem::fill_parameter_jacobian(const Vector& u, const Vector& p, co
 void PythonProblem::fill(const Vector& u, const Vector& p, const Regime& regime,
                          const Evaluation& out) const {
   if (out.residual != nullptr) *out.residual = residual_at<Vector>(u, p, regime);
+  if (out.sparse_jacobian != nullptr)
+    take(call(functions_.jacobian, u, p, regime), "jacobian", traits_.size, *out.sparse_jacobian);
   if (out.jacobian != nullptr) fill_jacobian(u, p, regime, *out.jacobian);
   if (out.parameter_jacobian != nullptr) fill_parameter_jacobian(u, p, regime, *out.parameter_jacobian);
+}
+
+namespace {
+
+/// The row and the column of the first entry that is nan, if one is.
+std::optional<std::pair<Index, Index>> first_nan(const Matrix& matrix) {
+  for (Index j = 0; j < matrix.cols(); ++j) {
+    for (Index i = 0; i < matrix.rows(); ++i) {
+      if (std::isnan(matrix(i, j))) return {{i, j}};
+    }
+  }
+  return {};
+}
+
+std::optional<std::pair<Index, Index>> first_nan(const SparseMatrix& matrix) {
+  for (Index j = 0; j < matrix.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+      if (std::isnan(entry.value())) return {{entry.row(), j}};
+    }
+  }
+  return {};
+}
+
+bool all_finite(const Matrix& matrix) { return matrix.allFinite(); }
+bool all_finite(const SparseMatrix& matrix) { return matrix.coeffs().allFinite(); }
+
+}  // namespace
+
+/// Derivatives that are not finite are no value; nan where F is finite is named.
+void PythonProblem::require_numbers(const Vector& p, const Evaluation& out, bool& has_value) const {
+  const bool finite = out.residual != nullptr && out.residual->allFinite();
+  const auto check = [&](const auto* matrix, const char* name) {
+    if (matrix == nullptr || all_finite(*matrix)) return;
+    has_value = false;
+    const auto at = first_nan(*matrix);
+    if (finite && at)
+      throw py::value_error(fmt::format("{}: entry ({}, {}) is nan at {}, where f is finite", name, at->first,
+                                        at->second, place(p)));
+  };
+  check(out.jacobian, "jacobian");
+  check(out.sparse_jacobian, "jacobian");
+  check(out.parameter_jacobian, "parameter_jacobian");
 }
 
 bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& regime,
@@ -181,21 +225,7 @@ bool PythonProblem::evaluate(const Vector& u, const Vector& p, const Regime& reg
       last_p_ = p;
     }
     fill(u, p, regime, out);
-    const bool finite = out.residual != nullptr && out.residual->allFinite();
-    const auto check = [&](const Matrix* matrix, const char* name) {
-      if (matrix == nullptr || matrix->allFinite()) return;
-      has_value = false;
-      if (!finite) return;
-      for (Index i = 0; i < matrix->size(); ++i) {
-        const Index row = i % matrix->rows();
-        const Index column = i / matrix->rows();
-        if (std::isnan((*matrix)(row, column)))
-          throw py::value_error(
-              fmt::format("{}: entry ({}, {}) is nan at {}, where f is finite", name, row, column, place(p)));
-      }
-    };
-    check(out.jacobian, "jacobian");
-    check(out.parameter_jacobian, "parameter_jacobian");
+    require_numbers(p, out, has_value);
   });
   return done && has_value;
 }

@@ -41,6 +41,7 @@ struct PythonTraits {
   std::vector<std::string> unknowns;     ///< names of the first unknowns, which are observables then
   std::vector<std::string> observables;  ///< names of those that the function gives
   std::vector<std::string> active;       ///< parameters by which derivatives are taken that are not given
+  bool sparse = false;                   ///< whether the Jacobian is, which is given then
   bool is_equilibrium = false;           ///< whether F is the right-hand side of u' = F
   Index switches = 0;
   Vector unknown_scale;    ///< n, typical magnitudes, > 0
@@ -90,6 +91,7 @@ class PythonProblem : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return traits_.parameters; }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
+  bool sparse() const override { return traits_.sparse; }
   bool is_equilibrium() const override { return traits_.is_equilibrium; }
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                  ComplexVector& values) const override;
@@ -126,6 +128,7 @@ class PythonProblem : public continuation::Problem {
   void fill(const Vector& u, const Vector& p, const continuation::Regime& regime,
             const continuation::Evaluation& out) const;
   void fill_jacobian(const Vector& u, const Vector& p, const continuation::Regime& regime, Matrix& out) const;
+  void require_numbers(const Vector& p, const continuation::Evaluation& out, bool& has_value) const;
   void fill_parameter_jacobian(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                Matrix& out) const;
   std::string place(const Vector& p) const;

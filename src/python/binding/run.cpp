@@ -13,8 +13,8 @@ namespace arcslip::python {
 
 using nlohmann::ordered_json;
 
-CaseRun::CaseRun(const CaseFile& file, bool certify)
-    : file_(file), plan_(plan_case(file_)), certify_(certify) {
+CaseRun::CaseRun(CaseFile file, bool certify)
+    : file_(std::move(file)), plan_(plan_case(file_)), certify_(certify) {
   if (certify_) {
     const std::string why = why_not_certifiable(plan_.branch(0));
     if (!why.empty())

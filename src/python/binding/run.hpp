@@ -15,7 +15,7 @@ namespace arcslip::python {
 class CaseRun {
  public:
   /// Reads the whole file. Throws InputError.
-  CaseRun(const CaseFile& file, bool certify);
+  CaseRun(CaseFile file, bool certify);
 
   /// Traces all branches, or those that come before an interruption; into a folder, if one is given, as they
   /// come; an interrupted run leaves a checkpoint there, from which the program goes on. Without the lock.

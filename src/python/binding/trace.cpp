@@ -34,7 +34,7 @@ auto unlocked(TraceOptions& options, const py::object& progress, const Work& wor
     ++points;
     return interruption.go_on([&] { return py::make_tuple(0, 1, points, point.arclength); });
   };
-  const auto result = [&] {
+  auto result = [&] {
     try {
       const py::gil_scoped_release released;
       return work(observer);
@@ -137,6 +137,7 @@ py::list solve_all(const std::shared_ptr<PythonProblem>& problem, const std::vec
                    const py::handle& p, const py::handle& regime, const std::pair<Vector, Vector>& box,
                    int count) {
   std::vector<Guess> guesses;
+  guesses.reserve(starts.size());
   for (const py::object& start : starts) guesses.push_back(guess_of(*problem, start, p, regime));
   continuation::SolveAllOptions seeking;
   seeking.lower = box.first;
@@ -299,6 +300,7 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
   made.unknowns = traits["unknowns"].cast<std::vector<std::string>>();
   made.observables = traits["observables"].cast<std::vector<std::string>>();
   made.active = traits["active"].cast<std::vector<std::string>>();
+  made.sparse = traits["sparse"].cast<bool>();
   made.is_equilibrium = traits["equilibrium"].cast<bool>();
   made.switches = traits["switches"].cast<Index>();
   made.unknown_scale = take_all(traits["unknown_scale"], "unknown_scale");
