@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
 
 namespace arcslip::python {
 namespace {
@@ -107,7 +108,10 @@ void take(const py::handle& given, const std::string& what, Matrix& out) {
   out = Eigen::Map<const ByRows>(numbers.data(), out.rows(), out.cols());
 }
 
-void take(const py::handle& given, const std::string& what, Index n, SparseMatrix& out) {
+namespace {
+
+/// data, indices and indptr of what is given as a sparse matrix.
+py::tuple compressed_columns(const py::handle& given, const std::string& what, Index n) {
   py::object parts = py::reinterpret_borrow<py::object>(given);
   if (py::hasattr(given, "tocsc")) {
     const py::object columns = given.attr("tocsc")();
@@ -119,33 +123,49 @@ void take(const py::handle& given, const std::string& what, Index n, SparseMatri
   }
   if (!py::isinstance<py::tuple>(parts) || py::len(parts) != 3)
     refuse(what, "a " + type_of(given), "a sparse matrix, or data, indices and indptr of compressed columns");
-  using Integers = py::array_t<int, py::array::c_style | py::array::forcecast>;
-  const auto values = take_all(parts[py::int_(0)], what);
-  const auto rows = parts[py::int_(1)].cast<Integers>();
-  const auto starts = parts[py::int_(2)].cast<Integers>();
-  const bool fits =
-      starts.size() == n + 1 && rows.size() == values.size() && starts.data()[0] == 0 &&
-      starts.data()[n] == values.size() && std::is_sorted(starts.data(), starts.data() + n + 1) &&
-      std::all_of(rows.data(), rows.data() + rows.size(), [n](int row) { return row >= 0 && row < n; });
+  return parts;
+}
+
+/// Refuses what are no compressed columns of n x n.
+void check_columns(std::span<const int> rows, std::span<const int> starts, Index count,
+                   const std::string& what, Index n) {
+  const auto is_row = [n](int row) { return row >= 0 && row < n; };
+  const bool fits = std::ssize(starts) == n + 1 && std::ssize(rows) == count && starts.front() == 0 &&
+                    starts.back() == count && std::is_sorted(starts.begin(), starts.end()) &&
+                    std::all_of(rows.begin(), rows.end(), is_row);
   if (!fits)
     refuse(what, "others", fmt::format("indices of the compressed columns of a {} x {} matrix", n, n));
   for (Index j = 0; j < n; ++j) {
-    const int* column = rows.data() + starts.data()[j];
-    const int* end = rows.data() + starts.data()[j + 1];
+    const auto column = rows.begin() + starts[static_cast<std::size_t>(j)];
+    const auto end = rows.begin() + starts[static_cast<std::size_t>(j) + 1];
     if (std::adjacent_find(column, end, std::greater_equal<>()) != end)
       refuse(what, fmt::format("column {} otherwise", j), "ascending indices in each column, each once");
   }
-  const Eigen::Map<const SparseMatrix> matrix(n, n, values.size(), starts.data(), rows.data(), values.data());
+}
+
+}  // namespace
+
+void take(const py::handle& given, const std::string& what, Index n, SparseMatrix& out) {
+  const py::tuple parts = compressed_columns(given, what, n);
+  using Integers = py::array_t<int, py::array::c_style | py::array::forcecast>;
+  const auto values = converted<double, py::array::c_style>(as_array(parts[0], what), what);
+  const auto given_rows = parts[1].cast<Integers>();
+  const auto given_starts = parts[2].cast<Integers>();
+  const std::span<const int> rows(given_rows.data(), static_cast<std::size_t>(given_rows.size()));
+  const std::span<const int> starts(given_starts.data(), static_cast<std::size_t>(given_starts.size()));
   const bool known = out.nonZeros() > 0;
-  if (known && (out.nonZeros() != matrix.nonZeros() ||
-                !std::equal(rows.data(), rows.data() + rows.size(), out.innerIndexPtr()) ||
-                !std::equal(starts.data(), starts.data() + n + 1, out.outerIndexPtr())))
-    throw py::value_error(what + ": its pattern is not what it was; keep zeros that may become others");
-  if (known) {
+  const bool same =
+      known && values.size() == out.nonZeros() &&
+      std::ranges::equal(rows, std::span(out.innerIndexPtr(), static_cast<std::size_t>(out.nonZeros()))) &&
+      std::ranges::equal(starts, std::span(out.outerIndexPtr(), static_cast<std::size_t>(n) + 1));
+  if (same) {
     std::copy_n(values.data(), values.size(), out.valuePtr());
-  } else {
-    out = matrix;
+    return;
   }
+  check_columns(rows, starts, values.size(), what, n);
+  if (known)
+    throw py::value_error(what + ": its pattern is not what it was; keep zeros that may become others");
+  out = Eigen::Map<const SparseMatrix>(n, n, values.size(), starts.data(), rows.data(), values.data());
 }
 
 Vector take_all(const py::handle& given, const std::string& what) {
