@@ -112,7 +112,7 @@ namespace {
 
 /// data, indices and indptr of what is given as a sparse matrix.
 py::tuple compressed_columns(const py::handle& given, const std::string& what, Index n) {
-  py::object parts = py::reinterpret_borrow<py::object>(given);
+  auto parts = py::reinterpret_borrow<py::object>(given);
   if (py::hasattr(given, "tocsc")) {
     const py::object columns = given.attr("tocsc")();
     if (!columns.attr("has_canonical_format").cast<bool>()) columns.attr("sum_duplicates")();
