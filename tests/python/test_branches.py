@@ -190,3 +190,18 @@ def test_columns_make_a_dict():
     branch = arcslip.trace(circle, [1.0], {"lambda": 0.0}, range=(-2, 2))
     columns = dict(branch)
     assert list(columns) == branch.columns and len(columns["u0"]) == len(branch)
+
+
+def test_unstable_parts_are_dashed_and_given_axes_left_as_they_are():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    branch = arcslip.trace(Cubic(), [0.0], {"lambda": 0.0, "mu": 0.0}, "lambda", range=(-1, 1))
+    axes = pyplot.figure().add_subplot()
+    assert branch.plot(axes, y="square") is axes and axes.get_yscale() == "linear"
+    drawn = {line.get_linestyle(): line.get_xydata() for line in axes.get_lines() if line.get_linestyle() != "None"}
+    assert set(drawn) == {"-", "--"}
+    assert np.nanmax(drawn["-"][:, 1]) == pytest.approx(1 / 3, abs=1e-2)  # up to the folds
+    with pytest.raises(KeyError, match="'z': expected one of"):
+        branch.plot(axes, y="z")

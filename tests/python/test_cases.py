@@ -276,6 +276,8 @@ def test_a_picture_shows_the_columns(figure_8):
     matplotlib.use("Agg")
     ax = figure_8[0].plot()
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("eta", "Y")
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log")
+    assert [text.get_text() for text in ax.get_legend().get_texts()][0] == "preload = 0.1"
     lines = [line for line in ax.get_lines() if len(line.get_xdata()) > 100]
     assert len(lines) == 5
     assert np.nanmax(lines[1].get_ydata()) == pytest.approx(figure_8[0].branches[1]["Y"].max(), rel=1e-3)

@@ -189,7 +189,7 @@ class Branch(_Columns):
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            To draw in; a new one if not given.
+            To draw in, as it is; if not given new ones, logarithmic where values span more than two decades.
         x, y : str, optional
             Columns; the parameter, and "Y" or the first that is no parameter.
         **style
@@ -199,9 +199,13 @@ class Branch(_Columns):
         -------
         matplotlib.axes.Axes
         """
-        from ._plot import plot
+        from . import _plot
 
-        return plot(self, ax, x, y, style)
+        own = ax is None
+        ax = _plot.plot(self, _plot.new_axes() if own else ax, x, y, style)
+        if own:
+            _plot.settle(ax)
+        return ax
 
     def to_csv(self, folder):
         """Write branch.csv, the columns with 17 digits, and summary.json.

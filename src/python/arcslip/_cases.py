@@ -9,7 +9,7 @@ import warnings
 
 import numpy as np
 
-from . import _core
+from . import _core, _plot
 from ._branch import Branch
 from ._toml import to_toml
 
@@ -115,9 +115,13 @@ class Run:
         -------
         matplotlib.axes.Axes
         """
+        own = ax is None
+        ax = _plot.new_axes() if own else ax
         for branch in self.branches:
             label = ", ".join(f"{key} = {value}" for key, value in branch.values.items())
-            ax = branch.plot(ax, x, y, **{"label": label or None, **style})
+            branch.plot(ax, x, y, **{"label": label or None, **style})
+        if own:
+            _plot.settle(ax)
         return ax
 
     def __repr__(self):

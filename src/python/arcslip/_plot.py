@@ -23,12 +23,26 @@ def _default_y(branch):
     return others[0]
 
 
+def new_axes():
+    """Axes of a figure of their own."""
+    from matplotlib import pyplot
+
+    return pyplot.figure().add_subplot()
+
+
+def settle(ax):
+    """Makes axes logarithmic on which positive values span more than two decades, and adds the legend."""
+    for values, set_scale in (("get_xdata", ax.set_xscale), ("get_ydata", ax.set_yscale)):
+        shown = np.concatenate([np.asarray(getattr(line, values)(), dtype=float) for line in ax.get_lines()] or [[]])
+        shown = shown[np.isfinite(shown)]
+        if len(shown) and shown.min() > 0 and shown.max() > 100 * shown.min():
+            set_scale("log")
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend()
+
+
 def plot(branch, ax, x, y, style):
     """See `Branch.plot`."""
-    if ax is None:
-        from matplotlib import pyplot
-
-        ax = pyplot.figure().add_subplot()
     x = x or branch.parameter
     y = y or _default_y(branch)
     branch[x], branch[y]  # refused before anything is drawn
