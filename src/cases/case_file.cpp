@@ -275,6 +275,11 @@ CaseBranch BranchSource::checked() const {
 CaseFile::CaseFile(const std::string& path, const std::vector<std::string>& settings)
     : document_(std::make_shared<const TomlDocument>(path, settings)) {}
 
+CaseFile CaseFile::of_text(const std::string& name, const std::string& text,
+                           const std::vector<std::string>& settings) {
+  return CaseFile(std::make_shared<const TomlDocument>(name, text, settings));
+}
+
 const std::string& CaseFile::path() const { return document_->path(); }
 
 bool CaseFile::has(const std::string& section) const { return document_->root().contains(section); }

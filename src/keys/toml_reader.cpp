@@ -82,16 +82,20 @@ std::optional<double> accepted(const toml::node& node, const NumberRule& rule) {
 
 }  // namespace
 
-TomlDocument::TomlDocument(const std::string& path, const std::vector<std::string>& settings) : path_(path) {
-  const std::string text = read_text(path, largest_case_file);
+TomlDocument::TomlDocument(const std::string& path, const std::vector<std::string>& settings)
+    : TomlDocument(path, read_text(path, largest_case_file), settings) {}
+
+TomlDocument::TomlDocument(std::string name, const std::string& text,
+                           const std::vector<std::string>& settings)
+    : path_(std::move(name)) {
   if (const long line = line_nested_too_deep(text); line > 0)
     throw InputError(
-        fmt::format("{}:{}:1: not valid: a key has more than {} parts", path, line, deepest_key));
+        fmt::format("{}:{}:1: not valid: a key has more than {} parts", path_, line, deepest_key));
   try {
     root_ = toml::parse(text);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}", path, at.line, at.column,
+    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}", path_, at.line, at.column,
                                  printable(error.description(), longest_name)));
   }
   for (const std::string& setting : settings) apply(setting);

@@ -54,6 +54,8 @@ NumberRule up_to(double high);                                                  
 class TomlDocument {
  public:
   TomlDocument(const std::string& path, const std::vector<std::string>& settings);
+  /// A text that is in no file; `name` stands for the file in errors.
+  TomlDocument(std::string name, const std::string& text, const std::vector<std::string>& settings);
 
   const toml::table& root() const { return root_; }
   const std::string& path() const { return path_; }

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace arcslip {
 
 Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
-    : problem_(traced.problem()), request_(*traced.request) {
+    : problem_(traced.problem()), request_(*traced.request), points_(traced.branch.points) {
+  if (detail == BranchTable::Detail::full) told_ = traced.told.get();
   if (detail == BranchTable::Detail::drawn && !traced.curve) without_verdict_ = traced.base.disturbed.get();
   names_ = problem_.parameter_names();
   parameters_ = static_cast<Index>(names_.size());
@@ -26,7 +28,19 @@ void Columns::observe(const continuation::BranchPoint& point) {
   observed_.tail(observed_.size() - known).setConstant(std::nan(""));
 }
 
+bool Columns::is_told(const continuation::BranchPoint& point) const {
+  const std::less<> before;
+  const continuation::BranchPoint* first = points_.data();
+  return told_ != nullptr && !before(&point, first) && before(&point, first + points_.size());
+}
+
 const std::vector<double>& Columns::values(const continuation::BranchPoint& point) {
+  if (is_told(point)) {
+    values_.resize(names_.size());
+    Eigen::Map<Vector>(values_.data(), std::ssize(names_)) =
+        told_->row(&point - points_.data()).head(std::ssize(names_));
+    return values_;
+  }
   observe(point);
   values_.assign(point.parameters.begin(), point.parameters.end());
   if (moved_ >= 0) values_.insert(values_.begin() + moved_, observed_(0));

@@ -31,11 +31,14 @@ class Columns {
 
  private:
   void observe(const continuation::BranchPoint& point);
+  bool is_told(const continuation::BranchPoint& point) const;
   bool is_constant(const std::string& name) const;
 
   const continuation::Problem& problem_;
   const problems::FloquetResponse* without_verdict_ = nullptr;
   const CaseBranch& request_;
+  const std::vector<continuation::BranchPoint>& points_;
+  const Matrix* told_ = nullptr;
   std::vector<std::string> names_;
   Index parameters_ = 0;
   Index moved_ = -1;

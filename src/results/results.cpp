@@ -119,6 +119,13 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   return summary;
 }
 
+ordered_json summary_of_failed(std::size_t number, const CaseBranch& request, const std::string& why) {
+  return {{"branch", number},   {"values", request.values},
+          {"points", 0},        {"stop", to_string(continuation::Stop::no_start)},
+          {"explanation", why}, {"special", ordered_json::array()},
+          {"peak", nullptr}};
+}
+
 ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds) {
   ordered_json branches = ordered_json::array();
   for (std::size_t number = 0; number < traced.size(); ++number)

@@ -84,10 +84,7 @@ void RunFiles::add_failed(const CaseBranch& request, const std::string& why) {
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
   write_summary();
-  last_ = {{"branch", count_},   {"values", request.values},
-           {"points", 0},        {"stop", to_string(continuation::Stop::no_start)},
-           {"explanation", why}, {"special", ordered_json::array()},
-           {"peak", nullptr}};
+  last_ = summary_of_failed(count_, request, why);
   ++count_;
 }
 

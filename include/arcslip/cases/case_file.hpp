@@ -85,6 +85,10 @@ class CaseFile {
   /// Throws InputError.
   explicit CaseFile(const std::string& path, const std::vector<std::string>& settings = {});
 
+  /// The same of a text that is in no file; `name` stands for the file in errors. Throws InputError.
+  static CaseFile of_text(const std::string& name, const std::string& text,
+                          const std::vector<std::string>& settings = {});
+
   /// As it was given, and whether the file has a section of this name.
   const std::string& path() const;
   bool has(const std::string& section) const;
@@ -96,6 +100,8 @@ class CaseFile {
   const std::shared_ptr<const TomlDocument>& document() const { return document_; }
 
  private:
+  explicit CaseFile(std::shared_ptr<const TomlDocument> document) : document_(std::move(document)) {}
+
   std::shared_ptr<const TomlDocument> document_;
 };
 

@@ -51,6 +51,9 @@ struct TracedBranch {
   continuation::Branch branch;                                 ///< of the curve, if it is one
   double seconds = 0;                                          ///< wall clock
   std::optional<problems::Certificate> certificate = {};       ///< where one was asked for
+  /// What tables say of its points, where that is known already: a row for each, a column for each name, and
+  /// maybe more.
+  std::shared_ptr<const Matrix> told = nullptr;
 
   /// That of which the branch holds solutions.
   const continuation::Problem& problem() const {

@@ -60,6 +60,10 @@ void write_branches(const std::vector<TracedBranch>& traced, const Sink& sink);
 /// A branch as summary.json has it.
 nlohmann::ordered_json summarize(std::size_t number, const TracedBranch& traced);
 
+/// The same of one that no problem could be built for, and why.
+nlohmann::ordered_json summary_of_failed(std::size_t number, const CaseBranch& request,
+                                         const std::string& why);
+
 /// summary.json as described in the README.
 nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds);
 

@@ -1,0 +1,32 @@
+"""Continuation of friction-damped vibrations, and of any F(u, p) = 0.
+
+`run`, `study` and `check` take the case files of the program `arcslip`; `trace`, `trace_all` and `solve_all` take
+problems written in Python. Both give `Branch` objects, whose columns are numpy arrays.
+
+    >>> import arcslip
+    >>> result = arcslip.run("problems/figure_8.toml")
+    >>> result.branches[1]["eta"], result.branches[1]["Y"]
+    >>> branch = arcslip.trace(lambda u, p: u**2 + p - 1, 1.0, 0.0, range=(0, 2))
+"""
+
+from ._branch import Branch, Sample
+from ._cases import Check, Run, Study, check, run, study
+from ._core import version as __version__
+from ._problem import Problem
+from ._trace import solve_all, trace, trace_all
+
+__all__ = [
+    "Branch",
+    "Check",
+    "Problem",
+    "Run",
+    "Sample",
+    "Study",
+    "__version__",
+    "check",
+    "run",
+    "solve_all",
+    "study",
+    "trace",
+    "trace_all",
+]

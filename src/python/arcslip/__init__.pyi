@@ -1,0 +1,199 @@
+# Types of the package's face; shapes and units are in the docstrings.
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+__all__: list[str]
+
+_Array = NDArray[np.float64]
+_Case = str | PathLike[str] | Mapping[str, Any]
+_Path = str | PathLike[str]
+_Parameters = float | Mapping[str, float] | ArrayLike
+_Regime = int | tuple[int, ...]
+_Function = Callable[..., ArrayLike]
+_Progress = Callable[[int, int, int, float], object]
+
+def run(
+    case: _Case,
+    out: _Path | None = None,
+    set: Sequence[str] = (),
+    *,
+    certify: bool = False,
+    progress: _Progress | None = None,
+) -> Run: ...
+def study(
+    case: _Case,
+    out: _Path | None = None,
+    set: Sequence[str] = (),
+    *,
+    jobs: int = 0,
+    resume: bool = False,
+    progress: Callable[[int, int], object] | None = None,
+) -> Study: ...
+def check(case: _Case, set: Sequence[str] = (), *, derivatives: bool = False) -> Check: ...
+def trace(
+    problem: _Function | Problem,
+    u0: ArrayLike,
+    p0: _Parameters,
+    parameter: str | None = None,
+    range: tuple[float, float] = (0.0, 1.0),
+    *,
+    regime: _Regime = 0,
+    check: bool = True,
+    checkpoint: str | None = None,
+    progress: _Progress | None = None,
+    stop_at: Sequence[float] = (),
+    extrema_of: Sequence[str] = (),
+    events: Mapping[str, Callable[..., float]] | None = None,
+    stop_after: Mapping[str, int] | None = None,
+    tolerance: float = 1e-10,
+    max_step: float = 0.1,
+    min_step: float = 1e-10,
+    max_points: int = 100000,
+    max_seconds: float = ...,
+    bound: float = 1e12,
+    **functions: Any,
+) -> Branch: ...
+def trace_all(
+    problem: _Function | Problem,
+    u0: ArrayLike,
+    p0: _Parameters,
+    parameter: str | None = None,
+    range: tuple[float, float] = (0.0, 1.0),
+    *,
+    follow: Literal["connected", "deflation"] = "connected",
+    box: tuple[ArrayLike, ArrayLike] | None = None,
+    regime: _Regime = 0,
+    check: bool = True,
+    progress: _Progress | None = None,
+    functions: Mapping[str, Any] | None = None,
+    **options: Any,
+) -> list[Branch]: ...
+def solve_all(
+    problem: _Function | Problem,
+    u0: ArrayLike | list[ArrayLike],
+    p0: _Parameters,
+    *,
+    box: tuple[ArrayLike, ArrayLike] | None = None,
+    starts: int = 100,
+    regime: _Regime = 0,
+    parameter: str | None = None,
+    **functions: Any,
+) -> list[_Array]: ...
+
+class Problem:
+    parameters: Sequence[str]
+    unknowns: Sequence[str]
+    equilibrium: bool
+    sparse: bool
+    switches: int
+    unknown_scale: ArrayLike
+    parameter_scale: ArrayLike
+    jacobian: Any
+    parameter_jacobian: Any
+    observables: Any
+    eigenvalues: Any
+    borders: Any
+    beyond: Any
+    def __init__(self, residual: _Function | None = None, **given: Any) -> None: ...
+    def residual(self, u: Any, p: Any) -> Any: ...
+
+class _Columns:
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+    def __contains__(self, name: str) -> bool: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def keys(self) -> list[str]: ...
+
+class Branch(_Columns):
+    parameter: str
+    values: dict[str, Any]
+    stop: str
+    explanation: str
+    warning: str
+    complete: bool
+    seconds: float
+    derivatives: dict[str, str]
+    @property
+    def columns(self) -> list[str]: ...
+    @property
+    def unknowns(self) -> _Array: ...
+    @property
+    def parameters(self) -> _Array: ...
+    @property
+    def parameter_names(self) -> list[str]: ...
+    @property
+    def tangents(self) -> _Array: ...
+    @property
+    def eigenvalues(self) -> list[NDArray[np.complex128]]: ...
+    @property
+    def special(self) -> list[dict[str, Any]]: ...
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    @property
+    def work(self) -> dict[str, int]: ...
+    @property
+    def checkpoint(self) -> str | None: ...
+    def sample(self, n: int = 1000) -> Sample: ...
+    def where(self, value: float) -> Sample: ...
+    def curve(self) -> dict[str, _Array]: ...
+    def plot(self, ax: Any = None, x: str | None = None, y: str | None = None, **style: Any) -> Any: ...
+    def to_csv(self, folder: _Path) -> None: ...
+    def start_from(
+        self,
+        point: int | Mapping[str, Any],
+        forward: bool = True,
+        *,
+        progress: _Progress | None = None,
+        **options: Any,
+    ) -> Branch: ...
+    def switch(
+        self, point: int | Mapping[str, Any], *, progress: _Progress | None = None, **options: Any
+    ) -> list[Branch]: ...
+    def continue_in_two(
+        self,
+        point: int | Mapping[str, Any],
+        parameter: str,
+        range: tuple[float, float],
+        *,
+        window: tuple[float, float] | None = None,
+        observable: str = "",
+        progress: _Progress | None = None,
+        **options: Any,
+    ) -> Branch: ...
+    def resume(self, *, progress: _Progress | None = None, **options: Any) -> Branch: ...
+
+class Sample(_Columns):
+    columns: list[str]
+    unknowns: _Array
+    error: _Array
+
+class Run:
+    branches: list[Branch]
+    interrupted: bool
+    seconds: float
+    @property
+    def summary(self) -> dict[str, Any]: ...
+    def to_csv(self, folder: _Path) -> None: ...
+    def plot(self, ax: Any = None, x: str | None = None, y: str | None = None, **style: Any) -> Any: ...
+
+class Check:
+    text: str
+    good: bool
+    def __bool__(self) -> bool: ...
+
+class Study:
+    optimum: dict[str, NDArray[Any]]
+    sweep: dict[str, NDArray[Any]] | None
+    robust: dict[str, NDArray[Any]] | None
+    quantiles: dict[str, NDArray[Any]] | None
+    summary: dict[str, Any]
+    interrupted: bool
+    done: int
+    count: int
+    def to_csv(self, folder: _Path) -> None: ...

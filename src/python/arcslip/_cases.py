@@ -1,0 +1,279 @@
+"""Case files: what the commands run, study and check of the program do."""
+
+import csv
+import json
+import os
+import shutil
+import tempfile
+import warnings
+
+import numpy as np
+
+from . import _core, _plot
+from ._branch import Branch
+from ._toml import to_toml
+
+
+def _open(case, settings):
+    if isinstance(settings, str):
+        settings = [settings]
+    settings = [str(setting) for setting in settings]
+    if isinstance(case, dict):
+        return _core.open_case("<dict>", to_toml(case), settings)
+    if isinstance(case, str) and "\n" in case:
+        return _core.open_case("<text>", case, settings)
+    if not isinstance(case, (str, os.PathLike)):
+        raise TypeError(f"case: expected a path, TOML text or a dict, got {case!r}")
+    return _core.open_case(os.fsdecode(case), None, settings)
+
+
+def run(case, out=None, set=(), *, certify=False, progress=None):
+    """Trace the branches that a case asks for.
+
+    Parameters
+    ----------
+    case : str, path or dict
+        A case file's path, its text (of two lines or more), or the same as a dict of sections.
+    out : path, optional
+        A folder for the files of `arcslip run`: branches.csv, curves.csv and summary.json, written as the
+        branches come.
+    set : sequence of str
+        Values in place of those of the case, "section.key=value", as `--set` takes them.
+    certify : bool
+        Prove each branch by interval arithmetic; what was proven is in the summary.
+    progress : callable, optional
+        Called up to twenty times a second with four numbers: the branch, how many there are, its points so far,
+        and its arclength.
+
+    Returns
+    -------
+    Run
+        The branches with their summary. Ctrl-C ends the work with what was traced: `interrupted` is true then.
+
+    Raises
+    ------
+    ValueError
+        The case is wrong: the line that the program says, which names file, line, column and key.
+    OSError
+        A file cannot be written.
+    """
+    core = _core.run(_open(case, set), None if out is None else os.fsdecode(out), certify, progress)
+    result = Run(core)
+    for failure in core.failures:
+        warnings.warn(failure, RuntimeWarning, stacklevel=2)
+    if core.interrupted:
+        warnings.warn("interrupted: what was traced is returned", RuntimeWarning, stacklevel=2)
+    return result
+
+
+class Run:
+    """What `run` has traced.
+
+    Attributes
+    ----------
+    branches : list of Branch
+        In the order of branches.csv.
+    interrupted : bool
+        Whether Ctrl-C ended the work before its end.
+    seconds : float
+        Wall clock.
+    """
+
+    def __init__(self, core):
+        self._core = core
+        self.branches = [Branch(branch, number=i) for i, branch in enumerate(core.branches)]
+        self.interrupted = core.interrupted
+        self.seconds = core.seconds
+        self._summary = None
+
+    @property
+    def summary(self):
+        """What summary.json holds, as a dict."""
+        if self._summary is None:
+            self._summary = json.loads(self._core.summary())
+        return self._summary
+
+    def to_csv(self, folder):
+        """Write branches.csv, curves.csv and summary.json into a folder, as the program does.
+
+        Parameters
+        ----------
+        folder : path
+            Made if it is not there.
+        """
+        self._core.write(os.fsdecode(folder))
+
+    def plot(self, ax=None, x=None, y=None, **style):
+        """Draw all branches.
+
+        Parameters
+        ----------
+        ax, x, y, **style
+            As `Branch.plot` takes them.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        own = ax is None
+        ax = _plot.new_axes() if own else ax
+        for branch in self.branches:
+            label = ", ".join(f"{key} = {value}" for key, value in branch.values.items())
+            branch.plot(ax, x, y, **{"label": label or None, **style})
+        if own:
+            _plot.settle(ax)
+        return ax
+
+    def __repr__(self):
+        return f"<arcslip.Run: {len(self.branches)} branches, {sum(map(len, self.branches))} points>"
+
+
+def check(case, set=(), *, derivatives=False):
+    """Read and validate a case without running it.
+
+    Parameters
+    ----------
+    case, set
+        As `run` takes them.
+    derivatives : bool
+        Trace the branches and compare the problem's derivatives with differences.
+
+    Returns
+    -------
+    Check
+
+    Raises
+    ------
+    ValueError
+        The case is wrong, in the words of the program.
+    """
+    return Check(*_core.check(_open(case, set), derivatives))
+
+
+class Check:
+    """What would run.
+
+    Attributes
+    ----------
+    text : str
+        The lines that `arcslip check` prints.
+    good : bool
+        Whether all derivatives that were compared are exact.
+    """
+
+    def __init__(self, text, good):
+        self.text = text
+        self.good = good
+
+    def __bool__(self):
+        return self.good
+
+    def __str__(self):
+        return self.text
+
+    def __repr__(self):
+        return self.text
+
+
+def study(case, out=None, set=(), *, jobs=0, resume=False, progress=None):
+    """Find the best preload of each design that a case asks for.
+
+    Parameters
+    ----------
+    case, out, set
+        As `run` takes them. A study that is to be resumed needs its folder, `out`.
+    jobs : int
+        Threads; 0: one for each core.
+    resume : bool
+        Go on with the study in the folder, if there is one.
+    progress : callable, optional
+        Called with two numbers: designs done, and how many there are.
+
+    Returns
+    -------
+    Study
+        Ctrl-C ends the work: `interrupted` is true then and there are no tables; with `out`, `resume=True` goes on.
+
+    Raises
+    ------
+    ValueError, OSError
+        As `run`.
+    """
+    file = _open(case, set)
+    folder = tempfile.mkdtemp(prefix="arcslip-") if out is None else os.fsdecode(out)
+    try:
+        outcome = _core.study(file, folder, jobs, resume, progress)
+        result = Study(outcome, folder)
+    finally:
+        if out is None:
+            shutil.rmtree(folder, ignore_errors=True)
+    for text in [*outcome.failures, *outcome.warnings]:
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
+    if outcome.interrupted:
+        warnings.warn(f"interrupted: {outcome.done} of {outcome.count} designs are done", RuntimeWarning, stacklevel=2)
+    return result
+
+
+class Study:
+    """What `study` has found. The tables are dicts of columns, each an array of one entry for each row.
+
+    Attributes
+    ----------
+    optimum : dict of numpy.ndarray
+        One row for each design: optimum.csv.
+    sweep, robust, quantiles : dict of numpy.ndarray or None
+        The tables of the same names, where the case asks for them.
+    summary : dict
+        summary.json; empty of a study that was interrupted.
+    interrupted : bool
+    done, count : int
+        Designs that are done, and all of them.
+    """
+
+    def __init__(self, outcome, folder):
+        self.interrupted = outcome.interrupted
+        self.done = outcome.done
+        self.count = outcome.count
+        self._files = {}
+        if outcome.done == outcome.count:
+            for name in ["optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv", "summary.json"]:
+                path = os.path.join(folder, name)
+                if os.path.exists(path):
+                    with open(path, encoding="utf-8", newline="") as file:
+                        self._files[name] = file.read()
+        self.summary = json.loads(self._files.get("summary.json", "{}"))
+        self.optimum = self._table("optimum.csv") or {}
+        self.sweep = self._table("sweep.csv")
+        self.robust = self._table("robust.csv")
+        self.quantiles = self._table("quantiles.csv")
+
+    def _table(self, name):
+        if name not in self._files:
+            return None
+        header, *rows = csv.reader(self._files[name].splitlines())
+        return {column: _column([row[i] for row in rows]) for i, column in enumerate(header)}
+
+    def to_csv(self, folder):
+        """Write the tables and summary.json.
+
+        Parameters
+        ----------
+        folder : path
+            Where to; made if it is not there.
+        """
+        os.makedirs(folder, exist_ok=True)
+        for name, text in self._files.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8", newline="") as file:
+                file.write(text)
+
+    def __repr__(self):
+        return f"<arcslip.Study: {self.done} of {self.count} designs>"
+
+
+def _column(texts):
+    for kind in (int, float):
+        try:
+            return np.array([kind(text) for text in texts])
+        except ValueError:
+            continue
+    return np.array(texts)

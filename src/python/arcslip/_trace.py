@@ -1,0 +1,218 @@
+"""Problems written in Python, traced."""
+
+import warnings
+
+from . import _core
+from ._branch import Branch
+from ._problem import Prepared, Problem
+
+_LIMITS = {"max_points", "max_seconds", "interrupted"}
+
+
+def trace(
+    problem,
+    u0,
+    p0,
+    parameter=None,
+    range=(0.0, 1.0),
+    *,
+    regime=0,
+    check=True,
+    checkpoint=None,
+    progress=None,
+    stop_at=(),
+    extrema_of=(),
+    events=None,
+    stop_after=None,
+    tolerance=1e-10,
+    max_step=0.1,
+    min_step=1e-10,
+    max_points=100000,
+    max_seconds=float("inf"),
+    bound=1e12,
+    **functions,
+):
+    """Trace the branch of F(u, p) = 0 that lies next to a guess.
+
+    Parameters
+    ----------
+    problem : callable or Problem
+        f(u, p) -> array of shape (n,), or a `Problem`.
+    u0 : array of shape (n,), or a number
+        A guess of the unknowns at p0.
+    p0 : float, dict or array
+        The parameters' values; functions get them in the same form.
+    parameter : str
+        The one to continue; needed where there are several and none is "lambda".
+    range : (float, float)
+        Its first and last value. The branch starts at p0: at one end of the range towards the other, inside both ways.
+    regime : int or tuple
+        Of a problem that is smooth in pieces, that in which u0 lies.
+    check : bool
+        Compare derivatives that are given with differences, at the start.
+    checkpoint : str, optional
+        Of a branch of this problem that was left; the branch has the points that follow.
+    progress : callable, optional
+        Called up to twenty times a second with four numbers: 0, 1, points so far, arclength.
+    stop_at : sequence of float
+        Values of the parameter to put a point on.
+    extrema_of : sequence of str
+        Observables, or unknowns by name, whose extrema become peaks and troughs.
+    events : dict, optional
+        Functions (u, p) -> number by name, whose zeros along the branch become points of type "event".
+    stop_after : dict, optional
+        {"fold": 2} ends the branch at its second fold; names of types or of events.
+    tolerance : float
+        On the largest entry of F and on the correction that is left.
+    max_step, min_step : float
+        Of a step, in scaled arclength.
+    max_points : int
+    max_seconds : float
+        Wall clock, s.
+    bound : float
+        The largest |unknown| before the branch is given up.
+    **functions
+        Parts of a `Problem` beside f: `jacobian`, `parameter_jacobian`, `observables`, `equilibrium`, ...
+
+    Returns
+    -------
+    Branch
+        With what was traced, also after Ctrl-C; its `stop` says why it ended.
+
+    Raises
+    ------
+    ValueError
+        f or what belongs to it gives a wrong shape, nan at the start, or a derivative that is not that of f.
+    Exception
+        Whatever the functions raise, with its traceback.
+    """
+    options = {
+        "stop_at": stop_at,
+        "extrema_of": extrema_of,
+        "events": events or {},
+        "stop_after": stop_after or {},
+        "tolerance": tolerance,
+        "max_step": max_step,
+        "min_step": min_step,
+        "max_points": max_points,
+        "max_seconds": max_seconds,
+        "bound": bound,
+    }
+    prepared = Prepared(_problem(problem, functions), u0, p0, parameter, regime)
+    options["parameter"] = prepared.parameter
+    how, options["range"] = _way(prepared, range)
+    if checkpoint is not None:
+        core = _core.trace_on(prepared.core, checkpoint, options, progress)
+    else:
+        (core,) = _traced(prepared, how, None, check, options, progress)
+    return _told(Branch(core, derivatives=prepared.derivatives))
+
+
+def trace_all(
+    problem, u0, p0, parameter=None, range=(0.0, 1.0), *, follow="connected", box=None, regime=0, check=True,
+    progress=None, functions=None, **options
+):
+    """Trace several branches of F(u, p) = 0.
+
+    Parameters
+    ----------
+    problem, u0, p0, parameter, range, regime, check, progress
+        As `trace` takes them.
+    follow : {"connected", "deflation"}
+        The branch next to u0 and all that it meets, through branch points and corners; or the branches through all
+        solutions at p0 that deflation finds.
+    box : (array, array), optional
+        Lowest and highest unknowns, shape (n,): where deflation looks beside u0.
+    functions : dict, optional
+        Parts of a `Problem` beside f.
+    **options
+        Limits and what is looked for, as `trace` takes them.
+
+    Returns
+    -------
+    list of Branch
+        In the order found.
+    """
+    if follow not in ("connected", "deflation"):
+        raise ValueError(f'follow: expected "connected" or "deflation", got {follow!r}')
+    prepared = Prepared(_problem(problem, functions or {}), u0, p0, parameter, regime)
+    options["parameter"] = prepared.parameter
+    if follow == "connected":
+        value = prepared.p0[prepared.names.index(prepared.parameter)]
+        if value not in range:
+            raise ValueError(f"p0: {prepared.parameter} = {value:g}; connected branches start at an end of {range}")
+        _, options["range"] = _way(prepared, range)
+    else:
+        options["range"] = range
+    cores = _traced(prepared, follow, box, check, options, progress)
+    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
+def solve_all(problem, u0, p0, *, box=None, starts=100, regime=0, parameter=None, **functions):
+    """All solutions at fixed parameters that deflated Newton iterations find.
+
+    Parameters
+    ----------
+    problem, p0, regime, parameter
+        As `trace` takes them; the last one only names a single number p0.
+    u0 : array of shape (n,), or a list of such
+        Guesses.
+    box : (array, array), optional
+        Lowest and highest unknowns, shape (n,), between which `starts` further guesses are taken.
+    starts : int
+        How many.
+    **functions
+        Parts of a `Problem` beside f.
+
+    Returns
+    -------
+    list of numpy.ndarray
+        Each of shape (n,), in the order found.
+    """
+    guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
+    problem = _problem(problem, functions)
+    names = list(p0) if isinstance(p0, dict) else list(problem.parameters)
+    prepared = Prepared(problem, guesses[0], p0, parameter or (names[0] if names else None), regime)
+    lower, upper = box if box is not None else (None, None)
+    return _core.solve_all(prepared.core, guesses, prepared.p0, regime, lower, upper, starts)
+
+
+def _is_number(value):
+    return isinstance(value, (int, float))
+
+
+def _problem(problem, functions):
+    if isinstance(problem, Problem):
+        if functions:
+            raise TypeError(f"'{next(iter(functions))}': a Problem has its own, or the option is unknown")
+        return problem
+    if not callable(problem):
+        raise TypeError(f"problem: expected a function f(u, p) or a Problem, got {problem!r}")
+    return Problem(problem, **functions)
+
+
+def _way(prepared, given):
+    first, last = (float(value) for value in given)
+    value = prepared.p0[prepared.names.index(prepared.parameter)]
+    if value == first:
+        return "one", (first, last)
+    if value == last:
+        return "one", (last, first)
+    if min(first, last) < value < max(first, last):
+        return "both", (first, last)
+    raise ValueError(f"p0: {prepared.parameter} = {value:g}; expected a value from {first:g} to {last:g}, as range says")
+
+
+def _traced(prepared, how, box, check, options, progress):
+    lower, upper = box if box is not None else (None, None)
+    return _core.trace(
+        prepared.core, prepared.u0, prepared.p0, prepared.regime, how, lower, upper, check, options, progress
+    )
+
+
+def _told(branch):
+    if branch.stop == "interrupted":
+        warnings.warn("interrupted: what was traced is returned", RuntimeWarning, stacklevel=3)
+    elif branch.warning or not (branch.complete or branch.stop in _LIMITS or branch.stop == "left_regime"):
+        warnings.warn(f"{branch.stop}: {branch.explanation}", RuntimeWarning, stacklevel=3)
+    return branch

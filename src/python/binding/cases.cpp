@@ -1,0 +1,150 @@
+#include "python/binding/cases.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <thread>
+
+#include "arcslip/cases/case_file.hpp"
+#include "arcslip/cases/certification.hpp"
+#include "arcslip/version.hpp"
+#include "python/binding/run.hpp"
+#include "results/case_check.hpp"
+#include "results/output.hpp"
+#include "results/output_folder.hpp"
+#include "results/study_results.hpp"
+#include "results/study_run.hpp"
+
+namespace arcslip::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+CaseFile open_case(const std::string& name, const std::optional<std::string>& text,
+                   const std::vector<std::string>& settings) {
+  const py::gil_scoped_release unlocked;
+  return text ? CaseFile::of_text(name, *text, settings) : CaseFile(name, settings);
+}
+
+/// What a study leaves beside its files.
+struct StudyOutcome {
+  bool interrupted = false;
+  std::size_t done = 0;
+  std::size_t count = 0;
+  std::vector<std::string> failures;
+  std::vector<std::string> warnings;
+};
+
+struct StudyOptions {
+  std::string folder;
+  std::size_t jobs = 0;  ///< 0: one for each core
+  bool resume = false;
+};
+
+/// Without the lock.
+StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Interruption& interruption) {
+  const StudyCase study = read_study(file);
+  file.named("system", [&] { build(study.design(0).problem()); });
+  const Clock::time_point start = Clock::now();
+  const OutputFolder held(options.folder);
+  StudyStore store(options.folder, study, options.resume);
+  PendingDesigns pending(store.finished());
+  const std::size_t before = study.count - pending.left();
+  StudyWork work;
+  {
+    const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+    StudyWorkers workers(study, options.jobs > 0 ? options.jobs : cores);
+    compute(
+        workers, pending,
+        [&](const FinishedDesign& design) {
+          store.add(design.curve, design.values, design.result, design.scatter());
+          ++work.computed;
+        },
+        [&] {
+          return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.count); });
+        });
+  }
+  work.seconds = seconds_since(start);
+  StudyOutcome outcome{interruption.is_stopped(), before + work.computed, study.count, {}, {}};
+  if (outcome.done < study.count) {
+    store.tidy();
+    return outcome;
+  }
+  work.checks = check_best_preloads(study, store, [&] { return interruption.go_on(); });
+  write_results(options.folder, study, store, work);
+  store.tidy();
+  outcome.interrupted = interruption.is_stopped();
+  outcome.warnings = warnings_of(work.checks);
+  store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
+    outcome.failures.push_back(fmt::format("design {}: {}", design.curve, design.failure));
+    return true;
+  });
+  return outcome;
+}
+
+StudyOutcome run_study(const CaseFile& file, const std::string& folder, std::size_t jobs, bool resume,
+                       const py::object& progress) {
+  Interruption interruption(progress);
+  StudyOutcome outcome;
+  {
+    const py::gil_scoped_release unlocked;
+    outcome = study_case(file, {folder, jobs, resume}, interruption);
+  }
+  interruption.rethrow();
+  return outcome;
+}
+
+py::tuple check(const CaseFile& file, bool derivatives) {
+  CaseCheck found;
+  {
+    const py::gil_scoped_release unlocked;
+    found = check_case(file, derivatives);
+  }
+  return py::make_tuple(found.text, found.good);
+}
+
+py::object run_case(const CaseFile& file, const std::optional<std::string>& folder, bool certify,
+                    const py::object& progress) {
+  Interruption interruption(progress);
+  std::unique_ptr<CaseRun> run;
+  {
+    const py::gil_scoped_release unlocked;
+    run = std::make_unique<CaseRun>(file, certify);
+    run->trace(folder, interruption);
+  }
+  interruption.rethrow();
+  return py::cast(std::move(run));
+}
+
+}  // namespace
+
+void bind_cases(py::module_& module) {
+  module.attr("version") = release;
+  py::register_local_exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::register_local_exception<OutputError>(module, "OutputError", PyExc_OSError);
+  const py::class_<CaseFile> opaque(module, "Case");
+  module.def("open_case", open_case, py::arg("name"), py::arg("text"), py::arg("settings"));
+  module.def("check", check);
+  module.def("run", run_case);
+  module.def("study", run_study);
+  py::class_<StudyOutcome>(module, "StudyOutcome")
+      .def_readonly("interrupted", &StudyOutcome::interrupted)
+      .def_readonly("done", &StudyOutcome::done)
+      .def_readonly("count", &StudyOutcome::count)
+      .def_readonly("failures", &StudyOutcome::failures)
+      .def_readonly("warnings", &StudyOutcome::warnings);
+  py::class_<CaseRun>(module, "Run")
+      .def_property_readonly("branches", &CaseRun::branches)
+      .def_property_readonly("failures", &CaseRun::failures)
+      .def_property_readonly("interrupted", &CaseRun::interrupted)
+      .def_property_readonly("title", &CaseRun::title)
+      .def_property_readonly("seconds", &CaseRun::seconds)
+      .def("summary", &CaseRun::summary, py::call_guard<py::gil_scoped_release>())
+      .def("write", &CaseRun::write, py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace arcslip::python

@@ -1,0 +1,12 @@
+// The extension module arcslip._core, of which the package in src/python/arcslip is the face.
+
+#include "python/binding/branch.hpp"
+#include "python/binding/cases.hpp"
+#include "python/binding/trace.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The C++ side of arcslip.";
+  arcslip::python::bind_branch(module);
+  arcslip::python::bind_cases(module);
+  arcslip::python::bind_trace(module);
+}

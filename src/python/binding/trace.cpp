@@ -1,0 +1,346 @@
+#include "python/binding/trace.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <sstream>
+
+#include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/switching.hpp"
+#include "python/binding/trace_options.hpp"
+
+namespace arcslip::python {
+namespace {
+
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::Guess;
+using continuation::TraceOptions;
+using Handles = std::vector<std::shared_ptr<BranchHandle>>;
+
+/// What stands for the library's model where a problem is written in Python.
+const problems::LibraryModel written_in_python{"python", "written in Python", {}, {}, {}};
+
+/// Work of the engine without the lock; `observer` of it is told of each point.
+template <class Work>
+auto unlocked(TraceOptions& options, const py::object& progress, const Work& work) {
+  Interruption interruption(progress);
+  const PythonProblem::Listener listener(interruption);
+  options.go_on = [&] { return interruption.go_on(); };
+  std::size_t points = 0;
+  const continuation::Observer observer = [&](const BranchPoint& point) {
+    ++points;
+    return interruption.go_on([&] { return py::make_tuple(0, 1, points, point.arclength); });
+  };
+  auto result = [&] {
+    try {
+      const py::gil_scoped_release released;
+      return work(observer);
+    } catch (...) {
+      interruption.rethrow();  // what came first
+      throw;
+    }
+  }();
+  options.go_on = {};
+  interruption.rethrow();
+  return result;
+}
+
+TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem, const TraceOptions& options,
+                       Branch branch) {
+  auto request = std::make_shared<CaseBranch>();
+  request->values = nlohmann::ordered_json::object();
+  request->problem.model = &written_in_python;
+  request->options = options;
+  request->options.go_on = {};
+  TracedBranch traced;
+  traced.request = request;
+  traced.base.problem = problem;
+  traced.branch = std::move(branch);
+  return traced;
+}
+
+/// A further branch of the same problem.
+TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch) {
+  TracedBranch traced = handle.traced();
+  auto request = std::make_shared<CaseBranch>(*traced.request);
+  request->options = options;
+  request->options.go_on = {};
+  request->curve.reset();
+  traced.request = request;
+  traced.branch = std::move(branch);
+  traced.certificate.reset();
+  traced.told.reset();
+  traced.curve.reset();
+  return traced;
+}
+
+Guess guess_of(const PythonProblem& problem, const py::handle& u, const py::handle& p,
+               const py::handle& regime) {
+  Guess guess;
+  guess.unknowns.resize(problem.size());
+  take(u, "u0", guess.unknowns);
+  guess.parameters.resize(std::ssize(problem.traits().parameters));
+  take(p, "p0", guess.parameters);
+  guess.regime = problem.to_regime(regime);
+  return guess;
+}
+
+/// What a given derivative is that is not that of its function.
+void require_exact(const PythonProblem& problem, const Guess& guess, const TraceOptions& options) {
+  Interruption interruption;
+  const PythonProblem::Listener listener(interruption);
+  const Index parameter = continuation::index_of(problem.parameter_names(), options.parameter);
+  const auto wrong = problem.wrong_derivative(guess.unknowns, guess.parameters, guess.regime, parameter, {});
+  interruption.rethrow();
+  if (wrong) throw py::value_error(*wrong);
+}
+
+std::vector<Branch> traced_by(const std::string& how, const PythonProblem& problem, const Guess& guess,
+                              const std::pair<Vector, Vector>& box, const TraceOptions& options,
+                              const continuation::Observer& observer) {
+  if (how == "connected") return continuation::trace_connected(problem, guess, options, {}, observer);
+  if (how == "both") return {continuation::trace_both(problem, guess, options, observer)};
+  if (how == "one") return {continuation::trace(problem, guess, options, observer)};
+  continuation::SolveAllOptions seeking;
+  seeking.lower = box.first;
+  seeking.upper = box.second;
+  seeking.go_on = options.go_on;
+  return continuation::trace_through(problem, continuation::solve_all(problem, {guess}, seeking), options,
+                                     observer);
+}
+
+Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u, const py::handle& p,
+              const py::handle& regime, const std::string& how, const std::pair<Vector, Vector>& box,
+              bool check, const py::dict& given, const py::object& progress) {
+  TraceOptions options;
+  set_options(given, problem, options);
+  const Guess guess = guess_of(*problem, u, p, regime);
+  if (check) require_exact(*problem, guess, options);
+  const auto begun = std::chrono::steady_clock::now();
+  const std::vector<Branch> branches = unlocked(options, progress, [&](const auto& observer) {
+    return traced_by(how, *problem, guess, box, options, observer);
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
+  Handles handles;
+  for (const Branch& branch : branches) {
+    TracedBranch traced = traced_of(problem, options, branch);
+    traced.seconds = seconds.count() / static_cast<double>(branches.size());
+    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
+  }
+  return handles;
+}
+
+py::list solve_all(const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
+                   const py::handle& p, const py::handle& regime, const std::pair<Vector, Vector>& box,
+                   int count) {
+  std::vector<Guess> guesses;
+  guesses.reserve(starts.size());
+  for (const py::object& start : starts) guesses.push_back(guess_of(*problem, start, p, regime));
+  continuation::SolveAllOptions seeking;
+  seeking.lower = box.first;
+  seeking.upper = box.second;
+  seeking.starts = count;
+  TraceOptions options;
+  const std::vector<Guess> found = unlocked(options, py::none(), [&](const auto&) {
+    seeking.go_on = options.go_on;
+    return continuation::solve_all(*problem, guesses, seeking);
+  });
+  py::list all;
+  for (const Guess& solution : found) all.append(give(solution.unknowns));
+  return all;
+}
+
+/// The options of a branch with those that are given.
+TraceOptions options_of(const BranchHandle& handle, const py::dict& given) {
+  TraceOptions options = handle.traced().request->options;
+  set_options(given, handle.problem(), options);
+  return options;
+}
+
+void require_branch(const BranchHandle& handle, const char* what) {
+  if (handle.curve()) throw py::value_error(fmt::format("{}: not from a curve in two parameters", what));
+}
+
+Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& guesses, TraceOptions& options,
+                      const py::object& progress) {
+  Handles handles;
+  for (const Guess& guess : guesses) {
+    Branch branch = unlocked(options, progress, [&](const auto& observer) {
+      return continuation::trace(*handle.traced().base.problem, guess, options, observer);
+    });
+    handles.push_back(
+        std::make_shared<BranchHandle>(beside(handle, options, std::move(branch)), handle.problem()));
+  }
+  return handles;
+}
+
+Handles start_from(const BranchHandle& handle, std::size_t point, bool forward, const py::dict& given,
+                   const py::object& progress) {
+  require_branch(handle, "start_from");
+  TraceOptions options = options_of(handle, given);
+  Guess guess = continuation::restart(handle.point(point), forward);
+  const bool same = options.parameter == handle.traced().request->options.parameter;
+  if (!same) {  // the tangent is that of another parameter
+    guess.direction.resize(0);
+    options.from = guess.parameters(
+        continuation::index_of(handle.traced().base.problem->parameter_names(), options.parameter));
+    if (handle.problem()) handle.problem()->activate(options.parameter);
+  }
+  return trace_guesses(handle, {guess}, options, progress);
+}
+
+Handles switch_at(const BranchHandle& handle, std::size_t point, const py::dict& given,
+                  const py::object& progress) {
+  require_branch(handle, "switch");
+  TraceOptions options = options_of(handle, given);
+  const std::vector<Guess> ways = handle.heard([&] {
+    return continuation::other_ways(*handle.traced().base.problem, options.parameter, handle.point(point));
+  });
+  return trace_guesses(handle, ways, options, progress);
+}
+
+std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::size_t point,
+                                            const std::string& observable,
+                                            const std::optional<std::pair<double, double>>& window,
+                                            const py::dict& given, const py::object& progress) {
+  require_branch(handle, "curve");
+  const continuation::Problem& base = *handle.traced().base.problem;
+  const std::string active = handle.traced().request->options.parameter;
+  TraceOptions options = options_of(handle, {});
+  options.extrema_of.clear();
+  options.events.clear();
+  options.stop_after.clear();
+  options.stop_at.clear();
+  set_options(given, handle.problem(), options);
+  if (options.parameter == active)
+    throw py::value_error("parameter: it is that of the branch; expected another");
+  continuation::index_of(base.parameter_names(), options.parameter);
+  if (handle.problem()) handle.problem()->activate(options.parameter);
+  if (options.extrema_of.empty()) options.extrema_of = {observable.empty() ? active : observable};
+  const continuation::CurveWindow bounds =
+      window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
+  std::shared_ptr<continuation::ExtendedProblem> curve;
+  Branch branch = unlocked(options, progress, [&](const auto& observer) {
+    auto start = continuation::curve_through(base, active, handle.point(point), observable);
+    curve = std::move(start.problem);
+    return continuation::trace_curve(*curve, start.point, options, bounds, observer);
+  });
+  TracedBranch traced = beside(handle, options, std::move(branch));
+  traced.curve = curve;
+  return std::make_shared<BranchHandle>(std::move(traced), handle.problem());
+}
+
+/// A branch with the points that follow it; those with negative arclength lie before it.
+Branch joined(const Branch& before, Branch after) {
+  Branch whole = before;
+  const auto is_before = [](const BranchPoint& point) { return point.arclength < 0; };
+  const auto middle = std::find_if_not(after.points.begin(), after.points.end(), is_before);
+  whole.points.insert(whole.points.begin(), after.points.begin(), middle);
+  whole.points.insert(whole.points.end(), middle, after.points.end());
+  whole.stop = after.stop;
+  whole.explanation = after.explanation;
+  if (after.first_stop) whole.first_stop = after.first_stop;
+  whole.work = before.work + after.work;
+  whole.checkpoint = std::move(after.checkpoint);
+  return whole;
+}
+
+std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict& given,
+                                     const py::object& progress) {
+  TraceOptions options = options_of(handle, given);
+  if (!handle.branch().checkpoint)
+    throw py::value_error("resume: the branch has come to its end; there is nothing further");
+  const CurveUse alone(handle.curve_flag());
+  Branch after = unlocked(options, progress, [&](const auto& observer) {
+    const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
+    return handle.curve()
+               ? continuation::resume(*handle.curve(), checkpoint, options, observer)
+               : continuation::resume(*handle.traced().base.problem, checkpoint, options, observer);
+  });
+  TracedBranch traced = beside(handle, options, joined(handle.branch(), std::move(after)));
+  traced.curve = handle.traced().curve;
+  return std::make_shared<BranchHandle>(std::move(traced), handle);
+}
+
+/// From a text that was kept: the points that follow.
+std::shared_ptr<BranchHandle> trace_on(const std::shared_ptr<PythonProblem>& problem, const std::string& text,
+                                       const py::dict& given, const py::object& progress) {
+  TraceOptions options;
+  set_options(given, problem, options);
+  std::istringstream in(text);
+  const continuation::Checkpoint checkpoint = [&] {
+    try {
+      return continuation::read_checkpoint(in);
+    } catch (const std::runtime_error& error) {
+      throw py::value_error(fmt::format("checkpoint: {}", error.what()));
+    }
+  }();
+  Branch branch = unlocked(options, progress, [&](const auto& observer) {
+    return continuation::resume(*problem, checkpoint, options, observer);
+  });
+  return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem);
+}
+
+Step step_named(const std::string& name) {
+  if (name == "given") return Step::none;
+  if (name == "complex step") return Step::complex;
+  return Step::central;
+}
+
+std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py::dict& traits,
+                                            const py::object& u, const py::object& p) {
+  const auto function = [&](const char* name) { return functions[name].cast<py::object>(); };
+  PythonTraits made;
+  made.size = traits["size"].cast<Index>();
+  made.parameters = traits["parameters"].cast<std::vector<std::string>>();
+  made.form = traits["form"].cast<std::string>();
+  made.unknowns = traits["unknowns"].cast<std::vector<std::string>>();
+  made.observables = traits["observables"].cast<std::vector<std::string>>();
+  made.active = traits["active"].cast<std::vector<std::string>>();
+  made.sparse = traits["sparse"].cast<bool>();
+  made.is_equilibrium = traits["equilibrium"].cast<bool>();
+  made.switches = traits["switches"].cast<Index>();
+  made.unknown_scale = take_all(traits["unknown_scale"], "unknown_scale");
+  made.parameter_scale = take_all(traits["parameter_scale"], "parameter_scale");
+  made.by_unknowns = step_named(traits["jacobian"].cast<std::string>());
+  made.by_parameters = step_named(traits["parameter_jacobian"].cast<std::string>());
+  made.of_observables = step_named(traits["of_observables"].cast<std::string>());
+  made.of_borders = step_named(traits["of_borders"].cast<std::string>());
+  return std::make_shared<PythonProblem>(
+      PythonFunctions{function("residual"), function("jacobian"), function("parameter_jacobian"),
+                      function("observables"), function("eigenvalues"), function("borders"),
+                      function("beyond")},
+      std::move(made), take_all(u, "u0"), take_all(p, "p0"));
+}
+
+}  // namespace
+
+void bind_trace(py::module_& module) {
+  py::class_<PythonProblem, std::shared_ptr<PythonProblem>>(module, "Problem").def(py::init(&make_problem));
+  module.def("trace",
+             [](const std::shared_ptr<PythonProblem>& problem, const py::object& u, const py::object& p,
+                const py::object& regime, const std::string& how, const py::object& lower,
+                const py::object& upper, bool check, const py::dict& options, const py::object& progress) {
+               std::pair<Vector, Vector> box;
+               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
+               return trace(problem, u, p, regime, how, box, check, options, progress);
+             });
+  module.def("solve_all",
+             [](const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
+                const py::object& p, const py::object& regime, const py::object& lower,
+                const py::object& upper, int count) {
+               std::pair<Vector, Vector> box;
+               if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
+               return solve_all(problem, starts, p, regime, box, count);
+             });
+  module.def("start_from", start_from);
+  module.def("switch_at", switch_at);
+  module.def("curve_through", curve_through);
+  module.def("resume", resume);
+  module.def("trace_on", trace_on);
+}
+
+}  // namespace arcslip::python
