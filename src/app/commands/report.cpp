@@ -23,7 +23,8 @@ int report(const std::string& folder) {
     complain(fmt::format(
         "arcslip report: {}: plotly.js, which draws the pictures, was not found; put plotly-basic.min.js of "
         "the "
-        "npm package plotly.js-basic-dist-min there, or build where there is npm, or with -DARCSLIP_PLOTLY=FILE",
+        "npm package plotly.js-basic-dist-min there, or build where there is npm, or with "
+        "-DARCSLIP_PLOTLY=FILE",
         missing.path));
     return status::cannot_write;
   }
