@@ -379,6 +379,10 @@ TEST_CASE("All tasks compose with stops in five harmonics", "[composition][numbe
 TEST_CASE("All tasks compose with cubic springs in five harmonics", "[composition][numbers]") {
   check_kind("cubic, five harmonics");
 }
+TEST_CASE("All tasks compose with a load of five harmonics", "[composition][numbers]") {
+  check_kind("`[excitation]`, five harmonics");
+}
+TEST_CASE("All tasks compose with masses on springs", "[composition]") { check_kind("masses on springs"); }
 TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
 TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers]") {
   check_kind("three contacts");

@@ -79,6 +79,15 @@ inline std::string sector(const std::string& contacts, const std::string& more) 
 inline const std::string stops =
     "[[element]]\nkind = \"clearance\"\nat = \"base\"\nstiffness = 20.0\ngap = 0.1\n";
 
+/// A load with harmonics of its own.
+inline const std::string arcs = "[excitation]\nkind = \"arcs\"\nwidth = 0.3\n";
+
+/// Two masses on springs and a damper of one.
+inline const std::string masses =
+    "[system]\nmodel = \"spring_mass\"\ndamping = { base = 1e-2, damper = 2e-2 }\n"
+    "base = { mass = [3.0, 2.0], stiffness = [5.0, 4.0] }\ndamper = { mass = [1.0], stiffness = [0.5] }\n"
+    "damping_kind = \"viscous\"\ncontact_stiffness = 2.0\nforce = 1.0\npreload = 0.3\n";
+
 inline std::vector<Kind> kinds() {
   return {{"plain", rods(""), 0.5, 5, 1.6, -5e-2},
           {"five harmonics", rods("harmonics = 9"), 0.5, 5, 1.6, -5e-2},
@@ -90,6 +99,8 @@ inline std::vector<Kind> kinds() {
           {"growing preload", rods("preload_growth = 0.05"), 0.5, 5, 1.6, -5e-2},
           {"stops of `[[element]]`, five harmonics", rods("harmonics = 9\n" + stops), 0.5, 5, 1.6, -5e-2},
           {"cubic, five harmonics", rods("cubic_stiffness = 0.5\nharmonics = 9"), 0.5, 5, 1.6, -5e-2},
+          {"`[excitation]`, five harmonics", rods("harmonics = 9\n" + arcs), 0.5, 5, 1.6, -5e-2},
+          {"masses on springs", masses, 0.3, 4, 0.9, -5e-2},
           {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
