@@ -13,10 +13,11 @@
 
 namespace arcslip {
 
+/// A course that a load may have.
 struct ExcitationKind {
-  std::string name;
-  std::string meaning;  ///< one line
-  std::vector<Setting> settings;
+  std::string name;               ///< what case files call it
+  std::string meaning;            ///< one line
+  std::vector<Setting> settings;  ///< its numbers
   /// Amplitude of harmonic h, odd, over that of the first, which the force is; negative in antiphase.
   std::function<double(const std::vector<double>& settings, int h)> share;
 };

@@ -15,10 +15,10 @@ namespace arcslip {
 
 /// How damping goes with zeta_B and zeta_D.
 struct PairLosses {
-  Loss base_per_zeta = {};
-  Loss base_fixed = {};  ///< what is there besides
-  Loss damper_per_zeta = {};
-  Loss damper_fixed = {};
+  Loss base_per_zeta = {};    ///< of the base, over zeta_B
+  Loss base_fixed = {};       ///< what is there besides
+  Loss damper_per_zeta = {};  ///< of the damper, over zeta_D
+  Loss damper_fixed = {};     ///< and its rest
 
   /// The whole loss at a system's damping ratios.
   Loss base(const SystemParameters& system) const { return base_fixed + system.base_damping * base_per_zeta; }

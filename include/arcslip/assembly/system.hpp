@@ -32,6 +32,7 @@ std::string to_string(DampingKind kind);
 
 /// An element beside the contacts, at the same place of each node.
 struct PlacedElement {
+  /// Where it acts.
   enum class Place {
     contact,  ///< between base and damper
     base,     ///< between the base and ground
@@ -39,10 +40,10 @@ struct PlacedElement {
   };
 
   std::string name = {};  ///< under which its settings are continued; of its kind and number if it has none
-  const ElementKind* kind = nullptr;
-  Place place = Place::base;
-  Index dof = 0;                 ///< which of the contact dofs, from 0
-  std::vector<double> settings;  ///< forces of rods and beams N times those of a node
+  const ElementKind* kind = nullptr;  ///< what it is
+  Place place = Place::base;          ///< where it acts
+  Index dof = 0;                      ///< which of the contact dofs, from 0
+  std::vector<double> settings;       ///< forces of rods and beams N times those of a node
 };
 
 /// [system] of a case file, nondimensional throughout.

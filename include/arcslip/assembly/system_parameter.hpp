@@ -48,6 +48,7 @@ struct SystemParameter {
     SystemVariation rate;  ///< its derivatives
   };
 
+  /// What it is a number of.
   enum class Kind {
     load,     ///< scales it, and does nothing else
     damping,  ///< a damping ratio
