@@ -10,13 +10,13 @@ namespace arcslip {
 
 /// A key with a number: a parameter of a problem or an element, or a size.
 struct Setting {
-  std::string name;
-  double value;  ///< the default; nan of one that must be given
-  double low;    ///< smallest value allowed
-  double high;   ///< largest
-  bool is_integer = false;
-  std::string meaning = {};
-  bool may_be_low = true;  ///< whether `low` itself is allowed
+  std::string name;          ///< of the key
+  double value;              ///< the default; nan of one that must be given
+  double low;                ///< smallest value allowed
+  double high;               ///< largest
+  bool is_integer = false;   ///< whether it is a whole number
+  std::string meaning = {};  ///< one line
+  bool may_be_low = true;    ///< whether `low` itself is allowed
 };
 
 /// A real setting without limits.

@@ -58,10 +58,10 @@ struct SystemParameter {
     ratio     ///< of base to damper, which sectors do not have
   };
 
-  std::string name;
-  double value;                        ///< that of the system
-  std::function<At(double value)> at;  ///< closed
-  Kind kind;
+  std::string name;                                      ///< what case files call it
+  double value;                                          ///< that of the system
+  std::function<At(double value)> at;                    ///< closed
+  Kind kind;                                             ///< what it is a number of
   std::function<SystemParameters(double value)> system;  ///< with another value
   Index contact = -1;                                    ///< the one that it concerns; of all contacts -1
   Setting limits = {};                                   ///< of one of an element: what it may be

@@ -29,29 +29,31 @@ struct Built {
   /// Throws std::invalid_argument where there is none, continuation::Unfinished where the search was ended.
   using Guess = std::function<continuation::Guess(const ValueOf&, const continuation::TraceOptions& limits)>;
 
-  std::shared_ptr<const continuation::Problem> problem;  ///< may be shared by threads
-  Guess guess;
+  std::shared_ptr<const continuation::Problem> problem;                ///< may be shared by threads
+  Guess guess;                                                         ///< of its first point
   std::vector<int> harmonics = {1};                                    ///< in which it balances
   std::shared_ptr<const problems::ForcedResponse> enclosed = nullptr;  ///< itself, if branches can be proven
   std::shared_ptr<const problems::FloquetResponse> disturbed =
       nullptr;  ///< itself, if it knows its stability
 };
 
+/// A kind of response.
 struct ResponseKind {
   /// What its frequency is: a parameter, an unknown whose first guess is given, or one that needs none.
   enum class Frequency { parameter, guessed, own };
 
-  std::string name;
+  std::string name;                     ///< what `response` calls it
   std::string title;                    ///< of many, in messages
   std::vector<std::string> parameters;  ///< that may be continued; the first is held where P is not
-  Frequency frequency;
+  Frequency frequency;                  ///< what its frequency is
   std::string extremum;    ///< the observable whose extrema are looked for unless others are named, or ""
   bool one_way = false;    ///< whether contacts spare the base
   bool in_time = false;    ///< whether the ring in time can be held against it, and it may be disturbed
   std::string not_proven;  ///< why no branch of it is certified, or ""
   std::string remark;      ///< what `arcslip check` says of it after the range, or ""
-  std::function<Built(const ProblemRequest&)> build;
+  std::function<Built(const ProblemRequest&)> build;  ///< throws std::invalid_argument
 
+  /// Whether its frequency is an unknown.
   bool has_own_frequency() const { return frequency != Frequency::parameter; }
 };
 

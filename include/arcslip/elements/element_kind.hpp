@@ -14,6 +14,7 @@
 
 namespace arcslip {
 
+/// A kind of element.
 struct ElementKind {
   /// What one is made of.
   struct Values {
@@ -21,13 +22,15 @@ struct ElementKind {
     double usual_stiffness = 1;  ///< the static one that its coordinate meets, > 0
   };
 
-  std::string name;
+  std::string name;     ///< what case files call it
   std::string meaning;  ///< one line
+
+  /// A number that it takes.
   struct Value : Setting {
     bool scales_force = false;  ///< whether the force is proportional to all such values together
   };
-  std::vector<Value> settings;
-  std::function<std::shared_ptr<const Element>(const Values&)> make;
+  std::vector<Value> settings;                                        ///< all of them
+  std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values
 };
 
 /// All of them, in alphabetical order.

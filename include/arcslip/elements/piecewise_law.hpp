@@ -23,6 +23,7 @@ class PiecewiseLaw {
   /// powers alone and the force is continuous.
   explicit PiecewiseLaw(std::vector<Piece> pieces);
 
+  /// In their order from x = 0.
   const std::vector<Piece>& pieces() const { return pieces_; }
   int degree() const { return degree_; }  ///< the highest of the pieces
 
@@ -32,9 +33,10 @@ class PiecewiseLaw {
 
   /// Where a zone ends, downwards and upwards; infinite where there is no other.
   struct Ends {
-    double low;
-    double high;
+    double low;   ///< downwards
+    double high;  ///< upwards
   };
+  /// Those of one zone.
   Ends ends(int zone) const;
 
   // At x, by the polynomial of a zone, whether it holds there or not.

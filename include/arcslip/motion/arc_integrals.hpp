@@ -28,6 +28,7 @@ class ArcIntegrals {
     }
   }
 
+  /// Of e^{jm theta}, m of either sign.
   Complex operator[](int m) const {
     return m < 0 ? std::conj(values_[static_cast<std::size_t>(-m)]) : values_[static_cast<std::size_t>(m)];
   }

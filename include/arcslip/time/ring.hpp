@@ -26,9 +26,10 @@ namespace arcslip {
 
 /// Elements without memory beside the contacts, the same at each node.
 struct RingElements {
-  Matrix motion;  ///< N x D: x = motion p
-  std::shared_ptr<const Element> element;
+  Matrix motion;                           ///< N x D: x = motion p
+  std::shared_ptr<const Element> element;  ///< one of them
 
+  /// Its force.
   const PiecewiseLaw& law() const { return *element->law(); }
 };
 
@@ -47,13 +48,13 @@ struct Ring {
   Matrix relative;   ///< N x D: B = damper - base
   Matrix turn;       ///< D x D, orthogonal: the motion in which each node does what the next one did
 
-  Index wave_number;         ///< n
-  double contact_stiffness;  ///< k = K_FD/N
-  double slip_per_preload;   ///< S/P
-  double preload_growth;     ///< P_2
-  std::vector<RingElements> others;
-  std::vector<RingLoad> loads;
-  std::optional<Index> drift;  ///< the coordinate, if any, of a rigid motion that contacts alone resist
+  Index wave_number;                 ///< n
+  double contact_stiffness;          ///< k = K_FD/N
+  double slip_per_preload;           ///< S/P
+  double preload_growth;             ///< P_2
+  std::vector<RingElements> others;  ///< beside the contacts
+  std::vector<RingLoad> loads;       ///< that act
+  std::optional<Index> drift;        ///< the coordinate, if any, of a rigid motion that contacts alone resist
 
   /// N and D.
   Index nodes() const { return relative.rows(); }

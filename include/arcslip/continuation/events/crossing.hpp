@@ -12,6 +12,7 @@ namespace arcslip::continuation {
 /// Keeps references to all but the tolerances.
 class CrossingSearch {
  public:
+  /// Of one step.
   CrossingSearch(Corrector& corrector, Prober& prober, Step& step, const Tolerances& tolerances);
 
   /// Whether what is known of the determinant leaves room for branch points in the step; of two at once only

@@ -26,8 +26,8 @@ struct Event {
 
 /// A branch that has come to an event, with the signs before and behind it.
 struct Passage {
-  const Signs& before;
-  Signs& behind;
+  const Signs& before;     ///< of all tests and eigenvalues
+  Signs& behind;           ///< which the event may change
   const Stepper& stepper;  ///< stands there
   const Watch& watch;      ///< the same
 

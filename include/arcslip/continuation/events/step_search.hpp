@@ -12,6 +12,7 @@ namespace arcslip::continuation {
 /// Serves one step, that which the stepper has attempted last. Keeps references to its arguments.
 class StepSearch {
  public:
+  /// With the signs where the step begins.
   StepSearch(Stepper& stepper, Watch& watch, const Signs& signs);
 
   /// For all kinds.

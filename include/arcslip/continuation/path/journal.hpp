@@ -13,8 +13,8 @@ namespace arcslip::continuation {
 
 /// A branch, or one way along a curve of special points, which has borders of its conditions at its end.
 struct JournalEntry {
-  Branch branch;
-  std::vector<double> borders;
+  Branch branch;                ///< as far as it has come
+  std::vector<double> borders;  ///< of the conditions, at its end; empty of a branch
 };
 
 /// The branches in the order that they were begun in, which has to be the same whenever the work is done.

@@ -23,6 +23,7 @@ class Monitors {
   /// A border's value at a point, with its gradient in units of the scale.
   double border(const CurvePoint& point, int border, const Vector& scale, Vector& gradient);
 
+  /// The observables whose extrema are looked for, and their number.
   const std::vector<Index>& tracked() const { return tracked_; }
   Index tracked_count() const { return static_cast<Index>(tracked_.size()); }
 

@@ -12,7 +12,7 @@ namespace arcslip::continuation {
 
 /// What was found at a place of a step.
 struct Probe {
-  CurvePoint point;
+  CurvePoint point;               ///< of the branch
   Vector slope;                   ///< n + 1: d(z/scale)/ds
   std::vector<Monitor> monitors;  ///< as those of the step
   /// Change of the parameter over s.
@@ -22,6 +22,7 @@ struct Probe {
 /// Keeps references to all that it is made of.
 class Prober {
  public:
+  /// Of the step, whatever it becomes.
   Prober(Corrector& corrector, Monitors& monitors, Step& step);
 
   /// The branch at 0 <= s <= distance, solved to rounding; the ends and the branch point in the step are

@@ -34,9 +34,9 @@ struct Step {
 
   /// A point of the branch within the step, relative to `here`.
   struct Anchor {
-    double s;
-    Vector place;
-    Vector slope;
+    double s;      ///< arclength from `here`
+    Vector place;  ///< n + 1, in units of the scale
+    Vector slope;  ///< d place/ds
   };
   std::vector<Anchor> anchors;  ///< by s
   std::vector<PastPoint> past;  ///< before `here`, the last one first

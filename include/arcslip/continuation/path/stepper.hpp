@@ -23,6 +23,7 @@ class Stepper {
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
+  /// By which it judges.
   const Tolerances& tolerances() const { return tolerances_; }
   /// On the residual.
   double tolerance() const { return corrector_.options().tolerance; }
