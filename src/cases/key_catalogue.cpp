@@ -36,40 +36,24 @@ std::vector<KeyWords> library_words() {
   return words;
 }
 
-/// The keys of all kinds of elements, those they share once.
-std::vector<KeyWords> element_words() {
+/// The keys of all kinds, of which the first ones, from `kind` on, are shared and told once.
+template <class Kind, class KeysOf>
+std::vector<KeyWords> words_of_kinds(const std::vector<Kind>& kinds, std::ptrdiff_t shared,
+                                     const char* meaning, const KeysOf& keys_of) {
   std::vector<KeyWords> words;
   std::vector<std::string> names;
-  for (const ElementKind& kind : element_kinds()) {
-    const std::vector<KeyWords> keys = element_keys(kind).words();
-    if (words.empty()) words.assign(keys.begin(), keys.begin() + shared_element_keys);
+  for (const Kind& kind : kinds) {
+    const std::vector<KeyWords> keys = keys_of(kind).words();
+    if (words.empty()) words.assign(keys.begin(), keys.begin() + shared);
     words.push_back({kind.name, fmt::format("kind = \"{}\"", kind.name), "", kind.meaning});
-    for (std::size_t i = shared_element_keys; i < keys.size(); ++i) {
-      words.push_back(keys[i]);
-      words.back().name = kind.name + "." + keys[i].name;
+    for (auto own = keys.begin() + shared; own != keys.end(); ++own) {
+      words.push_back(*own);
+      words.back().name = kind.name + "." + own->name;
     }
     names.push_back(kind.name);
   }
   words.front().type = one_of(names);
-  words.front().meaning = "what it is";
-  return words;
-}
-
-std::vector<KeyWords> excitation_words() {
-  std::vector<KeyWords> words;
-  std::vector<std::string> names;
-  for (const ExcitationKind& kind : excitation_kinds()) {
-    const std::vector<KeyWords> keys = excitation_keys(kind).words();
-    if (words.empty()) words.push_back(keys.front());
-    words.push_back({kind.name, fmt::format("kind = \"{}\"", kind.name), "", kind.meaning});
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-      words.push_back(keys[i]);
-      words.back().name = kind.name + "." + keys[i].name;
-    }
-    names.push_back(kind.name);
-  }
-  words.front().type = one_of(names);
-  words.front().meaning = "what its course is";
+  words.front().meaning = meaning;
   return words;
 }
 
@@ -87,9 +71,11 @@ std::vector<KeySection> key_catalogue() {
     for (const StructureKind::Section& one : kind.sections) section(one.name, one.note, one.keys());
   }
   section("system", "models of the library", library_words());
-  section("element", "beside the contacts, any number of them", element_words());
+  section("element", "beside the contacts, any number of them",
+          words_of_kinds(element_kinds(), shared_element_keys, "what it is", element_keys));
   sections.back().repeats = true;
-  section("excitation", "the load", excitation_words());
+  section("excitation", "the load",
+          words_of_kinds(excitation_kinds(), 1, "what its course is", excitation_keys));
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());
   section("study", "", study_keys().words());
