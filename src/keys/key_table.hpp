@@ -1,7 +1,7 @@
 #pragma once
 
 // The keys of a table of a case file, each said once: how it is read and refused, what it is if it is not
-// given, what it means. `arcslip help`, the README, summary.json and for_each have it from here. To add a
+// given, what it means. `arcslip help`, the manual, summary.json and for_each have it from here. To add a
 // key, add a line to its table: name, member of the settings, what it may be, meaning, and what else is to be
 // said of it by one of the terms below.
 //

@@ -1,4 +1,4 @@
-// Whether kinds of systems and tasks compose as the README's table says: each cell that says yes is run to
+// Whether kinds of systems and tasks compose as the manual's table says: each cell that says yes is run to
 // its end, and its numbers are held against another cell's or against what they must be; every other is
 // refused by the sentence that its letter stands for.
 
@@ -309,12 +309,12 @@ std::vector<std::string> cells_of(const std::string& line) {
   return found;
 }
 
-/// Lines of the README's table, by the kind of system; under "" its head.
+/// Lines of the manual's table, by the kind of system; under "" its head.
 std::map<std::string, std::vector<std::string>> promised() {
-  const std::string readme = testing::read(testing::source_folder() + "/README.md");
-  const std::size_t start = readme.find("| works with |");
+  const std::string page = testing::read(testing::source_folder() + "/src/manual/pages/composition.md");
+  const std::size_t start = page.find("| works with |");
   REQUIRE(start != std::string::npos);
-  std::istringstream in(readme.substr(start));
+  std::istringstream in(page.substr(start));
   std::map<std::string, std::vector<std::string>> lines;
   for (std::string line; std::getline(in, line) && line.starts_with('|');) {
     std::vector<std::string> cells = cells_of(line);

@@ -1,4 +1,4 @@
-// What the README shows is what the project holds.
+// What the README and the manual show is what the project holds.
 
 #include <fmt/format.h>
 
@@ -27,6 +27,18 @@ using arcslip::testing::write_sector;
 namespace {
 
 const std::string source = arcslip::testing::source_folder();
+
+std::string page(const std::string& name) {
+  return read(fmt::format("{}/src/manual/pages/{}.md", source, name));
+}
+
+/// The README and all pages of the manual.
+std::string manual() {
+  std::string text = read(source + "/README.md");
+  for (const auto& entry : std::filesystem::directory_iterator(source + "/src/manual/pages"))
+    if (entry.path().extension() == ".md") text += "\n" + read(entry.path().string());
+  return text;
+}
 
 /// Each line without what it is indented by.
 std::string flush_left(const std::string& text) {
@@ -118,7 +130,7 @@ std::optional<std::string> missing(const std::vector<std::string>& expected, con
   return std::nullopt;
 }
 
-/// A folder in which the README's commands find what they name.
+/// A folder in which the manual's commands find what they name.
 class Checkout {
  public:
   Checkout() { std::filesystem::create_symlink(source + "/problems", folder_.path("problems")); }
@@ -139,10 +151,10 @@ std::vector<std::string> words(const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("Every output that the README shows is what the program prints") {
+TEST_CASE("Every output that the manual shows is what the program prints") {
   const Checkout checkout;
   int shown = 0;
-  for (const Sample& sample : samples(read(source + "/README.md"))) {
+  for (const Sample& sample : samples(manual())) {
     if (sample.output.empty()) continue;
     ++shown;
     INFO(sample.command);
@@ -156,11 +168,11 @@ TEST_CASE("Every output that the README shows is what the program prints") {
 }
 
 TEST_CASE(
-    "Every command that the README shows is one of the program's, with its options, of files that exist") {
+    "Every command that the manual shows is one of the program's, with its options, of files that exist") {
   const std::set<std::string> made{"rotor/case.toml", "rotor", "study", "out/figure_8", "out/chart", "DIR"};
   const Checkout checkout;
   int commands = 0;
-  for (const auto& block : indented_lines(read(source + "/README.md"))) {
+  for (const auto& block : indented_lines(manual())) {
     for (std::string line : block) {
       if (line.rfind("$ ", 0) == 0) line = line.substr(2);
       const std::vector<std::string> parts = words(line);
@@ -197,13 +209,13 @@ TEST_CASE("A sample that lacks a line, or has another one, is told") {
   CHECK(missing({"...", "three", "four"}, printed) == "four");
 }
 
-TEST_CASE("The README's C++ is that of the project which the tests build against the installed package") {
-  const std::string readme = read(source + "/README.md");
+TEST_CASE("The manual's C++ is that of the project which the tests build against the installed package") {
+  const std::string text = manual();
   std::vector<std::string> files;
   for (const std::string name : {"own_problem", "friction", "further"})
     files.push_back(read(fmt::format("{}/tests/consumer/{}.cpp", source, name)));
-  CHECK_THAT(readme, ContainsSubstring("```cpp\n" + files[0] + "```"));  // this one as a whole
-  const auto shown = blocks(readme, "cpp");
+  CHECK_THAT(text, ContainsSubstring("```cpp\n" + files[0] + "```"));  // this one as a whole
+  const auto shown = blocks(text, "cpp");
   CHECK(shown.size() >= 6);
   for (const std::string& block : shown) {
     INFO(block);
@@ -214,24 +226,28 @@ TEST_CASE("The README's C++ is that of the project which the tests build against
   }
 }
 
-TEST_CASE("The README's cases are problems/figure_8.toml, a sector and parts of others") {
-  const auto shown = blocks(read(source + "/README.md"), "toml");
-  REQUIRE(shown.size() == 5);
+TEST_CASE("The manual's cases are problems/figure_8.toml, a sector and parts of others") {
   const arcslip::testing::TemporaryFolder folder;
-  const arcslip::Case first = arcslip::read_case(folder.write("case.toml", shown[0]));
   const arcslip::Case figure_8 = arcslip::read_case(source + "/problems/figure_8.toml");
-  CHECK(first.resolved == figure_8.resolved);
+  for (const std::string& text : {read(source + "/README.md"), page("start")}) {
+    const auto shown = blocks(text, "toml");
+    REQUIRE(shown.size() == 1);
+    CHECK(arcslip::read_case(folder.write("case.toml", shown[0])).resolved == figure_8.resolved);
+  }
   write_sector(folder, "rotor", bladed_disk(), "");
   write_sector(folder, "ring", lumped_ring(), "");
   const std::string range = "[branch]\nparameter = \"eta\"\nfrom = 100.0\nto = 200.0\n";
-  CHECK_NOTHROW(arcslip::read_case(folder.write("sector.toml", shown[2] + range)));
-  CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"), ContainsSubstring(shown[1]));
-  CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(shown[3]));
-  CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(shown[4]));
+  CHECK_NOTHROW(
+      arcslip::read_case(folder.write("sector.toml", blocks(page("sectors"), "toml").at(0) + range)));
+  CHECK_THAT(read(source + "/problems/cubic_fold_curve.toml"),
+             ContainsSubstring(blocks(page("keys"), "toml").at(0)));
+  const auto studies = blocks(page("studies"), "toml");
+  CHECK_THAT(read(source + "/problems/chart.toml"), ContainsSubstring(studies.at(0)));
+  CHECK_THAT(read(source + "/problems/rotor_ring.toml"), ContainsSubstring(studies.at(1)));
 }
 
-TEST_CASE("The README's tables of keys are those that the program prints") {
-  const std::string readme = read(source + "/README.md");
+TEST_CASE("The manual's tables of keys are those that the program prints") {
+  const std::string text = manual();
   const testing::Outcome outcome = Checkout().run("arcslip help --markdown");
   CHECK(outcome.status == 0);
   int tables = 0;
@@ -239,17 +255,17 @@ TEST_CASE("The README's tables of keys are those that the program prints") {
     const std::size_t end = outcome.out.find("\n\n", at) + 1;
     const std::string table = outcome.out.substr(at, end - at);
     INFO(table);
-    CHECK(readme.find("\n" + table) != std::string::npos);
+    CHECK(text.find("\n" + table) != std::string::npos);
     at = end + 1;
   }
   CHECK(tables == 12);
 }
 
-TEST_CASE("Every case file stands in the README's table") {
-  const std::string readme = read(source + "/README.md");
+TEST_CASE("Every case file stands in the manual's table") {
+  const std::string text = page("cases");
   for (const auto& entry : std::filesystem::directory_iterator(source + "/problems")) {
     if (entry.path().extension() != ".toml") continue;
     INFO(entry.path());
-    CHECK_THAT(readme, ContainsSubstring(fmt::format("`{}`", entry.path().stem().string())));
+    CHECK_THAT(text, ContainsSubstring(fmt::format("`{}`", entry.path().stem().string())));
   }
 }

@@ -45,15 +45,15 @@ foreach(expected IN ITEMS "fold: d = 1.44721, u = 0.552786\n" "fold: d = 0.55278
   endif()
 endforeach()
 
-# The README shows all of it; how exact differences are depends on the compiler.
-file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md readme)
-foreach(text IN ITEMS output readme)
+# The manual shows all of it; how exact differences are depends on the compiler.
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../src/manual/pages/cpp.md page)
+foreach(text IN ITEMS output page)
   string(REGEX REPLACE "exact to [0-9.e-]+" "exact to E" ${text} "${${text}}")
 endforeach()
 string(REGEX REPLACE "([^\n]+\n)" "    \\1" shown "${output}")
-string(FIND "${readme}" "\n\n${shown}\n" at)
+string(FIND "${page}" "\n\n${shown}\n" at)
 if(at EQUAL -1)
-  message(FATAL_ERROR "the README does not show:\n${shown}")
+  message(FATAL_ERROR "the manual does not show:\n${shown}")
 endif()
 
 # Matrices pass between the library and users that are built for other instructions, or with the address sanitizer.

@@ -68,7 +68,7 @@ TEST_CASE("What a problem resizes or does not fill is named") {
 
 namespace {
 
-/// The arch of the README, which forgets one thing after the other.
+/// The arch of the manual, which forgets one thing after the other.
 class Forgetful : public Problem {
  public:
   explicit Forgetful(int forgotten) : forgotten_(forgotten) {}

@@ -64,7 +64,7 @@ nlohmann::ordered_json summarize(std::size_t number, const TracedBranch& traced)
 nlohmann::ordered_json summary_of_failed(std::size_t number, const CaseBranch& request,
                                          const std::string& why);
 
-/// summary.json as described in the README.
+/// summary.json as described in the manual.
 nlohmann::ordered_json summarize(const Case& input, const std::vector<TracedBranch>& traced, double seconds);
 
 /// The nondimensional groups of a system with friction, and the units of one given in SI units, with the

@@ -14,7 +14,7 @@ namespace {
 
 struct HelpOptions {
   std::string key;        ///< empty: all of them
-  bool markdown = false;  ///< tables of all keys, as the README has them
+  bool markdown = false;  ///< tables of all keys, as the manual has them
 };
 
 /// Without the marks of code.
