@@ -276,8 +276,8 @@ CaseFile::CaseFile(const std::string& path, const std::vector<std::string>& sett
     : document_(std::make_shared<const TomlDocument>(path, settings)) {}
 
 CaseFile CaseFile::of_text(const std::string& name, const std::string& text,
-                           const std::vector<std::string>& settings) {
-  return CaseFile(std::make_shared<const TomlDocument>(name, text, settings));
+                           const std::vector<std::string>& settings, std::shared_ptr<const CaseParts> parts) {
+  return CaseFile(std::make_shared<const TomlDocument>(name, text, settings, std::move(parts)));
 }
 
 const std::string& CaseFile::path() const { return document_->path(); }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
+
+#include "arcslip/cases/case_file.hpp"
 
 namespace arcslip {
 namespace {
@@ -55,10 +56,25 @@ KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
   return {std::move(keys)};
 }
 
-std::vector<std::string> kind_names() {
+/// Those of the document as well.
+std::vector<std::string> kind_names(const TomlDocument& document) {
   std::vector<std::string> names;
   for (const ElementKind& kind : element_kinds()) names.push_back(kind.name);
+  if (document.parts() == nullptr) return names;
+  for (const auto& own : document.parts()->elements) names.push_back(own->name);
   return names;
+}
+
+void read_kind(PlacedElement& placed, const TomlDocument& document, const TomlSection& section) {
+  const std::vector<std::string> names = kind_names(document);
+  section.require("kind", one_of(names));
+  const std::string name = section.text("kind", names);
+  placed.kind = find_element_kind(name);
+  if (placed.kind != nullptr) return;
+  for (const auto& own : document.parts()->elements) {
+    if (own->name == name) placed.own = own;
+  }
+  placed.kind = placed.own.get();
 }
 
 /// Refuses an element whose settings would have the names of another one's.
@@ -84,14 +100,7 @@ NumberRule rule_of(const Setting& setting) {
   return {holds, fmt::format(" {} {:g} and <= {:g}", above, setting.low, setting.high)};
 }
 
-const KeyTable<PlacedElement>& element_keys(const ElementKind& kind) {
-  static const auto tables = [] {
-    std::map<std::string, KeyTable<PlacedElement>> made;
-    for (const ElementKind& one : element_kinds()) made.emplace(one.name, keys_of(one));
-    return made;
-  }();
-  return tables.at(kind.name);
-}
+KeyTable<PlacedElement> element_keys(const ElementKind& kind) { return keys_of(kind); }
 
 void read_elements(const TomlDocument& document, SystemParameters& system) {
   const toml::node* node = document.root().get("element");
@@ -101,8 +110,7 @@ void read_elements(const TomlDocument& document, SystemParameters& system) {
   for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
     const TomlSection section(document, *node->as_array()->get(i)->as_table(), fmt::format("element[{}]", i));
     PlacedElement placed;
-    section.require("kind", one_of(kind_names()));
-    placed.kind = find_element_kind(section.text("kind", kind_names()));
+    read_kind(placed, document, section);
     for (const ElementKind::Value& setting : placed.kind->settings) placed.settings.push_back(setting.value);
     element_keys(*placed.kind).read(placed, section);
     if (placed.dof >= contacts)

@@ -9,7 +9,7 @@ namespace arcslip {
 
 /// The keys of one kind; the first ones are those of all.
 constexpr std::ptrdiff_t shared_element_keys = 3;
-const KeyTable<PlacedElement>& element_keys(const ElementKind& kind);
+KeyTable<PlacedElement> element_keys(const ElementKind& kind);
 
 /// Reads them into the system, whose structures are known. Throws InputError.
 void read_elements(const TomlDocument& document, SystemParameters& system);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <new>
 
+#include "arcslip/cases/case_file.hpp"
 #include "arcslip/sectors/matrix_market.hpp"
 #include "keys/input_file.hpp"
 
@@ -20,16 +21,27 @@ std::string folder_of(const std::string& path) {
   return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder.string();
 }
 
+/// The text that a program gives under this name, or null.
+const std::string* given_text(const TomlDocument& document, const std::string& name) {
+  if (document.parts() == nullptr) return nullptr;
+  const auto found = document.parts()->files.find(name);
+  return found == document.parts()->files.end() ? nullptr : &found->second;
+}
+
 /// What the file that the key names holds: `parse` of its text and its path.
 template <class Parse>
 auto parsed(PartSettings& part, const TomlSection& section, std::string_view key, std::size_t largest,
             const Parse& parse,
             const std::function<void(std::string_view, const std::string&)>& begins = {}) {
-  const std::string path = (std::filesystem::path(part.folder) / section.text(key, {})).string();
+  const std::string name = section.text(key, {});
+  const std::string* given = given_text(section.document(), name);
+  const std::string path = given != nullptr ? name : (std::filesystem::path(part.folder) / name).string();
   try {
-    const std::string text = read_text(path, largest, [&](std::string_view beginning) {
-      if (begins) begins(beginning, path);
-    });
+    const std::string read =
+        given != nullptr ? "" : read_text(path, largest, [&](std::string_view beginning) {
+          if (begins) begins(beginning, path);
+        });
+    const std::string& text = given != nullptr ? *given : read;
     for (const char c : text) {  // FNV-1a
       part.fingerprint ^= static_cast<unsigned char>(c);
       part.fingerprint *= 1099511628211U;

@@ -86,8 +86,8 @@ TomlDocument::TomlDocument(const std::string& path, const std::vector<std::strin
     : TomlDocument(path, read_text(path, largest_case_file), settings) {}
 
 TomlDocument::TomlDocument(std::string name, const std::string& text,
-                           const std::vector<std::string>& settings)
-    : path_(std::move(name)) {
+                           const std::vector<std::string>& settings, std::shared_ptr<const CaseParts> parts)
+    : path_(std::move(name)), parts_(std::move(parts)) {
   if (const long line = line_nested_too_deep(text); line > 0)
     throw InputError(
         fmt::format("{}:{}:1: not valid: a key has more than {} parts", path_, line, deepest_key));

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ struct Replacement {
   const toml::node* place = nullptr;  ///< what errors point to in the file; null: the node
 };
 
+struct CaseParts;
+
 using Replacements = std::map<std::string, Replacement, std::less<>>;
 
 /// What a number must satisfy; `text` completes "expected a number ...".
@@ -54,11 +57,13 @@ NumberRule up_to(double high);                                                  
 class TomlDocument {
  public:
   TomlDocument(const std::string& path, const std::vector<std::string>& settings);
-  /// A text that is in no file; `name` stands for the file in errors.
-  TomlDocument(std::string name, const std::string& text, const std::vector<std::string>& settings);
+  /// A text that is in no file; `name` stands for the file in errors, `parts` are what it may name.
+  TomlDocument(std::string name, const std::string& text, const std::vector<std::string>& settings,
+               std::shared_ptr<const CaseParts> parts = {});
 
   const toml::table& root() const { return root_; }
   const std::string& path() const { return path_; }
+  const CaseParts* parts() const { return parts_.get(); }  ///< null where there are none
 
   /// Error at a node; `name` is the key as the user wrote it.
   [[noreturn]] void fail(const toml::node* node, const std::string& name, const std::string& what) const;
@@ -74,6 +79,7 @@ class TomlDocument {
 
   std::string path_;
   toml::table root_;
+  std::shared_ptr<const CaseParts> parts_;
 };
 
 /// One table of the document.
@@ -109,6 +115,7 @@ class TomlSection {
   [[noreturn]] void mismatch(std::string_view key, const std::string& expected) const;
   const toml::node& require(std::string_view key, const std::string& expected) const;
   const toml::table* table() const { return table_; }
+  const TomlDocument& document() const { return document_; }
   std::string name(std::string_view key) const;
   /// The name under which the user wrote the value, elsewhere if it is replaced.
   std::string name_given(std::string_view key) const { return find(key).name; }

@@ -20,16 +20,15 @@ constexpr const char* signature = "arcslip-run-checkpoint-1";
 
 std::string path_in(const std::string& folder) { return folder + "/run.checkpoint"; }
 
-/// Where two cases differ first, but for the time that they have.
-std::string difference(nlohmann::json then, nlohmann::json now) {
+}  // namespace
+
+std::string case_difference(nlohmann::json then, nlohmann::json now) {
   for (nlohmann::json* input : {&then, &now}) {
     if (input->contains("continuation")) input->at("continuation").erase("max_seconds");
   }
   const nlohmann::json all = nlohmann::json::diff(then, now);
   return all.empty() ? "" : printable(all.front().value("path", "").substr(1));
 }
-
-}  // namespace
 
 void write_checkpoint(const std::string& folder, const CasePlan& plan, const RunCheckpoint& checkpoint,
                       const Journals& journals) {
@@ -68,7 +67,8 @@ RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan, J
     const auto version = head.at("arcslip").get<std::string>();
     if (version != release)
       throw refuse(fmt::format("it was begun by arcslip {}, this is {}", printable(version), release));
-    const auto other = difference(head.at("case"), nlohmann::json::parse(ordered_json(plan.resolved).dump()));
+    const auto other =
+        case_difference(head.at("case"), nlohmann::json::parse(ordered_json(plan.resolved).dump()));
     if (!other.empty()) throw refuse(fmt::format("it is a run of another case, which differs in {}", other));
     for (const std::size_t request : head.at("left").get<std::vector<std::size_t>>())
       journals[request].read(file);

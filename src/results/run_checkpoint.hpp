@@ -30,6 +30,9 @@ void write_checkpoint(const std::string& folder, const CasePlan& plan, const Run
 /// this version of arcslip.
 RunCheckpoint read_checkpoint(const std::string& folder, const CasePlan& plan, Journals& journals);
 
+/// Where two cases differ first, but for the time that they have; "" if they are the same.
+std::string case_difference(nlohmann::json then, nlohmann::json now);
+
 void remove_checkpoint(const std::string& folder);
 
 }  // namespace arcslip

@@ -267,6 +267,7 @@ def test_the_program_goes_on_with_a_run_that_was_interrupted_here(cases, program
 def test_a_certificate_is_in_the_summary(cases):
     result = arcslip.run(cases / "rods.toml", set=["branch.to=1.5"], certify=True)
     assert "certificate" in result.summary["branches"][0]
+    assert result.branches[0].certificate == result.summary["branches"][0]["certificate"]
     with pytest.raises(ValueError, match="certify is for forced responses"):
         arcslip.run(cases / "enz.toml", certify=True)
 

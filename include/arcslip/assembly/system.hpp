@@ -40,10 +40,11 @@ struct PlacedElement {
   };
 
   std::string name = {};  ///< under which its settings are continued; of its kind and number if it has none
-  const ElementKind* kind = nullptr;  ///< what it is
-  Place place = Place::base;          ///< where it acts
-  Index dof = 0;                      ///< which of the contact dofs, from 0
-  std::vector<double> settings;       ///< forces of rods and beams N times those of a node
+  const ElementKind* kind = nullptr;            ///< what it is
+  Place place = Place::base;                    ///< where it acts
+  Index dof = 0;                                ///< which of the contact dofs, from 0
+  std::vector<double> settings;                 ///< forces of rods and beams N times those of a node
+  std::shared_ptr<const ElementKind> own = {};  ///< keeps a kind alive that is none of element_kinds()
 };
 
 /// [system] of a case file, nondimensional throughout.

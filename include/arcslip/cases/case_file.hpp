@@ -3,6 +3,7 @@
 // Case files: TOML 1.0, read and checked whole before anything runs.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -79,6 +80,12 @@ struct Case {
 
 class TomlDocument;
 
+/// What a case that a program gives may name beside files and the kinds that there are.
+struct CaseParts {
+  std::map<std::string, std::string> files;  ///< their texts, by the names that stand for them
+  std::vector<std::shared_ptr<const ElementKind>> elements;  ///< for [[element]]
+};
+
 /// A case file, read once, with `--set` arguments "section.key=value" applied on top.
 class CaseFile {
  public:
@@ -87,7 +94,8 @@ class CaseFile {
 
   /// The same of a text that is in no file; `name` stands for the file in errors. Throws InputError.
   static CaseFile of_text(const std::string& name, const std::string& text,
-                          const std::vector<std::string>& settings = {});
+                          const std::vector<std::string>& settings = {},
+                          std::shared_ptr<const CaseParts> parts = {});
 
   /// As it was given, and whether the file has a section of this name.
   const std::string& path() const;

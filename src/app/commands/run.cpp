@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "app/command.hpp"
@@ -19,8 +18,8 @@
 #include "results/certificate_results.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
-#include "results/run_checkpoint.hpp"
 #include "results/run_files.hpp"
+#include "results/run_progress.hpp"
 #include "results/stability_results.hpp"
 #include "results/verification_results.hpp"
 
@@ -46,12 +45,6 @@ std::string complaint(const continuation::Branch& branch) {
   return "";
 }
 
-/// Whether it would go on where it was left.
-bool has_more(const TracedBranch& traced) {
-  const auto& first = traced.branch.first_stop;
-  return is_unfinished(traced.branch.stop) || (first && is_unfinished(*first));
-}
-
 /// Refuses what cannot be verified or what no certificate covers.
 void require_provable(const CaseBranch& branch, const RunOptions& options) {
   std::string why = options.verify ? why_not_verifiable(branch) : "";
@@ -72,8 +65,6 @@ void require_provable(const CasePlan& plan, const RunOptions& options) {
   for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
 }
 
-constexpr std::size_t most_kept = 1'000'000;  // points; branches with more are traced again
-
 /// One run of the program.
 class Run {
  public:
@@ -93,9 +84,6 @@ class Run {
   void verify_branch(const TracedBranch& traced, RunFiles& files);
   void show(const std::string& text);
   void say_interrupted() const;
-  continuation::Journal& journal_of(const RunFiles& files, std::size_t request, bool has_several);
-  void forget(std::size_t request, std::size_t points);
-  void settle(const std::string& folder, bool is_cut_short);
 
   const RunOptions& options_;
   CaseFile file_;
@@ -107,33 +95,30 @@ class Run {
   std::size_t points_ = 0;
   bool complete_ = true;
   std::string unprinted_;  ///< why standard output cannot be written
-  std::mutex mutex_;
-  RunCheckpoint reached_;  ///< before the first request that has a journal
-  /// Of the first request that had no time to be whole, of those behind it, and of the one under way.
-  Journals journals_;
-  std::size_t kept_points_ = 0;  ///< of branches behind it that are whole
+  RunProgress progress_;
 };
 
 int Run::execute() {
   require_provable(plan_, options_);
   file_.named("system", [&] { build(plan_.branch(0).problem); });
   const bool resumes = !options_.resume.empty();
-  if (resumes) reached_ = read_checkpoint(options_.resume, plan_, journals_);
+  if (resumes) progress_.take_up(options_.resume, plan_);
+  const RunCheckpoint reached = progress_.reached();
   const OutputFolder folder(resumes ? options_.resume : results_folder(options_.folder, options_.case_path));
   RunFiles files(folder.path(), plan_, options_.verify);
-  files.take_over(reached_.branches, reached_.header);
-  points_ = reached_.points;
-  complete_ = reached_.complete;
-  begun_ = ended_ = reached_.requests;
+  files.take_over(reached.branches, reached.header);
+  points_ = reached.points;
+  complete_ = reached.complete;
+  begun_ = ended_ = reached.requests;
   const BeforeTheEnd finish_by_itself({});
   {
     const BeforeTheEnd write_what_there_is([&] {
       files.finish(seconds_since(start_), true);
-      settle(folder.path(), true);
+      progress_.settle(folder.path(), plan_, true);
       say_interrupted();
     });
     try {
-      for (std::size_t i = reached_.requests; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
+      for (std::size_t i = reached.requests; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
     } catch (const InputError&) {
       files.finish(seconds_since(start_), true);
       throw;
@@ -141,7 +126,7 @@ int Run::execute() {
   }
   const bool is_cut_short = interrupted() && !(ended_ == plan_.count && complete_);
   files.finish(seconds_since(start_), is_cut_short);
-  settle(folder.path(), is_cut_short);
+  progress_.settle(folder.path(), plan_, is_cut_short);
   show(fmt::format("\n{}, {} points, {:.3g} s: {}/branches.csv, summary.json\n",
                    plural(files.count(), "branch", "es"), points_, seconds_since(start_), folder.path()));
   if (ended_ < plan_.count) say_interrupted();
@@ -152,9 +137,8 @@ int Run::execute() {
 void Run::trace_request(std::size_t i, RunFiles& files) {
   CaseBranch request = plan_.branch(i);
   require_provable(request, options_);
-  const bool has_several = request.curve || request.switching || request.all_solutions || request.start ||
-                           request.problem.harmonics_tolerance || options_.verify || options_.certify;
-  request.options.journal = &journal_of(files, i, has_several);
+  request.options.journal = &progress_.begin(request, options_.verify || options_.certify,
+                                             {i, files.count(), points_, complete_, files.header()});
   request.options.go_on = [] { return !interrupted(); };
   begun_ = i + 1;
   const std::size_t points_before = points_;
@@ -190,32 +174,7 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
   }
   ended_ = i + 1;
   if (!interrupted() && std::none_of(traced.begin(), traced.end(), has_more))
-    forget(i, points_ - points_before);
-}
-
-/// Drops the journal of a request that is whole, but for some behind one that is not.
-void Run::forget(std::size_t request, std::size_t points) {
-  const std::scoped_lock lock(mutex_);
-  const bool is_first = journals_.begin()->first == request;
-  if (!is_first) kept_points_ += points;
-  if (is_first || kept_points_ > most_kept) journals_.erase(request);
-}
-
-/// Notes where the run stands before a request, unless one before is to be gone on with.
-continuation::Journal& Run::journal_of(const RunFiles& files, std::size_t request, bool has_several) {
-  const std::scoped_lock lock(mutex_);
-  if (journals_.empty() || journals_.begin()->first >= request)
-    reached_ = {request, files.count(), points_, complete_, files.header()};
-  const auto [place, is_new] = journals_.try_emplace(request);
-  if (is_new) place->second.begin(has_several || place != journals_.begin());
-  return place->second;
-}
-
-/// Leaves a checkpoint of what is not done.
-void Run::settle(const std::string& folder, bool is_cut_short) {
-  const std::scoped_lock lock(mutex_);
-  if (!is_cut_short && journals_.empty()) return remove_checkpoint(folder);
-  write_checkpoint(folder, plan_, reached_, journals_);
+    progress_.end(i, points_ - points_before);
 }
 
 void Run::report(const TracedBranch& traced, std::size_t number) {

@@ -23,7 +23,9 @@ def run(
     out: _Path | None = None,
     set: Sequence[str] = (),
     *,
+    verify: bool = False,
     certify: bool = False,
+    resume: _Path | Run | None = None,
     progress: _Progress | None = None,
 ) -> Run: ...
 def study(
@@ -103,6 +105,20 @@ class Problem:
     def __init__(self, residual: _Function | None = None, **given: Any) -> None: ...
     def residual(self, u: Any, p: Any) -> Any: ...
 
+class Element:
+    kind: str
+    force: _Function
+    slope: _Function | None
+    settings: dict[str, float | None]
+    def __init__(
+        self,
+        kind: str,
+        force: _Function,
+        slope: _Function | None = None,
+        settings: Mapping[str, float | None] | None = None,
+        scales_force: Sequence[str] = (),
+    ) -> None: ...
+
 class _Columns:
     def __getitem__(self, name: str) -> NDArray[Any]: ...
     def __contains__(self, name: str) -> bool: ...
@@ -119,6 +135,7 @@ class Branch(_Columns):
     complete: bool
     seconds: float
     derivatives: dict[str, str]
+    verification: dict[str, NDArray[Any]] | None
     @property
     def columns(self) -> list[str]: ...
     @property
@@ -135,6 +152,8 @@ class Branch(_Columns):
     def special(self) -> list[dict[str, Any]]: ...
     @property
     def summary(self) -> dict[str, Any]: ...
+    @property
+    def certificate(self) -> dict[str, Any] | None: ...
     @property
     def work(self) -> dict[str, int]: ...
     @property

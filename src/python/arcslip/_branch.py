@@ -54,9 +54,11 @@ class Branch(_Columns):
     derivatives : dict
         Of a problem written in Python: where "jacobian" and "parameter_jacobian" come from, "given", "complex step"
         or "central differences".
+    verification : dict of numpy.ndarray or None
+        With `run(..., verify=True)`: the points that were solved anew, the columns of verify.csv.
     """
 
-    def __init__(self, core, number=0, derivatives=None):
+    def __init__(self, core, number=0, derivatives=None, verification=None):
         self._core = core
         self._number = number
         self._made = {}
@@ -69,6 +71,7 @@ class Branch(_Columns):
         self.complete = core.complete
         self.seconds = core.seconds
         self.derivatives = derivatives or {}
+        self.verification = verification
 
     def __len__(self):
         return len(self._core)
@@ -139,6 +142,11 @@ class Branch(_Columns):
         if "summary" not in self._made:
             self._made["summary"] = json.loads(self._core.summary(self._number))
         return self._made["summary"]
+
+    @property
+    def certificate(self):
+        """With `run(..., certify=True)` what interval arithmetic proves, as summary.json has it; else None."""
+        return self.summary.get("certificate")
 
     @property
     def work(self):

@@ -1,16 +1,14 @@
 """Case files: what the commands run, study and check of the program do."""
 
-import csv
 import json
 import os
 import shutil
 import tempfile
 import warnings
 
-import numpy as np
-
 from . import _core, _plot
 from ._branch import Branch
+from ._stored import stored_branches, table_of
 from ._toml import to_toml
 
 
@@ -19,28 +17,36 @@ def _open(case, settings):
         settings = [settings]
     settings = [str(setting) for setting in settings]
     if isinstance(case, dict):
-        return _core.open_case("<dict>", to_toml(case), settings)
+        text, parts = to_toml(case)
+        return _core.open_case("<dict>", text, settings, parts.files, parts.elements)
     if isinstance(case, str) and "\n" in case:
-        return _core.open_case("<text>", case, settings)
+        return _core.open_case("<text>", case, settings, {}, [])
     if not isinstance(case, (str, os.PathLike)):
         raise TypeError(f"case: expected a path, TOML text or a dict, got {case!r}")
-    return _core.open_case(os.fsdecode(case), None, settings)
+    return _core.open_case(os.fsdecode(case), None, settings, {}, [])
 
 
-def run(case, out=None, set=(), *, certify=False, progress=None):
+def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, progress=None):
     """Trace the branches that a case asks for.
 
     Parameters
     ----------
     case : str, path or dict
-        A case file's path, its text (of two lines or more), or the same as a dict of sections.
+        A case file's path, its text (of two lines or more), or the same as a dict of sections. In a dict matrices
+        may be arrays of numpy or scipy.sparse, and a kind of element an `Element`.
     out : path, optional
         A folder for the files of `arcslip run`: branches.csv, curves.csv and summary.json, written as the
         branches come.
     set : sequence of str
         Values in place of those of the case, "section.key=value", as `--set` takes them.
+    verify : bool
+        Solve special points and samples of forced responses anew, with more harmonics and by integrating the whole
+        ring in time: `verification` of each branch, and verify.csv.
     certify : bool
-        Prove each branch by interval arithmetic; what was proven is in the summary.
+        Prove each branch by interval arithmetic: `certificate` of each branch, which the summary has too.
+    resume : path or Run, optional
+        Go on with an interrupted run of the same case, or one that had no time: that in a folder, which takes the
+        place of `out`, or one that `run` has returned. The result is that of a run which was not interrupted.
     progress : callable, optional
         Called up to twenty times a second with four numbers: the branch, how many there are, its points so far,
         and its arclength.
@@ -57,8 +63,19 @@ def run(case, out=None, set=(), *, certify=False, progress=None):
     OSError
         A file cannot be written.
     """
-    core = _core.run(_open(case, set), None if out is None else os.fsdecode(out), certify, progress)
-    result = Run(core)
+    file = _open(case, set)
+    before, folder = None, ""
+    if isinstance(resume, Run):
+        before = resume._core
+        if resume._folder and out is None:
+            before, folder = None, resume._folder
+    elif resume is not None:
+        folder = os.fsdecode(resume)
+    if folder and out is not None and os.path.abspath(os.fsdecode(out)) != os.path.abspath(folder):
+        raise ValueError(f"out: {os.fsdecode(out)}; a run that is resumed from {folder} goes on there")
+    out = folder or (None if out is None else os.fsdecode(out))
+    core = _core.run(file, out, verify, certify, folder, before, progress)
+    result = Run(core, out)
     for failure in core.failures:
         warnings.warn(failure, RuntimeWarning, stacklevel=2)
     if core.interrupted:
@@ -79,9 +96,14 @@ class Run:
         Wall clock.
     """
 
-    def __init__(self, core):
+    def __init__(self, core, folder=None):
         self._core = core
-        self.branches = [Branch(branch, number=i) for i, branch in enumerate(core.branches)]
+        self._folder = folder if core.interrupted or core.taken_over else None
+        verifications = {i: table_of(text) for i, text in core.verifications().items()}
+        self.branches = stored_branches(folder, core.taken_over)
+        first = len(self.branches)
+        for i, branch in enumerate(core.branches):
+            self.branches.append(Branch(branch, number=first + i, verification=verifications.get(i)))
         self.interrupted = core.interrupted
         self.seconds = core.seconds
         self._summary = None
@@ -101,7 +123,13 @@ class Run:
         folder : path
             Made if it is not there.
         """
-        self._core.write(os.fsdecode(folder))
+        if not self._core.taken_over:
+            self._core.write(os.fsdecode(folder))
+        elif not (os.path.isdir(folder) and os.path.samefile(self._folder, folder)):
+            os.makedirs(folder, exist_ok=True)
+            for name in ("branches.csv", "curves.csv", "summary.json", "verify.csv"):
+                if os.path.exists(os.path.join(self._folder, name)):
+                    shutil.copy(os.path.join(self._folder, name), folder)
 
     def plot(self, ax=None, x=None, y=None, **style):
         """Draw all branches.
@@ -248,10 +276,7 @@ class Study:
         self.quantiles = self._table("quantiles.csv")
 
     def _table(self, name):
-        if name not in self._files:
-            return None
-        header, *rows = csv.reader(self._files[name].splitlines())
-        return {column: _column([row[i] for row in rows]) for i, column in enumerate(header)}
+        return table_of(self._files[name]) if name in self._files else None
 
     def to_csv(self, folder):
         """Write the tables and summary.json.
@@ -268,12 +293,3 @@ class Study:
 
     def __repr__(self):
         return f"<arcslip.Study: {self.done} of {self.count} designs>"
-
-
-def _column(texts):
-    for kind in (int, float):
-        try:
-            return np.array([kind(text) for text in texts])
-        except ValueError:
-            continue
-    return np.array(texts)

@@ -8,6 +8,7 @@
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/certification.hpp"
 #include "arcslip/version.hpp"
+#include "python/binding/own_element.hpp"
 #include "python/binding/run.hpp"
 #include "results/case_check.hpp"
 #include "results/output.hpp"
@@ -24,10 +25,38 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-CaseFile open_case(const std::string& name, const std::optional<std::string>& text,
-                   const std::vector<std::string>& settings) {
+/// A case with what its elements raise.
+struct OpenCase {
+  CaseFile file;
+  std::shared_ptr<Raised> raised;
+};
+
+OpenCase open_case(const std::string& name, const std::optional<std::string>& text,
+                   const std::vector<std::string>& settings, std::map<std::string, std::string> files,
+                   const py::list& elements) {
+  auto raised = std::make_shared<Raised>();
+  auto parts = std::make_shared<CaseParts>();
+  parts->files = std::move(files);
+  for (const py::handle element : elements)
+    parts->elements.push_back(kind_of(py::reinterpret_borrow<py::object>(element), raised));
   const py::gil_scoped_release unlocked;
-  return text ? CaseFile::of_text(name, *text, settings) : CaseFile(name, settings);
+  return {text ? CaseFile::of_text(name, *text, settings, parts) : CaseFile(name, settings), raised};
+}
+
+/// Work without the lock; what elements raise comes before what becomes of it.
+template <class Work>
+auto unlocked(const OpenCase& opened, const Work& work) {
+  try {
+    auto result = [&] {
+      const py::gil_scoped_release released;
+      return work();
+    }();
+    opened.raised->rethrow();
+    return result;
+  } catch (...) {
+    opened.raised->rethrow();
+    throw;
+  }
 }
 
 /// What a study leaves beside its files.
@@ -86,38 +115,32 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
   return outcome;
 }
 
-StudyOutcome run_study(const CaseFile& file, const std::string& folder, std::size_t jobs, bool resume,
+StudyOutcome run_study(const OpenCase& opened, const std::string& folder, std::size_t jobs, bool resume,
                        const py::object& progress) {
-  Interruption interruption(progress);
-  StudyOutcome outcome;
-  {
-    const py::gil_scoped_release unlocked;
-    outcome = study_case(file, {folder, jobs, resume}, interruption);
-  }
+  Interruption interruption(progress, opened.raised);
+  StudyOutcome outcome = unlocked(opened, [&] {
+    return study_case(opened.file, {folder, jobs, resume}, interruption);
+  });
   interruption.rethrow();
   return outcome;
 }
 
-py::tuple check(const CaseFile& file, bool derivatives) {
-  CaseCheck found;
-  {
-    const py::gil_scoped_release unlocked;
-    found = check_case(file, derivatives);
-  }
+py::tuple check(const OpenCase& opened, bool derivatives) {
+  const CaseCheck found = unlocked(opened, [&] { return check_case(opened.file, derivatives); });
   return py::make_tuple(found.text, found.good);
 }
 
-py::object run_case(const CaseFile& file, const std::optional<std::string>& folder, bool certify,
-                    const py::object& progress) {
-  Interruption interruption(progress);
-  std::unique_ptr<CaseRun> run;
-  {
-    const py::gil_scoped_release unlocked;
-    run = std::make_unique<CaseRun>(file, certify);
-    run->trace(folder, interruption);
-  }
+std::shared_ptr<CaseRun> run_case(const OpenCase& opened, const std::optional<std::string>& folder,
+                                  bool verify, bool certify, const std::string& resumed,
+                                  const std::shared_ptr<CaseRun>& before, const py::object& progress) {
+  Interruption interruption(progress, opened.raised);
+  auto run = unlocked(opened, [&] {
+    auto begun = std::make_shared<CaseRun>(opened.file, RunWishes{verify, certify, resumed, before});
+    begun->trace(folder, interruption);
+    return begun;
+  });
   interruption.rethrow();
-  return py::cast(std::move(run));
+  return run;
 }
 
 }  // namespace
@@ -126,8 +149,8 @@ void bind_cases(py::module_& module) {
   module.attr("version") = release;
   py::register_local_exception<InputError>(module, "InputError", PyExc_ValueError);
   py::register_local_exception<OutputError>(module, "OutputError", PyExc_OSError);
-  const py::class_<CaseFile> opaque(module, "Case");
-  module.def("open_case", open_case, py::arg("name"), py::arg("text"), py::arg("settings"));
+  const py::class_<OpenCase> opaque(module, "Case");
+  module.def("open_case", open_case);
   module.def("check", check);
   module.def("run", run_case);
   module.def("study", run_study);
@@ -137,9 +160,11 @@ void bind_cases(py::module_& module) {
       .def_readonly("count", &StudyOutcome::count)
       .def_readonly("failures", &StudyOutcome::failures)
       .def_readonly("warnings", &StudyOutcome::warnings);
-  py::class_<CaseRun>(module, "Run")
+  py::class_<CaseRun, std::shared_ptr<CaseRun>>(module, "Run")
       .def_property_readonly("branches", &CaseRun::branches)
       .def_property_readonly("failures", &CaseRun::failures)
+      .def_property_readonly("taken_over", &CaseRun::taken_over)
+      .def("verifications", &CaseRun::verifications)
       .def_property_readonly("interrupted", &CaseRun::interrupted)
       .def_property_readonly("title", &CaseRun::title)
       .def_property_readonly("seconds", &CaseRun::seconds)

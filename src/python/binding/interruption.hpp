@@ -8,9 +8,9 @@
 #include <exception>
 #include <functional>
 
-namespace arcslip::python {
+#include "python/binding/own_element.hpp"
 
-namespace py = pybind11;
+namespace arcslip::python {
 
 /// Asked by work that holds no lock, from the thread that called it. Twenty times a second it takes the lock
 /// for a moment.
@@ -19,12 +19,16 @@ class Interruption {
   /// What is told of progress, as arguments of the user's function; called with the lock held.
   using Tell = std::function<py::tuple()>;
 
-  /// `progress` is called with what `tell` says, or is None.
-  explicit Interruption(py::object progress = py::none()) : progress_(std::move(progress)) {}
+  /// `progress` is called with what `tell` says, or is None; what elements of a case raise ends the work.
+  explicit Interruption(py::object progress = py::none(), std::shared_ptr<Raised> raised = {})
+      : progress_(std::move(progress)), raised_(std::move(raised)) {}
 
   /// Whether the work is to go on: not after Ctrl-C, nor after something was raised.
-  bool go_on() { return is_stopped() ? false : look({}); }
-  bool go_on(const Tell& tell) { return is_stopped() ? false : look(tell); }
+  bool go_on() { return go_on({}); }
+  bool go_on(const Tell& tell) {
+    if (raised_ && raised_->interrupted.exchange(false)) interrupt();
+    return !is_stopped() && !(raised_ && raised_->is_any()) && look(tell);
+  }
 
   /// Ends the work as Ctrl-C does, and as an exception does that is raised where the work has ended.
   void interrupt() { interrupted_ = true; }
@@ -40,6 +44,7 @@ class Interruption {
   bool look(const Tell& tell);
 
   py::object progress_;
+  std::shared_ptr<Raised> raised_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point told_ = last_;
   bool interrupted_ = false;

@@ -1,0 +1,148 @@
+"""Elements of one's own: forces written in Python that act beside the contacts of a case."""
+
+import re
+
+import numpy as np
+
+_TINY = 1e-30
+
+
+class Element:
+    """A force f(x) of the momentary displacement x, odd, f(-x) = -f(x), as a kind of `[[element]]`.
+
+    In a case given as a dict it stands where the name of a kind would, with its settings beside it:
+    `{"element": [{"kind": soft, "at": "base", "k": 3.0}]}`. All that cases do with elements they do with it, but for
+    `verify` and `certify`; a setting may be continued, as `parameter = "soft.k"`. Functions get arrays, copies, and
+    are called from the thread that works.
+
+    Parameters
+    ----------
+    kind : str
+        What cases and messages call it: letters, digits and _.
+    force : callable
+        (x, **settings) -> f, of the shape of x, in the case's unit of force.
+    slope : callable, optional
+        (x, **settings) -> df/dx. Without it: complex steps, which are exact, if force takes complex numbers, else
+        central differences. One that is given is compared with differences when it is first used.
+    settings : dict, optional
+        Default of each number that force takes beside x; None where a case has to give it.
+    scales_force : sequence of str
+        Settings to whose product the force is proportional: of rods and beams they are N times those of a node.
+    """
+
+    def __init__(self, kind, force, slope=None, settings=None, scales_force=()):
+        if not isinstance(kind, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", kind):
+            raise ValueError(f"kind: expected a name of letters, digits and _, got {kind!r}")
+        for name, function in (("force", force), ("slope", slope)):
+            if not callable(function) and not (name == "slope" and function is None):
+                raise TypeError(f"element '{kind}': {name}: expected a function of x, got {function!r}")
+        self.kind = kind
+        self.force = force
+        self.slope = slope
+        self.settings = dict(settings or {})
+        unknown = [name for name in scales_force if name not in self.settings]
+        if unknown:
+            raise ValueError(f"element '{kind}': scales_force: '{unknown[0]}' is none of its settings")
+        self._settings = [
+            (name, None if value is None else float(value), name in scales_force)
+            for name, value in self.settings.items()
+        ]
+        self._is_checked = False
+        self._complex = False
+
+    def __repr__(self):
+        return f"<arcslip.Element '{self.kind}' of {', '.join(['x', *self.settings])}>"
+
+    def _sampled(self, x, values, varied, derivatives):
+        """What the engine asks for: f; df/dx, (df/ds); with two derivatives f, f', f'', f_s, f'_s, f_ss."""
+        if not self._is_checked and derivatives:
+            self._check(x, values)
+        force = self._call("force", self.force, x, values)
+        if not derivatives:
+            return [force]
+        found = [force, self._slope(x, values)]
+        if derivatives > 1:
+            step = np.max(np.abs(x), initial=_TINY) * 1e-5
+            found.append((self._slope(x + step, values) - self._slope(x - step, values)) / (2 * step))
+        if varied < 0:
+            return found
+        found.append(self._by_setting(self._force_at, x, values, varied))
+        if derivatives > 1:
+            found.append(self._by_setting(self._slope, x, values, varied))
+            found.append(
+                self._by_setting(lambda z, v: self._by_setting(self._force_at, z, v, varied), x, values, varied)
+            )
+        return found
+
+    def _call(self, name, function, x, values):
+        given = np.asarray(function(np.array(x), **dict(zip(self.settings, values.tolist()))))
+        if given.shape != x.shape:
+            raise ValueError(
+                f"element '{self.kind}': {name}: expected an array of shape {x.shape}, as x has it, "
+                f"got shape {given.shape}"
+            )
+        if given.dtype.kind not in "fiub" and not (given.dtype.kind == "c" and np.iscomplexobj(x)):
+            raise ValueError(f"element '{self.kind}': {name}: expected real numbers, got {given.dtype}")
+        wrong = np.flatnonzero(~np.isfinite(given))
+        if len(wrong):
+            raise ValueError(f"element '{self.kind}': {name}: {given[wrong[0]]} at x = {x[wrong[0]]:g}")
+        return given
+
+    def _force_at(self, x, values):
+        return self._call("force", self.force, x, values)
+
+    def _slope(self, x, values):
+        if self.slope is not None:
+            return self._call("slope", self.slope, x, values)
+        if self._complex:
+            tiny = np.max(np.abs(x), initial=_TINY) * 1e-30
+            return self._force_at(x + 1j * tiny, values).imag / tiny
+        return self._differences(x, values)
+
+    def _differences(self, x, values):
+        """Central differences of fourth order."""
+        h = np.max(np.abs(x), initial=_TINY) * 1e-3
+        near, far = (self._force_at(x + k * h, values) - self._force_at(x - k * h, values) for k in (1, 2))
+        return (8 * near - far) / (12 * h)
+
+    def _by_setting(self, function, x, values, varied):
+        h = 1e-4 * max(abs(values[varied]), 1e-8)
+        changed = []
+        for k in (1, 2):
+            up, down = values.copy(), values.copy()
+            up[varied] += k * h
+            down[varied] -= k * h
+            changed.append(function(x, up) - function(x, down))
+        return (8 * changed[0] - changed[1]) / (12 * h)
+
+    def _check(self, x, values):
+        """Refuses a force that is not odd and a slope that is not its own."""
+        if not np.any(x):
+            return
+        force, mirrored = self._force_at(x, values), self._force_at(-x, values)
+        worst = np.argmax(np.abs(force + mirrored))
+        if abs(force + mirrored)[worst] > 1e-9 * np.max(np.abs(force)):
+            raise ValueError(
+                f"element '{self.kind}': force: expected f(-x) = -f(x), got f({x[worst]:.6g}) = {force[worst]:.6g} "
+                f"and f({-x[worst]:.6g}) = {mirrored[worst]:.6g}"
+            )
+        differences = self._differences(x, values)
+        self._complex = self._takes_complex(x, values, differences)
+        if self.slope is not None:
+            slope = self._call("slope", self.slope, x, values)
+            wrong = np.abs(slope - differences)
+            worst = np.argsort(wrong)[len(wrong) // 2]  # a kink or two are no mistake
+            if wrong[worst] > 1e-4 * max(np.max(np.abs(differences)), _TINY):
+                raise ValueError(
+                    f"element '{self.kind}': slope: {slope[worst]:.6g} at x = {x[worst]:.6g}, where differences of "
+                    f"force give {differences[worst]:.6g}"
+                )
+        self._is_checked = True
+
+    def _takes_complex(self, x, values, differences):
+        tiny = np.max(np.abs(x)) * 1e-30
+        try:
+            slope = np.asarray(self._force_at(x + 1j * tiny, values)).imag / tiny
+        except Exception:
+            return False
+        return bool(np.median(np.abs(slope - differences)) <= 1e-4 * max(np.max(np.abs(differences)), _TINY))
