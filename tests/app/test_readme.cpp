@@ -1,4 +1,4 @@
-// What the README and the manual show is what the project holds.
+// What the README and the manual show is what the project holds; tests/manual runs what can be run.
 
 #include <fmt/format.h>
 
@@ -62,74 +62,6 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
   return found;
 }
 
-/// Blocks that are indented by four blanks, line by line without them.
-std::vector<std::vector<std::string>> indented_lines(const std::string& text) {
-  std::vector<std::vector<std::string>> found;
-  bool inside = false;
-  bool fenced = false;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("```", 0) == 0) fenced = !fenced;
-    const bool belongs = !fenced && line.rfind("    ", 0) == 0;
-    if (belongs && !inside) found.emplace_back();
-    inside = belongs;
-    if (inside) found.back().push_back(line.substr(4));
-  }
-  return found;
-}
-
-/// A command with what follows it.
-struct Sample {
-  std::string command;
-  std::vector<std::string> output;
-};
-
-std::vector<Sample> samples(const std::string& text) {
-  std::vector<Sample> found;
-  for (const auto& block : indented_lines(text)) {
-    bool shown = false;
-    for (const std::string& line : block) {
-      const bool is_command = line.rfind("$ ", 0) == 0;
-      shown = shown || is_command;
-      if (is_command) {
-        found.push_back({line.substr(2), {}});
-      } else if (shown) {
-        found.back().output.push_back(line);
-      }
-    }
-  }
-  return found;
-}
-
-/// Without what differs from run to run.
-std::string timeless(const std::string& line) {
-  static const std::regex seconds(R"([0-9.e+-]+ s\b)");
-  return std::regex_replace(line, seconds, "T s");
-}
-
-/// The first line of `expected` that `printed` has not at its place, where "..." stands for any lines; none
-/// if there is none.
-std::optional<std::string> missing(const std::vector<std::string>& expected, const std::string& printed) {
-  std::vector<std::string> lines;
-  std::istringstream in(printed);
-  for (std::string line; std::getline(in, line);) lines.push_back(timeless(line));
-  auto at = lines.begin();
-  bool anywhere = false;
-  for (const std::string& line : expected) {
-    if (line == "...") {
-      anywhere = true;
-      continue;
-    }
-    const auto end = anywhere || at == lines.end() ? lines.end() : at + 1;
-    const auto found = std::find(at, end, timeless(line));
-    if (found == end) return line;
-    at = found + 1;
-    anywhere = false;
-  }
-  if (!anywhere && at != lines.end()) return "... (the end is not shown)";
-  return std::nullopt;
-}
-
 /// A folder in which the manual's commands find what they name.
 class Checkout {
  public:
@@ -144,70 +76,7 @@ class Checkout {
   testing::TemporaryFolder folder_;
 };
 
-std::vector<std::string> words(const std::string& line) {
-  std::istringstream in(line.substr(0, line.find(" #")));
-  return {std::istream_iterator<std::string>(in), {}};
-}
-
 }  // namespace
-
-TEST_CASE("Every output that the manual shows is what the program prints") {
-  const Checkout checkout;
-  int shown = 0;
-  for (const Sample& sample : samples(manual())) {
-    if (sample.output.empty()) continue;
-    ++shown;
-    INFO(sample.command);
-    const testing::Outcome outcome = checkout.run(sample.command);
-    CHECK(outcome.status == 0);
-    const auto line = missing(sample.output, outcome.out);
-    INFO(line.value_or(""));
-    CHECK_FALSE(line.has_value());
-  }
-  CHECK(shown >= 2);
-}
-
-TEST_CASE(
-    "Every command that the manual shows is one of the program's, with its options, of files that exist") {
-  const std::set<std::string> made{"rotor/case.toml", "rotor", "study", "out/figure_8", "out/chart", "DIR"};
-  const Checkout checkout;
-  int commands = 0;
-  for (const auto& block : indented_lines(manual())) {
-    for (std::string line : block) {
-      if (line.rfind("$ ", 0) == 0) line = line.substr(2);
-      const std::vector<std::string> parts = words(line);
-      if (parts.size() < 2 || (parts[0] != "arcslip" && parts[0] != "./dev")) continue;
-      INFO(line);
-      ++commands;
-      const bool is_program = parts[0] == "arcslip";
-      const testing::Outcome help =
-          checkout.run(is_program ? fmt::format("arcslip {} --help", parts[1]) : "'" + source + "/dev' help");
-      CHECK(help.status == 0);
-      if (!is_program) CHECK_THAT(help.out, ContainsSubstring("  " + parts[1] + " "));
-      for (std::size_t i = 2; i < parts.size(); ++i) {
-        INFO(parts[i]);
-        if (parts[i][0] == '-') {
-          CHECK_THAT(help.out, ContainsSubstring(parts[i]));
-        } else if (parts[i].find_first_of("/.") != std::string::npos) {
-          CHECK((made.count(parts[i]) == 1 || checkout.run("cat " + parts[i]).status == 0));
-        }
-      }
-    }
-  }
-  CHECK(commands >= 10);
-}
-
-TEST_CASE("A sample that lacks a line, or has another one, is told") {
-  const std::string printed = "one\ntwo (3 boxes, 0.5 s)\nthree\n";
-  CHECK_FALSE(missing({"one", "two (3 boxes, 0.02 s)", "three"}, printed));
-  CHECK_FALSE(missing({"...", "three"}, printed));
-  CHECK_FALSE(missing({"one", "..."}, printed));
-  CHECK(missing({"two (3 boxes, 0.5 s)", "..."}, printed) == "two (3 boxes, 0.5 s)");
-  CHECK(missing({"one", "two (4 boxes, 0.5 s)", "..."}, printed) == "two (4 boxes, 0.5 s)");
-  CHECK(missing({"one", "three"}, printed) == "three");
-  CHECK(missing({"one"}, printed) == "... (the end is not shown)");
-  CHECK(missing({"...", "three", "four"}, printed) == "four");
-}
 
 TEST_CASE("The manual's C++ is that of the project which the tests build against the installed package") {
   const std::string text = manual();
