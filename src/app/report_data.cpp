@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "app/pictures.hpp"
+#include "app/results_folder.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/version.hpp"
 #include "cases/structure_kind.hpp"

@@ -130,15 +130,15 @@ TEST_CASE("A study is not held up by a design that takes long, and goes on later
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"study.sqlite"});
 }
 
-TEST_CASE("gnuplot ends with the program that wants its pictures, whatever ends that one", "[interrupt]") {
+TEST_CASE("Python ends with the program that wants its pictures, whatever ends that one", "[interrupt]") {
   const TemporaryFolder folder;
   REQUIRE(arcslip_program("run " + figure_8_case + " --quiet -o " + folder.path("r") + " --set branch.to=1.5")
               .status == 0);
   for (const int signal : {SIGINT, SIGHUP, SIGKILL}) {
     CAPTURE(signal);
     const std::string ids = folder.path(std::to_string(signal));
-    path_with_gnuplot(folder, "echo $$ >>'" + ids + "'; exec /bin/sleep 10000");
-    Background plot({"plot", folder.path("r")}, [&] { setenv("PATH", folder.path("bin").c_str(), 1); });
+    const std::string python = false_python(folder, "echo $$ >>'" + ids + "'; exec /bin/sleep 10000");
+    Background plot({"plot", folder.path("r")}, [&] { setenv("ARCSLIP_PYTHON", python.c_str(), 1); });
     REQUIRE(plot.wait_until([&] { return !read(ids).empty(); }));
     plot.signal(signal);
     const Outcome outcome = plot.wait();

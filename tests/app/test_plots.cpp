@@ -41,7 +41,7 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
 }  // namespace
 
 TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[plots]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   const std::string results_folder = folder.path(R"(figure 8's "own")");
   const std::string quoted = folder.path(R"(figure 8's \"own\")");  // for the shell, between double quotes
@@ -60,17 +60,17 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
 }
 
 TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("preload_response", folder.path("r"));
   REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
   require_pictures(folder.path("r"), 20'000, pictures, run_results);
   const std::string svg = read(folder.path("r/amplitude.svg"));
-  CHECK_THAT(svg, ContainsSubstring(">P<") && ContainsSubstring(">η<") && ContainsSubstring("3.68"));
+  CHECK_THAT(svg, ContainsSubstring("preload  $P$") && ContainsSubstring("<!-- $\\eta$ = 3.68"));
 }
 
 TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   const auto drawn = [&](int branches) {
     std::string preloads = "0.5";
@@ -82,7 +82,7 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]
   };
   const auto named = [](const std::string& svg) {
     int count = 0;
-    for (std::size_t at = 0; (at = svg.find(">P<", at)) != std::string::npos; ++at) ++count;
+    for (std::size_t at = 0; (at = svg.find("<!-- $P$ = ", at)) != std::string::npos; ++at) ++count;
     return count;
   };
   CHECK(named(drawn(12)) == 12);
@@ -90,7 +90,7 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]
 }
 
 TEST_CASE("plot draws what there is of a run that was cut short", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const std::size_t rows = GENERATE(1, 2, 3, 700);
   CAPTURE(rows);
   const TemporaryFolder folder;
@@ -106,7 +106,7 @@ TEST_CASE("plot draws what there is of a run that was cut short", "[plots][outsi
 }
 
 TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");  // no slip: nothing is dissipated
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
@@ -115,28 +115,31 @@ TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots]
   CHECK_THAT(read(folder.path("r/dissipated.svg")), ContainsSubstring("nothing to show"));
 }
 
-TEST_CASE("plot says in one line that gnuplot is missing, or why it failed, and leaves nothing behind",
+TEST_CASE("plot says in one line that matplotlib is missing, or why it failed, and leaves nothing behind",
           "[plots][outside]") {
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");
-  const auto fails = [&](const std::string& path, const std::string& message) {
+  const auto fails = [&](const std::string& python, const std::string& message) {
     CAPTURE(message);
-    const Outcome outcome = shell(path + " '" + program + "' plot " + folder.path("r"));
+    const Outcome outcome =
+        shell("ARCSLIP_PYTHON='" + python + "' '" + program + "' plot " + folder.path("r"));
     CHECK(outcome.status == 4);
     CHECK(is_one_line(outcome.err));
     CHECK_THAT(outcome.err, ContainsSubstring(message));
     CHECK(outcome.out.empty());
     CHECK(names_in(folder.path("r")) == run_results);
   };
-  fails("PATH=/nonexistent",
-        "arcslip plot: gnuplot was not found; install it (Debian: apt-get install gnuplot-nox)\n");
-  fails(path_with_gnuplot(folder, "echo first >&2; echo the reason >&2; exit 2"),
-        "gnuplot failed: the reason");
-  fails(path_with_gnuplot(folder, "echo a part >\"$6\""), "amplitude.png: cannot be drawn");
-  fails(path_with_gnuplot(folder, "kill -9 $$"), "signal 9");
+  const std::string missing =
+      "arcslip plot: no python3 with matplotlib was found; install it (Debian: apt-get install "
+      "python3-matplotlib)\n";
+  fails("/nonexistent/python3", missing);
+  fails(false_python(folder, "exit 5"), missing);
+  fails(false_python(folder, "echo first >&2; echo the reason >&2; exit 3"), "python3 failed: the reason");
+  fails(false_python(folder, "kill -9 $$"), "signal 9");
 }
 
 TEST_CASE("plot refuses a folder without results, in one line that names the file", "[plots]") {
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("whole"), "--set branch.to=1.5");
   const std::string table = read(folder.path("whole/branches.csv"));
@@ -168,7 +171,7 @@ TEST_CASE("plot refuses a folder without results, in one line that names the fil
 }
 
 TEST_CASE("plot draws the branches of every problem of the library", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const std::string problem =
       GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing");
   CAPTURE(problem);
@@ -182,43 +185,44 @@ TEST_CASE("plot draws the branches of every problem of the library", "[plots][ou
   const std::string svg = read(folder.path("r/branch.svg"));
   const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2" ||
                                problem == "duffing" || problem == "lure";
-  CHECK((svg.find(">stable<") != std::string::npos) == loses_stability);
-  CHECK((svg.find(">Hopf<") != std::string::npos) ==
+  CHECK((svg.find("<!-- stable -->") != std::string::npos) == loses_stability);
+  CHECK((svg.find("<!-- Hopf -->") != std::string::npos) ==
         (problem == "ab" || problem == "lorenz84" || problem == "pp2"));
-  CHECK((svg.find(">period\u00a0doubling<") != std::string::npos) == (problem == "lure"));
+  CHECK((svg.find("<!-- period doubling -->") != std::string::npos) == (problem == "lure"));
 }
 
 TEST_CASE("plot gives the branches that one request led to no names, and those of several theirs",
           "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw(folder, "[system]\nmodel = 'enz'\n[branch]\nparameter = 's0'\nfrom = 0\nto = 60\nswitching = true\n",
        {"branch"});
   const std::string one = read(folder.path("r/branch.svg"));
-  CHECK_THAT(one, ContainsSubstring("branch") && !ContainsSubstring("=\u00a0"));
+  CHECK_THAT(one, ContainsSubstring("branch") && !ContainsSubstring("$ = "));
   draw(folder,
        "[system]\nmodel = 'cusp'\n[branch]\nparameter = 'mu'\nfrom = -2\nto = 2\n"
        "for_each = { lambda = [-1, 0.5] }\n",
        {"branch"});
-  CHECK_THAT(read(folder.path("r/branch.svg")), ContainsSubstring("−1") && ContainsSubstring(">λ<"));
+  CHECK_THAT(read(folder.path("r/branch.svg")), ContainsSubstring("<!-- $\\lambda$ = −1 -->"));
 }
 
 TEST_CASE("plot draws a curve of special points in the plane of its two parameters", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw(folder,
        "[system]\nmodel = 'cusp'\nlambda = 1\n[branch]\ncurve = 'fold'\nparameters = ['mu', 'lambda']\n"
        "window = [-2.5, 2.5]\nfrom = -1\nto = 3\n",
        {"curve"});
   const std::string svg = read(folder.path("r/curve.svg"));
-  CHECK_THAT(svg, ContainsSubstring(">folds<") && ContainsSubstring(">cusp<") && ContainsSubstring(">μ<"));
+  CHECK_THAT(svg, ContainsSubstring("<!-- folds -->") && ContainsSubstring("<!-- cusp -->") &&
+                      ContainsSubstring("<!-- $\\mu$ -->"));
   CHECK_THAT(svg, !ContainsSubstring("requested"));  // the value from which the curve starts is no request
 }
 
 TEST_CASE(
     "plot draws a curve of a system with friction a second time, as amplitude over its second parameter",
     "[plots]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const std::string curve = GENERATE("fold", "peak", "switch");
   CAPTURE(curve);
   const TemporaryFolder folder;
@@ -229,7 +233,7 @@ TEST_CASE(
 }
 
 TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw(folder,
        std::string(rods) +
@@ -238,21 +242,22 @@ TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots][ou
            "response = 'limit_cycle'\nparameter = 'zeta_B'\nfrom = -1e-4\nto = -0.05\nstart = -1e-3\n",
        {"limit_cycle"});
   const std::string svg = read(folder.path("r/limit_cycle.svg"));
-  CHECK_THAT(svg, ContainsSubstring(">ζ<") && ContainsSubstring(">η<") && ContainsSubstring(">fold<"));
+  CHECK_THAT(svg,
+             ContainsSubstring("\\zeta") && ContainsSubstring("\\eta") && ContainsSubstring("<!-- fold -->"));
 }
 
 TEST_CASE("plot draws responses that fold, and marks the folds", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw(folder,
        std::string(rods) + stiffening +
            "[branch]\nparameter = 'eta'\nfrom = 0.5\nto = 12\nfor_each = { preload = [0.05, 0.1] }\n",
        pictures);
-  CHECK_THAT(read(folder.path("r/amplitude.svg")), ContainsSubstring(">fold<"));
+  CHECK_THAT(read(folder.path("r/amplitude.svg")), ContainsSubstring("<!-- fold -->"));
 }
 
 TEST_CASE("plot leaves out a key that would be empty", "[plots][outside]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   const auto height = [&](const std::string& lambda) {
     draw(folder,
@@ -265,6 +270,7 @@ TEST_CASE("plot leaves out a key that would be empty", "[plots][outside]") {
 }
 
 TEST_CASE("plot refuses a table without the columns that its case tells of", "[plots]") {
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("cusp", folder.path("r"));
   const std::string table = read(folder.path("r/branches.csv"));

@@ -43,7 +43,7 @@ TEST_CASE("The summaries of a run and of a study stand beside each other, whiche
   has_both();
   REQUIRE(arcslip_program("study " + words).status == 0);
   has_both();
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const Outcome outcome = arcslip_program("plot " + folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
@@ -142,7 +142,7 @@ TEST_CASE("A file has no name before it is whole, and then replaces what had it"
 }
 
 TEST_CASE("Of a run and a study what can be drawn is drawn", "[folders]") {
-  if (!has_gnuplot()) return;
+  if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   const std::string words = folder.write("case.toml", both) + " --quiet -o " + folder.path("r");
   REQUIRE(arcslip_program("run " + words).status == 0);

@@ -17,18 +17,22 @@ namespace arcslip::testing {
 namespace fs = std::filesystem;
 
 /// Whether pictures can be drawn here; a warning if not.
-inline bool has_gnuplot() {
-  if (std::system("command -v gnuplot >/dev/null 2>&1") == 0) return true;
-  WARN("gnuplot is not installed: nothing is drawn");
+inline bool has_matplotlib() {
+  for (const char* python : {"python3", "/usr/bin/python3"}) {
+    const std::string command = std::string(python) + " -c 'import importlib.util as u, sys; " +
+                                "sys.exit(u.find_spec(\"matplotlib\") is None)' >/dev/null 2>&1";
+    if (std::system(command.c_str()) == 0) return true;
+  }
+  WARN("matplotlib is not installed: nothing is drawn");
   return false;
 }
 
-/// What makes a script of this text, in the folder, stand for gnuplot.
-inline std::string path_with_gnuplot(const TemporaryFolder& folder, const std::string& script) {
+/// A script of this text, in the folder, that can stand for Python.
+inline std::string false_python(const TemporaryFolder& folder, const std::string& script) {
   fs::create_directories(folder.path("bin"));
-  const std::string file = folder.write("bin/gnuplot", "#!/bin/sh\n" + script);
+  const std::string file = folder.write("bin/python3", "#!/bin/sh\n" + script);
   fs::permissions(file, fs::perms::owner_all);
-  return "PATH='" + folder.path("bin") + "'";
+  return file;
 }
 
 /// Requires all pictures in the folder, from their first bytes to their last, and nothing besides the

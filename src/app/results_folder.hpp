@@ -1,20 +1,12 @@
 #pragma once
 
-// Which pictures there are of a folder of results. The section `case` of summary.json and the columns of the
-// tables decide it.
+// A folder of results: its summary, and the table that pictures of its runs are drawn from.
 
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
-
-#include "app/gnuplot.hpp"
 
 namespace arcslip {
-
-/// Throws InputError where the folder does not hold what `arcslip run` or `arcslip study` writes, or holds no
-/// points.
-std::vector<Picture> pictures_of(const std::string& folder);
 
 /// The folder's summary.json. Throws InputError where it is none that can be read.
 nlohmann::ordered_json summary_of(const std::string& folder);

@@ -1,0 +1,241 @@
+"""What pictures look like: told apart without colour, no text over another, the same bytes each time."""
+
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+import pytest
+
+matplotlib = pytest.importorskip("matplotlib")
+SOURCE = pathlib.Path(__file__).parents[2]
+sys.path.insert(0, str(SOURCE / "plots"))
+
+import numpy as np  # noqa: E402
+import pictures  # noqa: E402
+from pictures import folder as folders  # noqa: E402
+from pictures import style  # noqa: E402
+
+PROGRAM = os.environ.get("ARCSLIP_PROGRAM", str(SOURCE / "build/release/bin/arcslip"))
+PLOT = SOURCE / "plots/plot.py"
+
+
+def run(case, folder, *settings, command="run"):
+    more = [word for setting in settings for word in ("--set", setting)]
+    path = SOURCE / "problems" / f"{case}.toml"
+    subprocess.run([PROGRAM, command, path, "-o", folder, "--quiet", *more], check=True, capture_output=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def results(tmp_path_factory):
+    root = tmp_path_factory.mktemp("results")
+    rotor = run("rotor_ring", root / "rotor")
+    return {
+        "figure_8": run("figure_8", root / "figure_8"),
+        "rotor": rotor,
+        "stability": run("stability", root / "stability"),
+        "pp2": run("pp2", root / "pp2"),
+        "border": run("border", root / "border"),
+    }
+
+
+@pytest.fixture(autouse=True, scope="session")
+def settings():
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(style.SETTINGS)
+        yield
+
+
+def figures_of(folder, **options):
+    found = folders.pictures_of(str(folder), pictures.Options(**options))
+    return {name: draw() for name, draw in found.items()}
+
+
+def texts_of(figure):
+    """What is written outside the panels, and the labels of axes, with their extents."""
+    renderer = figure.canvas.get_renderer()
+    figure.draw_without_rendering()
+    found = list(figure.texts)
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            found += [tick.label2 if axis.get_ticks_position() == "right" else tick.label1 for tick in axis.get_major_ticks()]
+    found = [text for text in found if text.get_text() and text.get_visible()]
+    return [(text.get_text(), text.get_window_extent(renderer)) for text in found]
+
+
+def overlap(a, b):
+    return min(a.x1, b.x1) - max(a.x0, b.x0) > 1 and min(a.y1, b.y1) - max(a.y0, b.y0) > 1
+
+
+def check_layout(figure):
+    texts = texts_of(figure)
+    page = figure.bbox
+    for i, (text, box) in enumerate(texts):
+        assert box.x0 >= page.x0 - 1 and box.x1 <= page.x1 + 1 and box.y0 >= page.y0 - 1 and box.y1 <= page.y1 + 1, text
+        for other, other_box in texts[:i]:
+            assert not overlap(box, other_box), (text, other)
+        for ax in figure.axes:
+            assert not overlap(box, ax.get_window_extent()), text
+
+
+@pytest.mark.parametrize("name", ["figure_8", "rotor", "stability", "pp2", "border"])
+def test_no_text_lies_over_another_or_over_a_panel(results, name):
+    for figure in figures_of(results[name]).values():
+        check_layout(figure)
+
+
+def test_long_names_of_many_branches_stay_within_the_page(results, tmp_path):
+    for name in ("branches.csv", "curves.csv"):
+        os.link(results["figure_8"] / name, tmp_path / name)
+    summary = json.loads((results["figure_8"] / "summary.json").read_text())
+    for i, branch in enumerate(summary["branches"]):
+        branch["values"] = {f"a_long_name_of_a_key_{k}": 123456.7 + i for k in range(4)}
+    (tmp_path / "summary.json").write_text(json.dumps(summary))
+    figure = figures_of(tmp_path, only=["amplitude"])["amplitude"]
+    check_layout(figure)
+    assert any(text.endswith("…") for text, _ in texts_of(figure))
+
+
+def test_every_colour_of_a_curve_has_a_contrast_of_three_to_white():
+    for count in [*range(1, 40), 200]:
+        assert min(style.contrast(colour) for colour in style.colours(count)) >= 3, count
+    assert style.contrast(style.GREY) >= 3 and style.contrast(style.COMMON) >= 3
+    assert style.contrast("#FFFFFF") == pytest.approx(1) and style.contrast("#000000") == pytest.approx(21)
+
+
+def test_few_curves_are_told_apart_without_colour_and_many_by_lightness():
+    for count in range(2, len(style.DASHES) + 1):
+        looks = [style.Look(i, count) for i in range(count)]
+        assert len({look.dash for look in looks}) == count and len({look.mark for look in looks}) == count
+    darkness = [style.contrast(colour) for colour in style.colours(60)]
+    assert all(a > b for a, b in zip(darkness, darkness[1:]))
+
+
+def test_stuck_parts_that_coincide_are_drawn_once_and_named(results):
+    figure = figures_of(results["figure_8"], only=["amplitude"])["amplitude"]
+    assert "stick, the same for all" in [text for text, _ in texts_of(figure)]
+    whole = figure.axes[0]
+    lines = [line for line in whole.lines if line.get_color() == style.COMMON]
+    x = np.concatenate([line.get_xdata() for line in lines])
+    y = np.concatenate([line.get_ydata() for line in lines])
+    # Where P = 50 sticks, at eta = 1 for one, there is one line, at the height that the table tells.
+    assert np.count_nonzero((x[:-1] < 1) & (x[1:] >= 1)) == 1
+    table = np.genfromtxt(results["figure_8"] / "branches.csv", delimiter=",", names=True)
+    first = table[table["branch"] == 4]
+    assert np.interp(1.0, x[: np.argmax(x > 2)], y[: np.argmax(x > 2)]) == pytest.approx(
+        np.interp(1.0, first["eta"], first["Y"]), rel=1e-3)
+    drawn = [line for line in whole.lines if line.get_color() in style.FEW and line.get_linewidth() == style.THIN]
+    assert not drawn
+    # R/S is another for each preload.
+    figure = figures_of(results["figure_8"], only=["relative"])["relative"]
+    assert "stick" in [text for text, _ in texts_of(figure)]
+    assert not [line for line in figure.axes[0].lines if line.get_color() == style.COMMON]
+
+
+def test_windows_enlarge_where_peaks_crowd(results):
+    figure = figures_of(results["figure_8"], only=["amplitude"])["amplitude"]
+    assert [text.get_text() for text in figure.texts if text.get_fontweight() == "bold"] == ["a", "b", "c", "b", "c"]
+    (_, first, second) = figure.axes
+    assert first.get_xlim()[0] < 3.67 < 4.0 < first.get_xlim()[1] < 6
+    assert second.get_xlim()[0] < 93.6 < second.get_xlim()[1] < 110
+
+
+def test_si_columns_are_drawn_with_their_units(results):
+    figure = figures_of(results["rotor"], only=["amplitude"])["amplitude"]
+    texts = " ".join(text for text, _ in texts_of(figure))
+    assert "(Hz)" in texts and "(µm)" in texts and "N/m" in texts
+    table = np.genfromtxt(results["rotor"] / "branches.csv", delimiter=",", names=True)
+    top = max(np.nanmax(line.get_ydata()) for line in figure.axes[0].lines if len(line.get_ydata()))
+    assert top == pytest.approx(table["Y_m"].max() * 1e6, rel=1e-3)
+
+
+def test_any_columns_are_drawn_over_one_another(results):
+    options = dict(x="frequency_Hz", y=["Y_um", "R_over_S"], linear={"y"}, ranges={"x": (2200, 2400)}, size=(12, 9))
+    ((name, figure),) = figures_of(results["rotor"], **options).items()
+    assert name == "Y_um_R_over_S_over_frequency_Hz" and len(figure.axes) == 2
+    assert figure.axes[0].get_xlim() == (2200, 2400) and figure.axes[0].get_yscale() == "linear"
+    assert figure.get_size_inches() * 2.54 == pytest.approx([12, 9])
+    check_layout(figure)
+    with pytest.raises(pictures.Refused, match=r"^Y_parsec: .*has no column of this name; there are eta, P, R, .*Y_m"):
+        figures_of(results["rotor"], y=["Y_parsec"])
+    with pytest.raises(pictures.Refused, match="no picture none; there are amplitude, relative"):
+        figures_of(results["rotor"], only=["none"])
+
+
+def test_bands_of_quantiles_hold_what_the_table_tells(tmp_path):
+    header = "curve,mass_ratio,P_opt,eta_opt,Y_opt,ratio_opt,kind,P_low,P_high\n"
+    (tmp_path / "optimum.csv").write_text(header + "0,5,1,4,1,0.1,smooth,0.5,2\n1,20,2,4,1,0.2,smooth,0.5,2\n")
+    rows = [f"{c},{p},{p * 0.1 + c},{p * 0.2 + c},{p * 0.3 + c}" for c in (0, 1) for p in (1, 2, 4, 8)]
+    (tmp_path / "quantiles.csv").write_text("curve,P,Y_q5,Y_q50,Y_q95\n" + "\n".join(rows) + "\n")
+    (tmp_path / "summary.json").write_text('{"case": {"study": {"sweep": false}}}')
+    drawn = figures_of(tmp_path)
+    assert list(drawn) == ["optimum", "quantiles"]
+    check_layout(drawn["quantiles"])
+    first, second = (band.get_paths()[0].vertices for band in drawn["quantiles"].axes[0].collections)
+    assert first[:, 1].min() == pytest.approx(0.1) and first[:, 1].max() == pytest.approx(2.4)
+    assert second[:, 1].min() == pytest.approx(1.1) and second[:, 1].max() == pytest.approx(3.4)
+    assert "50 % stay below" in [text for text, _ in texts_of(drawn["quantiles"])]
+
+
+def test_maps_have_their_labels_beside_them(tmp_path):
+    rows = [f"{i},{m},{g},{1 + i},4,1,{0.01 * (1 + i)},{'failed' if i == 5 else 'smooth'},0.5,2"
+            for i, (m, g) in enumerate((m, g) for m in (1, 3, 100) for g in (1, 2, 3))]
+    rows[5] = rows[5].replace(",6,4,1,0.06,", ",nan,nan,nan,nan,")
+    header = "curve,mass_ratio,frequency_ratio,P_opt,eta_opt,Y_opt,ratio_opt,kind,P_low,P_high\n"
+    (tmp_path / "optimum.csv").write_text(header + "\n".join(rows) + "\n")
+    (tmp_path / "summary.json").write_text('{"case": {"study": {"sweep": false}}}')
+    drawn = figures_of(tmp_path)
+    assert list(drawn) == ["optimum_preload", "attenuation"]
+    for figure in drawn.values():
+        check_layout(figure)
+        assert "not found" in [text for text, _ in texts_of(figure)]
+        assert figure.axes[0].get_xscale() == "log" and figure.axes[0].get_yscale() == "linear"
+        values = figure.axes[0].collections[0].get_array()
+        assert 0 < np.ma.count_masked(values) < values.size / 2  # the gap of the design that failed
+
+
+def test_the_same_bytes_come_out_each_time_in_every_format(results, tmp_path):
+    """Whatever the user's own settings are, and where nothing can be kept."""
+    made = []
+    for where, more in (("a", {}), ("b", {"MPLCONFIGDIR": "/proc/nowhere", "TZ": "Asia/Tokyo"})):
+        folder = tmp_path / where
+        folder.mkdir()
+        for name in ("branches.csv", "curves.csv", "summary.json"):
+            os.link(results["figure_8"] / name, folder / name)
+        formats = [f"--format={kind}" for kind in folders.FORMATS]
+        said = subprocess.run([sys.executable, PLOT, folder, "--only=amplitude", *formats], env={**os.environ, **more},
+                              capture_output=True, text=True)
+        assert (said.returncode, said.stderr) == (0, "")
+        assert said.stdout.split() == [str(folder / f"amplitude.{kind}") for kind in folders.FORMATS]
+        made.append({path.name: path.read_bytes() for path in folder.iterdir()})
+        time.sleep(1.1 if where == "a" else 0)  # a date would tell
+    assert made[0] == made[1]
+    assert made[0]["amplitude.pdf"].startswith(b"%PDF") and made[0]["amplitude.eps"].startswith(b"%!PS-Adobe-3.0 EPSF")
+
+
+@pytest.mark.parametrize("wrong, said", [
+    (["--range", "x=3:1"], "expected x=LOW:HIGH or y=LOW:HIGH with LOW < HIGH, got x=3:1"),
+    (["--size", "1x1"], "expected WIDTHxHEIGHT in cm, both from 4 to 100, got 1x1"),
+])
+def test_options_that_are_wrong_are_refused_in_one_line(results, wrong, said):
+    before = sorted(os.listdir(results["pp2"]))
+    outcome = subprocess.run([PROGRAM, "plot", results["pp2"], *wrong], capture_output=True, text=True,
+                             env={**os.environ, "ARCSLIP_PYTHON": sys.executable})
+    assert outcome.returncode == 2 and outcome.stderr.count("\n") == 1 and said in outcome.stderr
+    assert sorted(os.listdir(results["pp2"])) == before
+
+
+def test_a_picture_of_four_hundred_designs_is_drawn_within_seconds(tmp_path):
+    rows = [f"{i},{m:.17g},{g},{1 + 0.01 * i},4,1,{0.01 + 1e-4 * i},smooth,0.5,2"
+            for i, (m, g) in enumerate((math.exp(0.2 * m), 1 + 0.2 * g) for m in range(20) for g in range(20))]
+    header = "curve,mass_ratio,frequency_ratio,P_opt,eta_opt,Y_opt,ratio_opt,kind,P_low,P_high\n"
+    (tmp_path / "optimum.csv").write_text(header + "\n".join(rows) + "\n")
+    (tmp_path / "summary.json").write_text('{"case": {"study": {"sweep": false}}}')
+    begin = time.process_time()
+    pictures.draw_folder(str(tmp_path))
+    assert time.process_time() - begin < 10
