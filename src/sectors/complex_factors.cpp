@@ -1,64 +1,115 @@
 #include "sectors/complex_factors.hpp"
 
-#include <umfpack.h>
+#include <amd.h>
+#include <slu_zdefs.h>
 
 #include <new>
 #include <stdexcept>
+#include <vector>
 
 namespace arcslip {
-namespace {
 
-static_assert(UMFPACK_CONTROL == 20);
+/// What SuperLU keeps, of the matrix with its rows divided by the sums of their entries' magnitudes.
+struct ComplexFactors::Parts {
+  explicit Parts(const ComplexSparseMatrix& pattern)
+      : scaled(pattern), row_scale(pattern.rows()), columns(static_cast<std::size_t>(pattern.rows())) {
+    constexpr double least_diagonal = 1e-3;  // of a column's largest entry, to be the pivot
+    scaled.makeCompressed();
+    rows = etree = columns;
+    std::vector<int> order = columns;
+    const int size = static_cast<int>(scaled.rows());
+    const int status =
+        amd_order(size, scaled.outerIndexPtr(), scaled.innerIndexPtr(), order.data(), nullptr, nullptr);
+    if (status == AMD_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (status < 0) throw std::length_error("sector: more entries than indices can count");
+    for (int i = 0; i < size; ++i) columns[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
 
-const double* numbers_of(const Complex* values) { return reinterpret_cast<const double*>(values); }
-double* numbers_of(Complex* values) { return reinterpret_cast<double*>(values); }
+    set_default_options(&options);
+    options.ColPerm = MY_PERMC;
+    options.SymmetricMode = YES;
+    options.DiagPivotThresh = least_diagonal;
+    StatInit(&statistics);
+    zCreate_CompCol_Matrix(&matrix, size, size, static_cast<int>(scaled.nonZeros()),
+                           reinterpret_cast<doublecomplex*>(scaled.valuePtr()), scaled.innerIndexPtr(),
+                           scaled.outerIndexPtr(), SLU_NC, SLU_Z, SLU_GE);
+    sp_preorder(&options, &matrix, columns.data(), etree.data(), &ordered);
+  }
 
-void check_memory(int status) {
-  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
-  if (status < 0) throw std::length_error("sector: more entries than indices can count");
-}
+  ~Parts() {
+    release();
+    Destroy_CompCol_Permuted(&ordered);
+    Destroy_SuperMatrix_Store(&matrix);
+    StatFree(&statistics);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
 
-}  // namespace
+  void release() {
+    if (lower.Store != nullptr) Destroy_SuperNode_Matrix(&lower);
+    if (upper.Store != nullptr) Destroy_CompCol_Matrix(&upper);
+    lower.Store = upper.Store = nullptr;
+  }
 
-ComplexFactors::ComplexFactors(const ComplexSparseMatrix& pattern) : right_(pattern.rows()) {
-  umfpack_zi_defaults(control_.data());
-  control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  control_[UMFPACK_IRSTEP] = 0;
-  const int size = static_cast<int>(pattern.rows());
-  check_memory(umfpack_zi_symbolic(size, size, pattern.outerIndexPtr(), pattern.innerIndexPtr(), nullptr,
-                                   nullptr, &symbolic_, control_.data(), nullptr));
-}
+  void take(const ComplexSparseMatrix& values) {
+    row_scale.setZero();
+    for (Index j = 0; j < values.cols(); ++j)
+      for (ComplexSparseMatrix::InnerIterator entry(values, j); entry; ++entry)
+        row_scale(entry.row()) += std::abs(entry.value());
+    for (double& scale : row_scale) scale = scale > 0 ? 1 / scale : 1;
+    const Complex* from = values.valuePtr();
+    for (Index i = 0; i < scaled.nonZeros(); ++i)
+      scaled.valuePtr()[i] = from[i] * row_scale(scaled.innerIndexPtr()[i]);
+  }
 
-ComplexFactors::~ComplexFactors() {
-  umfpack_zi_free_numeric(&numeric_);
-  umfpack_zi_free_symbolic(&symbolic_);
-}
+  bool factor() {
+    release();
+    int info = 0;
+    zgstrf(&options, &ordered, sp_ienv(2), sp_ienv(1), etree.data(), nullptr, 0, columns.data(), rows.data(),
+           &lower, &upper, &sharing, &statistics, &info);
+    if (info > scaled.cols()) throw std::bad_alloc();
+    return info == 0;
+  }
+
+  void solve(trans_t form, ComplexMatrix& right) {
+    SuperMatrix b;
+    const int size = static_cast<int>(right.rows());
+    zCreate_Dense_Matrix(&b, size, static_cast<int>(right.cols()),
+                         reinterpret_cast<doublecomplex*>(right.data()), size, SLU_DN, SLU_Z, SLU_GE);
+    int info = 0;
+    zgstrs(form, &lower, &upper, columns.data(), rows.data(), &b, &statistics, &info);
+    Destroy_SuperMatrix_Store(&b);
+  }
+
+  ComplexSparseMatrix scaled;
+  Vector row_scale;
+  std::vector<int> columns, rows, etree;
+  superlu_options_t options{};
+  SuperLUStat_t statistics{};
+  SuperMatrix matrix{}, ordered{}, lower{}, upper{};
+  GlobalLU_t sharing{};
+};
+
+ComplexFactors::ComplexFactors(const ComplexSparseMatrix& pattern)
+    : parts_(std::make_unique<Parts>(pattern)) {}
+
+ComplexFactors::~ComplexFactors() = default;
 
 bool ComplexFactors::factor(const ComplexSparseMatrix& matrix) {
   ++factorisations_;
-  release();
-  std::array<double, UMFPACK_INFO> info{};
-  const int status =
-      umfpack_zi_numeric(matrix.outerIndexPtr(), matrix.innerIndexPtr(), numbers_of(matrix.valuePtr()),
-                         nullptr, symbolic_, &numeric_, control_.data(), info.data());
-  check_memory(status);
-  pivot_ratio_ = info[UMFPACK_RCOND];
-  return status == UMFPACK_OK && pivot_ratio_ > 0;
+  parts_->take(matrix);
+  return parts_->factor();
 }
 
-void ComplexFactors::release() { umfpack_zi_free_numeric(&numeric_); }
+void ComplexFactors::release() { parts_->release(); }
 
-void ComplexFactors::solve(int system, ComplexMatrix& columns) {
-  for (Index column = 0; column < columns.cols(); ++column) {
-    right_ = columns.col(column);
-    check_memory(umfpack_zi_solve(system, nullptr, nullptr, nullptr, nullptr,
-                                  numbers_of(columns.col(column).data()), nullptr, numbers_of(right_.data()),
-                                  nullptr, numeric_, control_.data(), nullptr));
-  }
+void ComplexFactors::solve(ComplexMatrix& columns) {
+  columns.array().colwise() *= parts_->row_scale.array().cast<Complex>();
+  parts_->solve(NOTRANS, columns);
 }
 
-void ComplexFactors::solve(ComplexMatrix& columns) { solve(UMFPACK_A, columns); }
-
-void ComplexFactors::solve_transposed(ComplexMatrix& columns) { solve(UMFPACK_Aat, columns); }
+void ComplexFactors::solve_transposed(ComplexMatrix& columns) {
+  parts_->solve(TRANS, columns);
+  columns.array().colwise() *= parts_->row_scale.array().cast<Complex>();
+}
 
 }  // namespace arcslip

@@ -1,9 +1,10 @@
 #pragma once
 
-// Sparse LU factorisation of complex matrices that share one pattern of entries: UMFPACK of SuiteSparse
-// [Davis, ACM Trans. Math. Softw. 30 (2004) 196], whose symbolic analysis serves them all.
+// Sparse LU factorisation of complex matrices that share one pattern of entries: SuperLU [Demmel, Eisenstat,
+// Gilbert, Li & Liu, SIAM J. Matrix Anal. Appl. 20 (1999) 720], with pivots from the diagonal where they
+// serve, in an order of least fill that is found once for them all.
 
-#include <array>
+#include <memory>
 
 #include "arcslip/sectors/sector_reduction.hpp"
 
@@ -20,9 +21,6 @@ class ComplexFactors {
   /// False where the matrix, of this pattern, is singular. Throws std::bad_alloc.
   bool factor(const ComplexSparseMatrix& matrix);
 
-  /// Smallest over largest pivot, of rows that are scaled.
-  double pivot_ratio() const { return pivot_ratio_; }
-
   void solve(ComplexMatrix& columns);             ///< A^{-1} columns, in place
   void solve_transposed(ComplexMatrix& columns);  ///< A^{-T} columns, in place
 
@@ -32,14 +30,10 @@ class ComplexFactors {
   int factorisations() const { return factorisations_; }
 
  private:
-  void solve(int system, ComplexMatrix& columns);
+  struct Parts;
 
-  std::array<double, 20> control_{};
-  void* symbolic_ = nullptr;
-  void* numeric_ = nullptr;
-  double pivot_ratio_ = 0;
+  std::unique_ptr<Parts> parts_;
   int factorisations_ = 0;
-  ComplexVector right_;
 };
 
 }  // namespace arcslip
