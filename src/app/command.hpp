@@ -23,9 +23,6 @@ struct Command {
 /// All of them, in alphabetical order.
 const std::vector<Command>& commands();
 
-/// The one of this name, or null.
-const Command* find_command(const std::string& name);
-
 /// `--set`.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);
 

@@ -29,11 +29,18 @@ run(${plain}/further)
 find_program(PKG_CONFIG pkg-config REQUIRED)
 file(GLOB_RECURSE descriptions ${prefix}/*/arcslip.pc)
 cmake_path(GET descriptions PARENT_PATH folder)
-execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder} ${PKG_CONFIG} --cflags --libs arcslip
-                OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-separate_arguments(flags UNIX_COMMAND "${flags}")
-run(${CXX_COMPILER} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/friction.cpp ${flags} -o ${work}/friction)
-run(${work}/friction)
+foreach(pair IN ITEMS "arcslip friction" "arcslip-continuation own_problem")
+  separate_arguments(pair)
+  list(POP_FRONT pair package source)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder} ${PKG_CONFIG} --cflags --libs ${package}
+                  OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  if(package STREQUAL arcslip-continuation AND flags MATCHES "sqlite|superlu|umfpack|mechanics")
+    message(FATAL_ERROR "pkg-config links the engine to more than it needs: ${flags}")
+  endif()
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(${CXX_COMPILER} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/${source}.cpp ${flags} -o ${work}/${source})
+  run(${work}/${source})
+endforeach()
 
 # At k = 1/5 the arch snaps at u = 1 -+ sqrt(1/5), d = 1 +- sqrt(1/5).
 execute_process(COMMAND ${plain}/own_problem OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
@@ -82,3 +89,20 @@ find_package(arcslip REQUIRED COMPONENTS continuation mechanics problems files)
 ]])
 run(${CMAKE_COMMAND} -S ${work}/components -B ${work}/components/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
     -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
+
+# The engine alone, where there is none of what only the others need.
+file(WRITE ${work}/engine/CMakeLists.txt "
+cmake_minimum_required(VERSION 3.25)
+project(engine LANGUAGES CXX)
+find_package(arcslip REQUIRED COMPONENTS continuation)
+if(TARGET arcslip::superlu OR TARGET SQLite::SQLite3 OR TARGET nlohmann_json::nlohmann_json)
+  message(FATAL_ERROR \"the engine alone asks for more than it needs\")
+endif()
+add_executable(engine ${CMAKE_CURRENT_LIST_DIR}/own_problem.cpp)
+target_link_libraries(engine PRIVATE arcslip::continuation)
+")
+run(${CMAKE_COMMAND} -S ${work}/engine -B ${work}/engine/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_DISABLE_FIND_PACKAGE_SQLite3=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
+run(${CMAKE_COMMAND} --build ${work}/engine/build)
+run(${work}/engine/build/engine)

@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "app/commands.hpp"
+#include "app/interface_text.hpp"
 #include "cases/key_catalogue.hpp"
 #include "keys/printable.hpp"
 #include "results/output.hpp"
@@ -15,6 +16,8 @@ namespace {
 struct HelpOptions {
   std::string key;        ///< empty: all of them
   bool markdown = false;  ///< tables of all keys, as the manual has them
+  bool man = false;       ///< the manual page
+  std::string shell;      ///< whose completion is asked for
 };
 
 /// Without the marks of code.
@@ -108,7 +111,11 @@ std::string list_keys(const std::vector<std::string>& names) {
 
 namespace {
 
-int help(const HelpOptions& options) {
+int help(const CLI::App& program, const HelpOptions& options) {
+  if (options.man || !options.shell.empty()) {
+    print(options.man ? man_page(program) : completion(program, options.shell));
+    return status::done;
+  }
   const std::vector<KeySection> sections = key_catalogue();
   if (!options.key.empty()) return help_of(options.key, sections);
   std::string text;
@@ -125,7 +132,11 @@ Command::Action add_help(CLI::App& app) {
   CLI::App* command = app.add_subcommand("help", "List the keys of case files, or tell all of one");
   command->add_option("KEY", options->key, "As max_step, or continuation.max_step");
   command->add_flag("--markdown", options->markdown, "All keys as tables in Markdown");
-  return [options] { return help(*options); };
+  command->add_flag("--man", options->man, "The manual page, for man -l");
+  command->add_option("--completion", options->shell, "Completion for a shell: bash or zsh")
+      ->type_name("SHELL")
+      ->check(CLI::IsMember({"bash", "zsh"}));
+  return [options, &app] { return help(app, *options); };
 }
 
 }  // namespace
