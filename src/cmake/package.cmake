@@ -57,7 +57,7 @@ set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "libboost-dev, libeigen3-dev, libfmt-dev, libsqlite3-dev, libsuitesparse-dev, libsuperlu-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${package_folder}/postinst;${package_folder}/prerm")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "continuation of vibrations damped by dry friction")
-set(CPACK_PACKAGE_DESCRIPTION "Traces the forced response of structures with dry friction through stick, slip and
-folds, and finds the best preload of friction dampers. Holds the program, its
-C++ library and the Python module.")
+set(CPACK_PACKAGE_DESCRIPTION "Traces the forced response of structures with dry friction through
+stick, slip and folds, and finds the best preload of friction dampers.
+Holds the program, its C++ library and the Python module.")
 include(CPack)
