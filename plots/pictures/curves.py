@@ -31,6 +31,7 @@ class Curve:
     look: style.Look
     name: str = ""
     is_common: bool = field(default=False)  # what is not told of it is drawn once, with others
+    style: dict = field(default_factory=dict)  # of its lines, as matplotlib names it, in place of the look's
 
 
 def broken(x, y, chosen):
@@ -123,7 +124,7 @@ def draw_curves(ax, curves, mode, common=(), is_marked=None):
             points = curve.special.get(kind, np.array([], dtype=int))
             points = points[is_marked(curve.x[points])] if is_marked else points
             if len(points):
-                draw_marks(ax, curve.x[points], curve.y[points], kind, curve.look.colour, curve.look.is_fine)
+                draw_marks(ax, curve.x[points], curve.y[points], kind, curve.look)
 
 
 def _draw_lines(ax, curve, mode):
@@ -142,21 +143,22 @@ def _draw_lines(ax, curve, mode):
     for chosen, width, dash, order in lines:
         x, y = broken(curve.x, curve.y, chosen)
         if len(x):
-            points = [(0, tuple(d * max(width, 0.9) for d in dash[1]))][0]
-            ax.plot(x, y, color=look.colour, linewidth=width, linestyle=points, zorder=order)
+            dashes = (0, tuple(d * max(width, 0.9) for d in dash[1])) if dash[1] else "-"
+            drawn = {"color": look.colour, "linewidth": width, "linestyle": dashes, "zorder": order, **curve.style}
+            ax.plot(x, y, **drawn | ({"linestyle": dashes} if dash is style.UNSTABLE else {}))
 
 
-def draw_marks(ax, x, y, kind, colour, is_fine=False, **more):
+def draw_marks(ax, x, y, kind, look):
     """Special points, each over its own shape in white."""
     _, shape, size, is_filled = style.KINDS[kind]
-    size = size * (0.7 if is_fine else 1)
+    size, colour = size * look.mark_scale, look.colour
     if shape in "x+":
-        ax.plot(x, y, shape, color=colour, markersize=size, markeredgewidth=0.8, zorder=3, **more)
+        ax.plot(x, y, shape, color=colour, markersize=size, markeredgewidth=0.8, zorder=3)
         return
     edge = "white" if is_filled else colour
     fill = colour if is_filled else ("white" if kind != "fold" else "none")
     ax.plot(x, y, shape, color=colour, markersize=size, markerfacecolor=fill, markeredgecolor=edge,
-            markeredgewidth=0.4 if is_filled else 0.6, zorder=3, linestyle="none", **more)
+            markeredgewidth=0.4 if is_filled else 0.6, zorder=3, linestyle="none")
 
 
 def spread_marks(ax, curves, apart=1.7):

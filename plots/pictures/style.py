@@ -65,16 +65,18 @@ def contrast(colour):
 
 
 class Look:
-    """Of one of `count` curves."""
+    """Of one of `count` curves; in a colour of its own, and so many times as large, if these are given."""
 
-    def __init__(self, number, count):
-        self.colour = colours(count)[number]
+    def __init__(self, number, count, colour=None, scale=1.0):
+        self.colour = colour or colours(count)[number]
         self.is_fine = count > MANY
+        self.scale = scale
+        self.mark_scale = scale * (0.7 if self.is_fine else 1)
         self.dash = SOLID if self.is_fine else DASHES[number % len(DASHES)]
         self.mark = None if self.is_fine or count == 1 else LINE_MARKS[number % len(LINE_MARKS)]
 
     def width(self, points):
-        return FINE.get(points, points) if self.is_fine else points
+        return self.scale * (FINE.get(points, points) if self.is_fine else points)
 
 
 # ---- Special points in the order in which they are drawn: title, symbol, size in points, filled ----

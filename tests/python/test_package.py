@@ -65,19 +65,23 @@ def test_the_stub_declares_what_there_is_with_the_same_arguments():
 
 
 def test_what_is_installed_can_be_imported_from_there(tmp_path):
+    pytest.importorskip("matplotlib")
     build = os.environ.get("ARCSLIP_BUILD_DIR", SOURCE / "build/release")
     subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", tmp_path], check=True)
     (package,) = tmp_path.rglob("py.typed")
-    code = "import arcslip; print(arcslip.__file__); print(len(arcslip.trace(lambda u, p: u - p, 0.0, 0.0)) > 2)"
+    code = (
+        "import arcslip; print(arcslip.__file__); branch = arcslip.trace(lambda u, p: u - p, 0.0, 0.0);"
+        "print(len(branch) > 2); print(len(branch.plot().lines) > 0)"
+    )
     said = subprocess.run(
         [sys.executable, "-c", code],
-        env={**os.environ, "PYTHONPATH": str(package.parents[1])},
+        env={**os.environ, "PYTHONPATH": str(package.parents[1]), "MPLBACKEND": "Agg"},
         cwd=tmp_path,
         capture_output=True,
         text=True,
         check=True,
     )
-    assert said.stdout.splitlines() == [str(package.parent / "__init__.py"), "True"]
+    assert said.stdout.splitlines() == [str(package.parent / "__init__.py"), "True", "True"]
     assert (package.parent / "__init__.pyi").exists()
 
 

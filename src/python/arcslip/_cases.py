@@ -6,7 +6,7 @@ import shutil
 import tempfile
 import warnings
 
-from . import _core, _plot
+from . import _core
 from ._branch import Branch
 from ._stored import stored_branches, table_of
 from ._toml import to_toml
@@ -143,6 +143,8 @@ class Run:
         -------
         matplotlib.axes.Axes
         """
+        from . import _plot
+
         own = ax is None
         ax = _plot.new_axes() if own else ax
         for branch in self.branches:

@@ -1,19 +1,14 @@
-"""Branches drawn with matplotlib."""
+"""Branches drawn with matplotlib, by what draws the pictures of `arcslip plot`."""
 
 import numpy as np
+from matplotlib import cbook, pyplot, rcParams
+from matplotlib.lines import Line2D
 
-_MARKS = {
-    "fold": "D",
-    "corner_fold": "d",
-    "branch_point": "o",
-    "hopf": "s",
-    "peak": "^",
-    "trough": "v",
-    "switch": "x",
-    "cusp": "*",
-    "neimark_sacker": "s",
-    "period_doubling": "P",
-}
+from ._pictures.axes import is_wide, spread
+from ._pictures.curves import Curve, draw_curves, draw_marks
+from ._pictures.style import KINDS, MEDIUM, Look
+
+_WIDE = 100  # the ratio of largest to smallest from which axes of one's own are logarithmic
 
 
 def _default_y(branch):
@@ -25,8 +20,6 @@ def _default_y(branch):
 
 def new_axes():
     """Axes of a figure of their own."""
-    from matplotlib import pyplot
-
     return pyplot.figure().add_subplot()
 
 
@@ -34,8 +27,8 @@ def settle(ax):
     """Makes axes logarithmic on which positive values span more than two decades, and adds the legend."""
     for values, set_scale in (("get_xdata", ax.set_xscale), ("get_ydata", ax.set_yscale)):
         shown = np.concatenate([np.asarray(getattr(line, values)(), dtype=float) for line in ax.get_lines()] or [[]])
-        shown = shown[np.isfinite(shown)]
-        if len(shown) and shown.min() > 0 and shown.max() > 100 * shown.min():
+        bounds = spread(shown)
+        if bounds and is_wide(*bounds, _WIDE):
             set_scale("log")
     if ax.get_legend_handles_labels()[0]:
         ax.legend()
@@ -50,28 +43,16 @@ def plot(branch, ax, x, y, style):
     ax.set_ylabel(y)
     if len(branch) == 0:
         return ax
-    curve = branch.curve()
-    unstable = curve["unstable"] > 0
-    label = style.pop("label", None)
-    dashed = {**style, "linestyle": "--"}
-    line = None
-    for is_unstable in (False, True):
-        here = unstable == is_unstable
-        if not here.any():
-            continue
-        joined = here.copy()  # each piece up to where the next one begins
-        joined[1:] |= here[:-1]
-        values = np.where(joined, curve[y], np.nan)
-        color = {} if line is None else {"color": line.get_color()}
-        (line,) = ax.plot(curve[x], values, **{**color, **(dashed if is_unstable else style)}, label=label)
-        label = None
-    _mark(branch, ax, x, y, line.get_color())
-    return ax
-
-
-def _mark(branch, ax, x, y, color):
-    types = branch["type"]
-    for kind, mark in _MARKS.items():
-        at = types == kind
+    style = cbook.normalize_kwargs(style, Line2D)
+    (sample,) = ax.plot([], [], **style)  # has the colour whose turn it is on these axes
+    sample.remove()
+    look = Look(0, 1, sample.get_color(), rcParams["lines.linewidth"] / MEDIUM)
+    curve, before, label = branch.curve(), len(ax.lines), style.pop("label", None)
+    draw_curves(ax, [Curve(curve[x], curve[y], curve["unstable"] > 0, {}, look, style=style)], "stability")
+    if label and len(ax.lines) > before:
+        ax.lines[before].set_label(label)
+    for kind in KINDS:
+        at = branch["type"] == kind
         if at.any():
-            ax.plot(branch[x][at], branch[y][at], mark, color=color, markersize=5, label=None, fillstyle="none")
+            draw_marks(ax, branch[x][at], branch[y][at], kind, look)
+    return ax
