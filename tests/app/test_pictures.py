@@ -30,17 +30,14 @@ def run(case, folder, *settings, command="run"):
     return folder
 
 
+LIBRARY = ["ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing"]
+
+
 @pytest.fixture(scope="session")
 def results(tmp_path_factory):
     root = tmp_path_factory.mktemp("results")
-    rotor = run("rotor_ring", root / "rotor")
-    return {
-        "figure_8": run("figure_8", root / "figure_8"),
-        "rotor": rotor,
-        "stability": run("stability", root / "stability"),
-        "pp2": run("pp2", root / "pp2"),
-        "border": run("border", root / "border"),
-    }
+    cases = {name: name for name in ["figure_8", "stability", "border", *LIBRARY]} | {"rotor": "rotor_ring"}
+    return {name: run(case, root / name) for name, case in cases.items()}
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -206,16 +203,16 @@ def test_the_same_bytes_come_out_each_time_in_every_format(results, tmp_path):
         folder = tmp_path / where
         folder.mkdir()
         for name in ("branches.csv", "curves.csv", "summary.json"):
-            os.link(results["figure_8"] / name, folder / name)
+            os.link(results["pp2"] / name, folder / name)
         formats = [f"--format={kind}" for kind in folders.FORMATS]
-        said = subprocess.run([sys.executable, PLOT, folder, "--only=amplitude", *formats], env={**os.environ, **more},
+        said = subprocess.run([sys.executable, PLOT, folder, "--only=branch", *formats], env={**os.environ, **more},
                               capture_output=True, text=True)
         assert (said.returncode, said.stderr) == (0, "")
-        assert said.stdout.split() == [str(folder / f"amplitude.{kind}") for kind in folders.FORMATS]
+        assert said.stdout.split() == [str(folder / f"branch.{kind}") for kind in folders.FORMATS]
         made.append({path.name: path.read_bytes() for path in folder.iterdir()})
         time.sleep(1.1 if where == "a" else 0)  # a date would tell
     assert made[0] == made[1]
-    assert made[0]["amplitude.pdf"].startswith(b"%PDF") and made[0]["amplitude.eps"].startswith(b"%!PS-Adobe-3.0 EPSF")
+    assert made[0]["branch.pdf"].startswith(b"%PDF") and made[0]["branch.eps"].startswith(b"%!PS-Adobe-3.0 EPSF")
 
 
 @pytest.mark.parametrize("wrong, said", [
@@ -237,5 +234,93 @@ def test_a_picture_of_four_hundred_designs_is_drawn_within_seconds(tmp_path):
     (tmp_path / "optimum.csv").write_text(header + "\n".join(rows) + "\n")
     (tmp_path / "summary.json").write_text('{"case": {"study": {"sweep": false}}}')
     begin = time.process_time()
-    pictures.draw_folder(str(tmp_path))
+    pictures.draw_folder(str(tmp_path), pictures.Options(only=["attenuation"]))
     assert time.process_time() - begin < 10
+
+
+@pytest.mark.parametrize("problem", LIBRARY)
+def test_branches_of_every_problem_of_the_library_are_drawn(results, problem):
+    (figure,) = figures_of(results[problem], only=["branch"]).values()
+    texts = [text for text, _ in texts_of(figure)]
+    assert ("stable" in texts) == (problem in ("ab", "cusp", "enz", "pp2", "duffing", "lure"))
+    assert ("Hopf" in texts) == (problem in ("ab", "lorenz84", "pp2"))
+    assert ("period doubling" in texts) == (problem == "lure")
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 700])
+def test_what_there_is_of_a_run_that_was_cut_short_is_drawn(results, tmp_path, rows):
+    lines = (results["figure_8"] / "branches.csv").read_text().splitlines(keepends=True)
+    (tmp_path / "branches.csv").write_text("".join(lines[: rows + 1]))
+    for name in ("curves.csv", "summary.json"):
+        os.link(results["figure_8"] / name, tmp_path / name)
+    os.utime(tmp_path / "branches.csv")
+    figures = figures_of(tmp_path)
+    assert list(figures) == ["amplitude", "relative", "phases", "phase_difference", "dissipated"]
+    for figure in figures.values():
+        content = folders.figure_bytes(figure, "svg")
+        assert len(content) > 2000 and content.rstrip().endswith(b"</svg>")
+
+
+def test_a_key_that_would_be_empty_is_left_out(tmp_path):
+    heights = {}
+    for value in (-1, 1):
+        run("cusp", tmp_path / str(value), f"system.lambda={value}")
+        (figure,) = figures_of(tmp_path / str(value)).values()
+        heights[value] = figure.get_figheight()
+    assert heights[-1] < heights[1]  # without folds all is stable
+
+
+def test_a_table_without_the_columns_that_its_case_tells_of_is_refused(results, tmp_path):
+    table = (results["cusp"] / "branches.csv").read_text()
+    (tmp_path / "branches.csv").write_text("branch,point,type,regime,x,arclength" + table[table.index("\n"):])
+    os.link(results["cusp"] / "summary.json", tmp_path / "summary.json")
+    check_refused(tmp_path, "branches.csv: has no column mu")
+
+
+GOOD = ("curve,mass_ratio,P_opt,eta_opt,Y_opt,ratio_opt,kind,P_low,P_high\n"
+        "0,5,1,4,0.02,0.01,smooth,0.5,2\n1,20,1.1,4,0.04,0.02,smooth,0.5,2\n2,100,1.2,4,0.06,0.03,smooth,0.5,2\n")
+SWEEP = "curve,peak_branch,P,eta_peak,Y_max,Y_nd_max,ratio,R_over_S,dissipated,is_global,type,site\n"
+
+
+@pytest.mark.parametrize("optimum, sweep, said", [
+    (GOOD.splitlines()[0] + "\n", "", "optimum.csv: holds no designs"),
+    ("curve,mass_ratio\n0,5\n", "", "has no column P_opt"),
+    (GOOD + "3,7\n", "", "line 5 has 2 fields; expected 9"),
+    (GOOD, SWEEP, "sweep.csv: holds no peaks"),
+    (GOOD.replace("mass_ratio,", "").replace(",5,1,4", ",1,4").split("1,20")[0], "", "nothing to draw"),
+    (GOOD.replace("mass_ratio", "model").replace(",5,1", ",rods,1").split("1,20")[0], "", "nothing to draw"),
+])
+def test_a_studys_folder_that_lacks_something_is_refused_in_one_line(tmp_path, optimum, sweep, said):
+    (tmp_path / "optimum.csv").write_text(optimum)
+    if sweep:
+        (tmp_path / "sweep.csv").write_text(sweep)
+    (tmp_path / "summary.json").write_text(json.dumps({"case": {"study": {"sweep": bool(sweep)}}}))
+    check_refused(tmp_path, said)
+
+
+@pytest.mark.parametrize("table, summary, said", [
+    ("", "", "summary.json: cannot be read"),
+    ("", "{}", "branches.csv: cannot be read"),
+    ("header", "{}", "branches.csv: holds no points"),
+    ("branch,point\n0,0\n", "{}", "branches.csv: has no column type"),
+    ("whole", "", "summary.json: cannot be read"),
+    ("whole", "cut", "summary.json: is not JSON"),
+    ("whole", "[1, 2]", "summary.json: is not a summary"),
+])
+def test_a_folder_without_results_is_refused_in_one_line_that_names_the_file(results, tmp_path, table, summary, said):
+    whole = (results["figure_8"] / "branches.csv").read_text()
+    good = (results["figure_8"] / "summary.json").read_text()
+    if table:
+        (tmp_path / "branches.csv").write_text({"whole": whole, "header": whole.split("\n")[0] + "\n"}.get(table, table))
+    if summary:
+        (tmp_path / "summary.json").write_text({"{}": good, "cut": good[: len(good) // 2]}.get(summary, summary))
+    check_refused(tmp_path, said)
+
+
+def check_refused(folder, said):
+    before = sorted(os.listdir(folder))
+    with pytest.raises(pictures.Refused) as refused:
+        pictures.draw_folder(str(folder))
+    message = str(refused.value)
+    assert message.startswith(str(folder)) and said in message and "\n" not in message
+    assert sorted(os.listdir(folder)) == before

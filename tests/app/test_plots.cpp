@@ -32,7 +32,7 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
   const Outcome run = arcslip_program("run " + file + " --quiet -o " + folder.path("r"));
   REQUIRE(run.err.empty());
   REQUIRE(run.status == 0);
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  const Outcome outcome = plotted(folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   require_pictures(folder.path("r"), 8'000, drawn, run_results);
@@ -49,7 +49,7 @@ TEST_CASE("plot draws every picture whole, as PNG and SVG, and names them", "[pl
   const Outcome outcome = arcslip_program("plot \"" + quoted + "\"");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(results_folder, 40'000, pictures, run_results);
+  require_pictures(results_folder, 40'000, pictures, run_results, true);
   std::string listed;
   for (const std::string& picture : pictures) {
     for (const char* ending : {".png", ".svg"}) {
@@ -63,7 +63,7 @@ TEST_CASE("plot names axis and branches by the symbols of the paper", "[plots][o
   if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("preload_response", folder.path("r"));
-  REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
+  REQUIRE(plotted(folder.path("r")).status == 0);
   require_pictures(folder.path("r"), 20'000, pictures, run_results);
   const std::string svg = read(folder.path("r/amplitude.svg"));
   CHECK_THAT(svg, ContainsSubstring("preload  $P$") && ContainsSubstring("<!-- $\\eta$ = 3.68"));
@@ -77,7 +77,7 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]
     for (int i = 1; i < branches; ++i) preloads.append(",").append(std::to_string(i));
     draw_case("figure_8", folder.path("r"),
               "--set branch.to=1 --set 'branch.for_each.preload=[" + preloads + "]'");
-    REQUIRE(arcslip_program("plot " + folder.path("r")).status == 0);
+    REQUIRE(plotted(folder.path("r"), "--only amplitude").status == 0);
     return read(folder.path("r/amplitude.svg"));
   };
   const auto named = [](const std::string& svg) {
@@ -89,27 +89,11 @@ TEST_CASE("plot names all of a few branches and some of many", "[plots][outside]
   CHECK(named(drawn(30)) == 6);
 }
 
-TEST_CASE("plot draws what there is of a run that was cut short", "[plots][outside]") {
-  if (!has_matplotlib()) return;
-  const std::size_t rows = GENERATE(1, 2, 3, 700);
-  CAPTURE(rows);
-  const TemporaryFolder folder;
-  draw_case("figure_8", folder.path("r"));
-  const std::string table = read(folder.path("r/branches.csv"));
-  std::size_t end = 0;
-  for (std::size_t i = 0; i <= rows; ++i) end = table.find('\n', end) + 1;
-  folder.write("r/branches.csv", table.substr(0, end));
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
-  CHECK(outcome.err.empty());
-  CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 2'000, pictures, run_results);
-}
-
 TEST_CASE("plot draws quantities that are not defined as empty panels", "[plots][outside]") {
   if (!has_matplotlib()) return;
   const TemporaryFolder folder;
   draw_case("figure_8", folder.path("r"), "--set branch.to=1.5");  // no slip: nothing is dissipated
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  const Outcome outcome = plotted(folder.path("r"), "--only dissipated");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   CHECK_THAT(read(folder.path("r/dissipated.svg")), ContainsSubstring("nothing to show"));
@@ -141,54 +125,10 @@ TEST_CASE("plot says in one line that matplotlib is missing, or why it failed, a
 TEST_CASE("plot refuses a folder without results, in one line that names the file", "[plots]") {
   if (!has_matplotlib()) return;
   const TemporaryFolder folder;
-  draw_case("figure_8", folder.path("whole"), "--set branch.to=1.5");
-  const std::string table = read(folder.path("whole/branches.csv"));
-  const std::string summary = read(folder.path("whole/summary.json"));
-  const std::string header = table.substr(0, table.find('\n') + 1);
-  const auto refuses = [&](const std::string& name, const std::string& csv, const std::string& json,
-                           const char* file, const char* reason) {
-    CAPTURE(name);
-    fs::create_directories(folder.path(name));
-    if (!csv.empty()) folder.write(name + "/branches.csv", csv);
-    if (!json.empty()) folder.write(name + "/summary.json", json);
-    const Outcome outcome = arcslip_program("plot '" + folder.path(name) + "'");
-    CHECK(outcome.status == 1);
-    CHECK(is_one_line(outcome.err));
-    CHECK_THAT(outcome.err, ContainsSubstring(folder.path(name + "/" + file)) && ContainsSubstring(reason));
-  };
-  refuses("empty", "", "", "summary.json", "cannot be read");
-  refuses("no table", "", summary, "branches.csv", "cannot be read");
-  refuses("header only", header, summary, "branches.csv", "holds no points");
-  refuses("no column", "branch,point\n0,0\n", summary, "branches.csv", "has no column type");
-  refuses("no summary", table, "", "summary.json", "cannot be read");
-  refuses("cut", table, summary.substr(0, summary.size() / 2), "summary.json", "is not JSON");
-  refuses("another", table, "[1, 2]", "summary.json", "is not a summary");
-
   const Outcome outcome = arcslip_program("plot " + folder.path("none"));
   CHECK(outcome.status == 1);
   CHECK(is_one_line(outcome.err));
   CHECK_THAT(outcome.err, ContainsSubstring(folder.path("none")));
-}
-
-TEST_CASE("plot draws the branches of every problem of the library", "[plots][outside]") {
-  if (!has_matplotlib()) return;
-  const std::string problem =
-      GENERATE("ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing");
-  CAPTURE(problem);
-  const TemporaryFolder folder;
-  draw_case(problem, folder.path("r"));
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
-  CHECK(outcome.err.empty());
-  CHECK(outcome.status == 0);
-  CHECK(outcome.out == folder.path("r/branch.png") + "\n" + folder.path("r/branch.svg") + "\n");
-  require_pictures(folder.path("r"), 8'000, {"branch"}, run_results);
-  const std::string svg = read(folder.path("r/branch.svg"));
-  const bool loses_stability = problem == "ab" || problem == "cusp" || problem == "enz" || problem == "pp2" ||
-                               problem == "duffing" || problem == "lure";
-  CHECK((svg.find("<!-- stable -->") != std::string::npos) == loses_stability);
-  CHECK((svg.find("<!-- Hopf -->") != std::string::npos) ==
-        (problem == "ab" || problem == "lorenz84" || problem == "pp2"));
-  CHECK((svg.find("<!-- period doubling -->") != std::string::npos) == (problem == "lure"));
 }
 
 TEST_CASE("plot gives the branches that one request led to no names, and those of several theirs",
@@ -254,30 +194,4 @@ TEST_CASE("plot draws responses that fold, and marks the folds", "[plots][outsid
            "[branch]\nparameter = 'eta'\nfrom = 0.5\nto = 12\nfor_each = { preload = [0.05, 0.1] }\n",
        pictures);
   CHECK_THAT(read(folder.path("r/amplitude.svg")), ContainsSubstring("<!-- fold -->"));
-}
-
-TEST_CASE("plot leaves out a key that would be empty", "[plots][outside]") {
-  if (!has_matplotlib()) return;
-  const TemporaryFolder folder;
-  const auto height = [&](const std::string& lambda) {
-    draw(folder,
-         "[system]\nmodel = 'cusp'\nlambda = " + lambda + "\n[branch]\nparameter = 'mu'\nfrom = -2\nto = 2\n",
-         {"branch"});
-    const std::string svg = read(folder.path("r/branch.svg"));
-    return std::stoi(svg.substr(svg.find("height=\"") + 8));
-  };
-  CHECK(height("-1") < height("1"));  // without folds all is stable
-}
-
-TEST_CASE("plot refuses a table without the columns that its case tells of", "[plots]") {
-  if (!has_matplotlib()) return;
-  const TemporaryFolder folder;
-  draw_case("cusp", folder.path("r"));
-  const std::string table = read(folder.path("r/branches.csv"));
-  folder.write("r/branches.csv", "branch,point,type,regime,x,arclength" + table.substr(table.find('\n')));
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
-  CHECK(outcome.status == 1);
-  CHECK(is_one_line(outcome.err));
-  CHECK_THAT(outcome.err,
-             ContainsSubstring(folder.path("r/branches.csv")) && ContainsSubstring("no column mu"));
 }
