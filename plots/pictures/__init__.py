@@ -1,4 +1,4 @@
-"""Draws what `arcslip run` and `arcslip study` have written. Reads their tables and summary.json, nothing else.
+"""Draws what `arcslip run`, `study` and `modes` have written. Reads their tables and JSON, nothing else.
 
 The program runs plot.py beside this package; the Python module has a copy of it.
 """

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import matplotlib
 
 from . import style
+from .of_modes import PicturesOfModes
 from .of_run import PicturesOfRun
 from .of_study import PicturesOfStudy
 from .page import new_measure
@@ -52,6 +53,8 @@ class Options:
 
 def pictures_of(folder, options, release=""):
     """The names of a folder's pictures, each with what draws it. Raises Refused."""
+    if _has(folder, "modes.csv") and not _has(folder, "summary.json"):
+        return _chosen(folder, PicturesOfModes(folder, options, new_measure()).pictures(), options)
     summary = summary_of(folder)
     version = summary.get("arcslip") if isinstance(summary, dict) else None
     other = ""
@@ -66,6 +69,10 @@ def pictures_of(folder, options, release=""):
         raise Refused(f"{path}: is not a summary that arcslip has written{other}") from error
 
 
+def _has(folder, name):
+    return os.path.exists(os.path.join(folder, name))
+
+
 def _decide(folder, summary, options):
     measure = new_measure()
     has_run = "study" not in summary["case"]
@@ -74,11 +81,20 @@ def _decide(folder, summary, options):
     if (not has_run or "study" in summary) and not (own and has_run):
         case = (summary["study"] if has_run else summary)["case"]
         parts.append(PicturesOfStudy(folder, case, options, measure))
+    if _has(folder, "modes.csv") and not own:
+        parts.append(PicturesOfModes(folder, options, measure))
     found = {}
     for part in parts:
         found.update(part.custom() if own else part.pictures())
     if not found:
         raise parts[-1].nothing()
+    return _chosen(folder, found, options)
+
+
+def _chosen(folder, found, options):
+    own = [name for name in [options.x, *options.y] if name]
+    if own and list(found) == ["modes"]:
+        raise Refused(f"{folder}: holds modes alone, of which there is one picture; {own[0]} is for results of a run or study")
     unknown = [name for name in options.only if name not in found]
     if unknown:
         raise Refused(f"{folder}: there is no picture {unknown[0]}; there are {', '.join(found)}")

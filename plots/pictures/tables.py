@@ -113,7 +113,11 @@ def summary_of(folder):
     """The folder's summary.json."""
     if not os.path.isdir(folder):
         raise Refused(f"{folder}: is not a folder; expected one that arcslip run or study has written")
-    path = os.path.join(folder, "summary.json")
+    return json_of(os.path.join(folder, "summary.json"))
+
+
+def json_of(path):
+    """What a file of JSON holds."""
     try:
         with open(path, "rb") as file:
             return json.loads(file.read().decode("utf-8", "replace"))

@@ -324,3 +324,56 @@ def check_refused(folder, said):
     message = str(refused.value)
     assert message.startswith(str(folder)) and said in message and "\n" not in message
     assert sorted(os.listdir(folder)) == before
+
+
+def write_modes(folder, speed, has_hertz=True):
+    """Two modes of the base at 100 (1 + n) and 1000 Hz, one of the damper and of both."""
+    rows = []
+    for n in range(7):
+        modes = [("base", 1, 100 * (1 + n)), ("base", 2, 1000), ("damper", 1, 40 * n + 20), ("stuck", 1, 120 * (1 + n))]
+        rows += [f"{n},{part},{mode},{f / 100},{f},0.001" if has_hertz else f"{n},{part},{mode},{f / 100},0.001"
+                 for part, mode, f in modes]
+    header = "wave_number,part,mode,eta,frequency_Hz,zeta" if has_hertz else "wave_number,part,mode,eta,zeta"
+    (folder / "modes.csv").write_text(header + "\n" + "\n".join(rows) + "\n")
+    (folder / "modes.json").write_text(json.dumps({"arcslip": "0", "nodes": 12, "speed_per_minute": speed}))
+
+
+def test_modes_are_drawn_over_the_diameters_that_engine_orders_meet(tmp_path):
+    write_modes(tmp_path, 9000)  # 150 Hz
+    figure = figures_of(tmp_path)["modes"]
+    check_layout(figure)
+    texts = [text for text, _ in texts_of(figure)]
+    assert {"base", "damper", "both, stuck", "engine orders at 9000/min", "crossing"} <= set(texts)
+    lines = figure.axes[0].lines
+    (zigzag,) = [line for line in lines if line.get_color() == style.GREY and line.get_marker() == "None"]
+    assert list(zigzag.get_xdata()[:8]) == [0, 1, 2, 3, 4, 5, 6, 5]  # order 7 of 12 sectors has 5 diameters
+    assert list(zigzag.get_ydata()[:8]) == [0, 150, 300, 450, 600, 750, 900, 750 + 300]
+    marks = [np.column_stack(line.get_data()) for line in lines if line.get_marker() == "x"]
+    met = np.concatenate(marks)
+    # 150 m = 100 (1 + m) at m = 2; 150 m = 120 (1 + m) at m = 4; on the way back, 150 m = 1000 at m = 6 2/3.
+    expected = np.array([[2, 300], [4, 600], [12 - 20 / 3, 1000]])
+    for place in expected:
+        assert np.isclose(met, place).all(axis=1).any(), place
+    assert all(np.isclose(y, 150 * x) or np.isclose(y, 150 * (12 - x)) for x, y in met)
+    looks = {(line.get_color(), line.get_marker()) for line in lines if line.get_marker() in style.LINE_MARKS}
+    assert len(looks) == 3 and len({mark for _, mark in looks}) == 3
+
+
+def test_modes_without_speed_or_units_have_no_engine_orders(tmp_path):
+    for speed, has_hertz in ((None, True), (9000, False)):
+        write_modes(tmp_path, speed, has_hertz)
+        figure = figures_of(tmp_path)["modes"]
+        assert not [line for line in figure.axes[0].lines if line.get_color() == style.GREY]
+    assert pictures.draw_folder(str(tmp_path), pictures.Options(formats=["svg"])) == [str(tmp_path / "modes.svg")]
+    with pytest.raises(pictures.Refused, match="holds modes alone"):
+        figures_of(tmp_path, y=["zeta"])
+    (tmp_path / "modes.json").write_text('{"nodes": "many"}')
+    with pytest.raises(pictures.Refused, match="modes.json: does not tell nodes and speed_per_minute"):
+        figures_of(tmp_path)
+
+
+def test_modes_are_drawn_beside_a_run(results, tmp_path):
+    for name in ("branches.csv", "curves.csv", "summary.json"):
+        os.link(results["pp2"] / name, tmp_path / name)
+    write_modes(tmp_path, None)
+    assert list(figures_of(tmp_path)) == ["branch", "modes"]

@@ -68,7 +68,7 @@ Command::Action add_plot(CLI::App& app) {
   const auto request = std::make_shared<PlotRequest>();
   CLI::App* command =
       app.add_subcommand("plot", "Draw what is in a folder of results (needs python3 with matplotlib)");
-  command->add_option("DIR", request->folder, "Folder that `arcslip run` or `arcslip study` wrote")
+  command->add_option("DIR", request->folder, "Folder that `arcslip run`, `study` or `modes` wrote")
       ->required();
   command
       ->add_option("--x", request->x,
