@@ -197,5 +197,6 @@ function runPictures(parent, run) {
       runPicture(parent, model, name, heading, { xs: [...new Set([x, ...xs])], ys: [...new Set([y, ...ys])], x, y });
   }
   if (model.isFriction && !branch.curve) harmonicsPicture(parent, model, numeric, best(branch.parameter));
+  wavePicture(parent, model);
   return model;
 }

@@ -97,6 +97,70 @@ class Figure8(Report):
         self.open()
         self.assertEqual(self.axis("amplitude")["range"], before)
 
+    def states(self):
+        """Of each contact that is drawn, whether it slips."""
+        return self.page.evaluate("[...document.querySelectorAll('#figure-wave path[class]')].map(one => one.getAttribute('class') === 'slip')")
+
+    def test_the_wave_moves_as_the_table_tells(self):
+        self.open()
+        table = self.table("curves.csv")
+        peaks = [float(row["Y"]) for row in table if row["type"] == "peak"]
+        point = self.page.evaluate("arcslipReport.wave.point")
+        self.assertNear(point["Y"], max(peaks))
+        row = table[point["row"]]
+        self.assertEqual(row["type"], "peak")
+        Y, U, R, S, alpha, beta = (float(row[name]) for name in ("Y", "U", "R", "S", "alpha", "beta"))
+        for node, turn in ((0, 0), (7, 0.3), (29, 0.85)):
+            moved = self.page.evaluate(f"motionOf(arcslipReport.wave.point, {node}, {turn})")
+            angle = 2 * math.pi * (turn - node / 30)
+            self.assertAlmostEqual(moved["y"], Y * math.cos(angle - beta), delta=1e-9 * Y)
+            self.assertAlmostEqual(moved["u"], U * math.cos(angle - alpha), delta=1e-9 * U)
+            self.assertAlmostEqual(moved["r"], moved["u"] - moved["y"], delta=1e-6 * R)
+        # A slider that is pulled along by r, S behind it at most, tells which contacts slip.
+        slider, slips, steps = 0.0, [], 3000
+        for k in range(2 * steps):
+            r = R * math.cos(2 * math.pi * k / steps)
+            after = min(max(slider, r - S), r + S)
+            slips.append(after != slider)
+            slider = after
+        for k in range(5, steps, 50):
+            told = self.page.evaluate(f"stateAt({R!r}, {S!r}, {2 * math.pi * k / steps!r})")
+            at_border = len(set(slips[steps + k - 3 : steps + k + 4])) > 1
+            self.assertTrue(at_border or (told == "slip") == slips[steps + k], k)
+        self.assertGreater(sum(slips[steps:]), 0)
+
+    def test_the_wave_plays_pauses_and_respects_who_wishes_little_motion(self):
+        self.open()
+        turn = lambda: self.page.evaluate("arcslipReport.wave.turn")
+        press = lambda: self.page.evaluate("(button => { button.click(); return button.textContent; })(document.querySelector('#figure-wave .play'))")
+        self.assertEqual(turn(), 0)
+        self.assertEqual(press(), "Pause")
+        self.settle()
+        first, before = turn(), self.states()
+        self.assertGreater(first, 0)
+        self.assertEqual(len(before), 30)
+        self.settle()
+        self.assertNotEqual(turn(), first)
+        self.assertEqual(press(), "Play")
+        stopped = turn()
+        self.settle()
+        self.assertEqual(turn(), stopped)
+        # What slips at the highest peak sticks where R = S.
+        self.assertTrue(any(self.states()))
+        self.page.evaluate("(list => { list.value = [...list.options].find(one => one.text.includes('switch')).value; list.dispatchEvent(new Event('change')); })"
+                           "(document.querySelector('#figure-wave select'))")
+        self.assertNear(self.page.evaluate("arcslipReport.wave.point.R / arcslipReport.wave.point.S"), 1)
+        self.assertFalse(any(self.states()))
+        try:
+            self.page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+            self.open()
+            press()
+            self.page.evaluate("new Promise(done => setTimeout(done, 1400))")
+            self.assertIn(turn(), (0.125, 0.25, 0.375))
+        finally:
+            self.page.send("Emulation.setEmulatedMedia", features=[])
+            self.open()
+
     def test_linear_axes_and_other_quantities(self):
         self.assertEqual(self.axis("amplitude", "yaxis")["type"], "log")
         self.page.evaluate("document.querySelector('#figure-amplitude .controls input').click()")
@@ -130,6 +194,18 @@ class Figure8(Report):
         self.page.print(path)
         with open(path, "rb") as file:
             self.assertEqual(file.read(5), b"%PDF-")
+
+
+class ManyNodes(Report):
+    """A run of more nodes than are drawn."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("run", "figure_8", "--set", "system.elements=450", "--set", "branch.from=3", "--set", "branch.to=5"))
+
+    def test_of_many_nodes_every_third_is_drawn(self):
+        self.assertEqual(self.page.evaluate("document.querySelectorAll('#figure-wave path[class]').length"), 150)
+        self.assertIn("One in 3 of the 450 nodes is drawn.", self.page.evaluate("document.querySelector('#figure-wave').textContent"))
 
 
 class Chart(Report):
