@@ -26,7 +26,7 @@ function stateAt(R, S, phase) {
 // Whether the columns tell all of the motion: one contact at each node, in one harmonic.
 function hasWave({ isFriction, table: { columns }, input: { branch, system } }) {
   const response = branch.response || "forced";
-  return isFriction && !branch.curve && response === "forced" && system.elements > 0 && (system.harmonics ?? 1) === 1 &&
+  return isFriction && !branch.curve && response === "forced" && system.elements > 2 && (system.harmonics ?? 1) === 1 &&
     ["Y", "U", "R", "S", "beta", "alpha", "psi", "type"].every((name) => columns[name]) &&
     !Object.keys(columns).some((name) => /_h\d+$|^[UR]_(contact_)?\d/.test(name));
 }
@@ -80,7 +80,7 @@ function waveDrawing(nodes) {
   const drawing = svgElement("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img",
     "aria-label": "Displacement of base and damper, and relative motion of the contacts, round the circumference" },
     ...middles.flatMap(frame), ...tops, text(left + 8, 14, "displacement"), text(left + 8, 234, "relative motion of the contacts"),
-    text((left + width) / 2, height - 6, "round the circumference, node by node", { "text-anchor": "middle" }), curves.u, curves.y, curves.r, ...dots);
+    text((left + width) / 2, height - 6, "round the circumference, node by node", { "text-anchor": "middle" }), curves.y, curves.u, curves.r, ...dots);
   return { drawing, curves, dots, tops };
 }
 
