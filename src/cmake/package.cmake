@@ -18,6 +18,14 @@ endif()
 file(WRITE ${package_folder}/copyright "${copyright}")
 install(FILES ${package_folder}/copyright DESTINATION share/doc/arcslip)
 
+# The same sources make the same package: the date is that of SOURCE_DATE_EPOCH, else of the last commit.
+if("$ENV{SOURCE_DATE_EPOCH}" STREQUAL "")
+  execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%ct OUTPUT_VARIABLE last_commit
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE no_commit)
+  if(no_commit EQUAL 0)
+    set(ENV{SOURCE_DATE_EPOCH} ${last_commit})
+  endif()
+endif()
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${package_folder}/changelog "arcslip (${PROJECT_VERSION}) unstable; urgency=medium
 

@@ -9,8 +9,12 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${prefix})
 run(${prefix}/${BINDIR}/arcslip --version)
-if(NOT IS_DIRECTORY ${prefix}/share/arcslip/plots)
-  message(FATAL_ERROR "share/arcslip/plots was not installed")
+# Pictures are drawn by what is installed.
+run(${prefix}/${BINDIR}/arcslip run ${prefix}/share/arcslip/problems/cusp.toml -o ${work}/cusp --quiet)
+run(${prefix}/${BINDIR}/arcslip plot ${work}/cusp)
+file(GLOB pictures ${work}/cusp/*.png)
+if(NOT pictures)
+  message(FATAL_ERROR "the installed program drew nothing")
 endif()
 
 function(build name)
