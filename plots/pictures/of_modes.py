@@ -65,19 +65,19 @@ class PicturesOfModes:
         return found
 
     def _engine_orders(self, high):
-        """The diameters that engine orders meet up to a frequency, and their frequencies."""
-        orders = np.arange(0, min(int(60 * high / self.speed) + 2, 100_000))
+        """The diameters that engine orders meet up to a frequency, or twice the sectors, and their frequencies."""
+        orders = np.arange(0, min(int(60 * high / self.speed) + 2, 2 * self.nodes + 1))
         return nodal_diameter(orders, self.nodes).astype(float), orders * self.speed / 60
 
     def _modes(self):
         curves = self._curves()
         more = []
         if self.is_turning:
-            more = [line_entry(f"engine orders at {words.number_text(self.speed)}/min", style.GREY, style.THIN),
+            more = [line_entry(f"engine orders to {2 * self.nodes} at {words.number_text(self.speed)}/min", style.GREY, style.THIN),
                     mark_entry("crossing", "user")]
         title = words.axis_title(self.column)
         sheet = _Sheet(self.options, self.measure, "nodal diameter", with_room(0, max(self.waves.max(), 1), 0.04, 0.04, False))
-        figure = sheet.panels([Quantity(curves, "plain", title, is_linear=True)], more)
+        figure = sheet.panels([Quantity(curves, "plain", title, wide=100)], more)
         (ax,) = figure.axes
         for curve in curves:
             ax.plot(curve.x, curve.y, curve.look.mark, color=curve.look.colour, markersize=3.4, linestyle="none",
@@ -88,6 +88,8 @@ class PicturesOfModes:
 
     def _draw_engine_orders(self, ax, curves):
         met, excited = self._engine_orders(ax.get_ylim()[1])
+        if ax.get_yscale() == "log":
+            met, excited = met[1:], excited[1:]
         ax.plot(met, excited, color=style.GREY, linewidth=style.THIN, zorder=1.5)
         for curve in curves:
             if len(curve.x):

@@ -343,7 +343,7 @@ def test_modes_are_drawn_over_the_diameters_that_engine_orders_meet(tmp_path):
     figure = figures_of(tmp_path)["modes"]
     check_layout(figure)
     texts = [text for text, _ in texts_of(figure)]
-    assert {"base", "damper", "both, stuck", "engine orders at 9000/min", "crossing"} <= set(texts)
+    assert {"base", "damper", "both, stuck", "engine orders to 24 at 9000/min", "crossing"} <= set(texts)
     lines = figure.axes[0].lines
     (zigzag,) = [line for line in lines if line.get_color() == style.GREY and line.get_marker() == "None"]
     assert list(zigzag.get_xdata()[:8]) == [0, 1, 2, 3, 4, 5, 6, 5]  # order 7 of 12 sectors has 5 diameters
