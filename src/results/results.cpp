@@ -24,21 +24,27 @@ using continuation::BranchPoint;
 using continuation::PointType;
 using nlohmann::ordered_json;
 
-/// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
-void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
+/// The groups that [geometry] stands for.
+void add_groups(const ProblemRequest& problem, ordered_json& summary) {
   if (!problem.geometry) return;
   const SystemParameters& system = problem.system;
-  const PhysicalScale scale(*problem.geometry, system);
   ordered_json groups = {{"mass_ratio", system.mass_ratio},
                          {"frequency_ratio", system.frequency_ratio},
                          {"interface_stiffness", system.interface_stiffness},
                          {"force", system.force}};
   if (problem.geometry->preload_per_length > 0) groups["preload"] = system.preload;
   summary["groups"] = groups;
+}
+
+/// What one of each of the model's quantities is in SI units.
+void add_units(const ProblemRequest& problem, ordered_json& summary) {
+  if (!problem.physical) return;
+  const PhysicalScale& scale = *problem.physical;
+  const std::string unit = scale.preload_unit();
   summary["units"] = {{"frequency_Hz", scale.frequency(1)},
                       {"displacement_m", scale.displacement(1)},
-                      {"preload_N_per_m", scale.preload_per_length(1)},
-                      {"force_N_per_m", scale.force_per_length(1)},
+                      {"preload_" + unit, scale.preload(1)},
+                      {"force_" + unit, scale.force_per_length(1)},
                       {"energy_J", scale.energy(1)}};
 }
 
@@ -95,7 +101,8 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"points", traced.branch.points.size()},
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
-  add_geometry(traced.request->problem, summary);
+  add_groups(traced.request->problem, summary);
+  add_units(traced.request->problem, summary);
   const SystemParameters& system = traced.request->problem.system;
   const std::vector<PartModes> found = structures_of(system).modes(system);
   if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
@@ -148,13 +155,13 @@ std::string describe_groups(const ProblemRequest& problem) {
 
 std::string describe_units(const ProblemRequest& problem) {
   const SystemParameters& system = problem.system;
-  const PhysicalScale scale(problem.geometry.value(), system);
+  const PhysicalScale& scale = problem.physical.value();
   const auto n = static_cast<double>(system.wave_number);
   const double damper = system.model == StructureModel::rods ? n : n * n;
   return fmt::format(
       "eta = 1: {:.6g} Hz, P = 1: {:.6g} N/m, Y = 1: {:.6g} m; resonances alone: base {:.6g} Hz, damper "
       "{:.6g} Hz",
-      scale.frequency(1), scale.preload_per_length(1), scale.displacement(1),
+      scale.frequency(1), scale.preload(1), scale.displacement(1),
       scale.frequency(damper * system.frequency_ratio), scale.frequency(damper));
 }
 

@@ -124,7 +124,7 @@ TEST_CASE("The answer of a study comes from its tables", "[answer]") {
   const arcslip::ResultTable robusts(robust, {"P_q95"}, "designs");
   const Findings found = findings_of(input, optima, &robusts);
   REQUIRE(found.designs.size() == 2);
-  CHECK(found.is_physical);
+  CHECK(found.preload_unit == "N/m");
   const BestPreload& best = found.designs[0];
   CHECK(best.design == "mass_ratio = 5");
   CHECK(best.preload == 100);

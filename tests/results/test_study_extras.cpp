@@ -251,12 +251,12 @@ TEST_CASE("The study of rotor and ring finds what the case says", "[study]") {
     const PhysicalScale scale(*design.geometry, design.system);
     const FinishedDesign done = study_design(study, i);
     REQUIRE(done.result.optimum);
-    CHECK_THAT(scale.preload_per_length(done.result.optimum->peak.preload),
+    CHECK_THAT(scale.preload(done.result.optimum->peak.preload),
                WithinAbs(newtons_per_metre[i], 0.05));  // as printed there
     CHECK_THAT(micrometres(scale, done.result.optimum->peak.Y), WithinAbs(heights[i], 0.005));
     if (i == 1) continue;
     REQUIRE(done.uncertain);
-    CHECK_THAT(scale.preload_per_length(done.uncertain->preload), WithinAbs(352, 0.5));
+    CHECK_THAT(scale.preload(done.uncertain->preload), WithinAbs(352, 0.5));
     CHECK_THAT(micrometres(scale, done.uncertain->Y), WithinAbs(6.25, 0.005));
     CHECK_THAT(micrometres(scale, done.uncertain->Y_nominal), WithinAbs(6.70, 0.005));
   }

@@ -108,7 +108,7 @@ const KeyTable<SectorSettings>& sector_keys() {
                           for_contacts("limit_per_preload", &SectorSettings::limit_per_preload),
                           resolved([](const SectorSettings&) { return 1.0; })),
        SectorKey("force", &SectorSettings::force, positive(), "factor of the load", parameter("F")),
-       preload_growth_key(),
+       preload_growth_key(), units_key(),
        SectorKey::choice("path", &SectorSettings::path,
                          {{"reduced", SectorPath::reduced}, {"full", SectorPath::full}},
                          "the response by modes, or by a sparse LU factorisation at each eta", "", unlisted,
