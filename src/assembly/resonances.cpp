@@ -33,6 +33,22 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
   return all;
 }
 
+std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave) {
+  constexpr double far = 10;
+  const bool is_ring = system.structures == nullptr;
+  std::vector<Resonance> meant;
+  double alone = 0;
+  for (const Resonance& one : resonances(wave)) {
+    const bool is_first = meant.empty() || meant.back().part != one.part;
+    if (one.part != "stuck" && is_ring && !is_first) continue;
+    if (system.eta_high > 0 && one.eta > system.eta_high) continue;
+    if (one.part != "stuck") alone = std::max(alone, one.eta);
+    if (one.part == "stuck" && alone > 0 && one.eta > far * alone) continue;
+    meant.push_back(one);
+  }
+  return meant;
+}
+
 double locking_preload(const ContactSystem& wave, const std::vector<double>& etas) {
   const auto count = std::ssize(wave.contacts);
   const Vector springs = springs_of(wave);

@@ -49,30 +49,12 @@ const Resonance* nearest(const std::vector<Resonance>& all, const std::string& p
   return found;
 }
 
-/// Those that a window may be meant for: without modes of stuck contacts that are hardly more than their
-/// springs, far above what both structures do alone, and without the second modes of beams, which are those
-/// of their elements.
-std::vector<Resonance> meant_resonances(const SystemParameters& system, const ContactSystem& wave) {
-  constexpr double far = 10;
-  const bool is_ring = system.structures == nullptr;
-  std::vector<Resonance> meant;
-  double alone = 0;
-  for (const Resonance& one : resonances(wave)) {
-    const bool is_first = meant.empty() || meant.back().part != one.part;
-    if (one.part != "stuck" && is_ring && !is_first) continue;
-    if (one.part != "stuck") alone = std::max(alone, one.eta);
-    if (one.part == "stuck" && alone > 0 && one.eta > far * alone) continue;
-    meant.push_back(one);
-  }
-  return meant;
-}
-
 /// Whether a resonance of any harmonic lies in the range.
 bool resonates(const SystemParameters& system, const std::pair<double, double>& range) {
   const HarmonicSystem harmonics = build_harmonic_system(system);
   for (std::size_t i = 0; i < harmonics.orders.size(); ++i) {
     const ContactSystem wave{harmonics.base[i], harmonics.damper[i], harmonics.contacts};
-    for (const Resonance& one : meant_resonances(system, wave)) {
+    for (const Resonance& one : resonances(system, wave)) {
       const double eta = one.eta / harmonics.orders[i];
       if (eta >= range.first && eta <= range.second) return true;
     }
@@ -85,7 +67,7 @@ std::string about_window(const ProblemRequest& problem, const Ranges& ranges) {
   std::string text =
       fmt::format("no resonance lies from {} to {}", frequency_text(ranges.eta->first, problem.physical),
                   frequency_text(ranges.eta->second, problem.physical));
-  const std::vector<Resonance> all = meant_resonances(problem.system, build_wave(problem.system));
+  const std::vector<Resonance> all = resonances(problem.system, build_wave(problem.system));
   std::string others;
   for (const auto& [part, told] :
        {std::pair("base", "of the base alone"), std::pair("stuck", "of the stuck whole")}) {

@@ -123,7 +123,7 @@ TEST_CASE("Designs of a study may be given in SI units, with lists and ranges of
   const StudyCase study = case_texts::read_study_text(
       rings_text +
       "for_each = { damper.width = { from = 0.05, to = 0.1, count = 2 }, \"base.height\" = [0.04, 0.08] }\n");
-  CHECK(study.is_physical);
+  CHECK(study.preload_unit == "N_per_m");
   CHECK(study.keys == std::vector<std::string>{"damper.width", "base.height"});
   REQUIRE(study.count == 4);
   // M* = rho_B w_B h_B/(rho_D w_D h_D), gamma = h_B/h_D sqrt(E_B rho_D/(E_D rho_B)).

@@ -77,7 +77,7 @@ bool ends_with(const std::string& name, const std::string& words) {
 
 int help_of(const std::string& asked, const std::vector<KeySection>& sections, const CLI::App& app) {
   if (find_command(asked) != nullptr) {
-    print(wrapped(app.get_subcommand(asked)->help()));
+    print(wrapped(app.get_subcommand(asked)->help(app.get_name())));
     return status::done;
   }
   std::string text;
