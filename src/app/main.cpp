@@ -42,7 +42,7 @@ Exit status
 /// Why a word in the place of a command is none; empty where it is one, or no word.
 std::string unknown_command(const std::string& word) {
   using namespace arcslip;
-  if (word.empty() || word.front() == '-' || find_command(word) != nullptr) return "";
+  if (word.empty() || word.front() == '-' || is_command(word)) return "";
   std::vector<std::string> names;
   for (const Command& command : commands()) names.push_back(command.name);
   const std::string meant = nearest_name(word, names);

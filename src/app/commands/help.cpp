@@ -76,7 +76,7 @@ bool ends_with(const std::string& name, const std::string& words) {
 }
 
 int help_of(const std::string& asked, const std::vector<KeySection>& sections, const CLI::App& app) {
-  if (find_command(asked) != nullptr) {
+  if (is_command(asked)) {
     print(wrapped(app.get_subcommand(asked)->help(app.get_name())));
     return status::done;
   }
