@@ -129,9 +129,7 @@ class FullResponse {
       throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
     const Index contacts = extended_.contacts();
     ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
-    for (Index i = 0; i < contacts; ++i)
-      motion.col(i) =
-          solve(ExtendedSector::NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
+    for (Index i = 0; i < contacts; ++i) motion.col(i) = solve(extended_.contact_force(i), eta);
     motion.col(contacts) = solve(extended_.load(), eta);
     return motion;
   }
