@@ -77,6 +77,7 @@ void check_use(const TomlSection& section, const SectorSettings& settings) {
   try {
     settings.sectors->check(settings.wave_number, settings.elements);
   } catch (const SectorError& error) {
+    if (!section.has("wave_number")) section.fail("base", error.what());
     section.fail("wave_number", fmt::format("at {}: {}", settings.wave_number, error.what()));
   }
 }
