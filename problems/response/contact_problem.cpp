@@ -96,19 +96,12 @@ void ContactProblem::observe_motion(const State& at, double log_R, Complex r, co
   values(dissipated) = regime[0] == slip ? dissipated_energy(at.log_ratio) : 0;
 }
 
-void add_resonance(double frequency, const Loss& loss, std::vector<double>& values) {
-  constexpr double beside = 1e-5;  // takes so many digits of what the other modes do
-  if (loss.part(frequency, frequency) != 0) return values.push_back(frequency);
-  for (const double factor : {1 - beside, 1 + beside}) values.push_back(factor * frequency);
-}
-
 std::vector<double> ContactProblem::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
   const double k = system_.contact_stiffness;
   std::vector<double> values;
-  for (const ModalModel* structure : {&system_.base, &system_.damper}) {
-    for (const Mode& mode : structure->modes()) add_resonance(mode.frequency, structure->loss(), values);
-  }
+  for (const Mode& mode : system_.base.modes()) values.push_back(mode.frequency);
+  for (const Mode& mode : system_.damper.modes()) values.push_back(mode.frequency);
   for (const double value : joined_frequencies({&system_.base, &system_.damper}, k)) values.push_back(value);
   for (const double value : joined_frequencies({&system_.damper}, k)) values.push_back(value);
   std::erase_if(values, [&](double value) { return !(value > from && value < to); });

@@ -280,8 +280,7 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
     for (const JoinedMode& mode : joined_modes({base, damper}, springs)) found.push_back(mode.frequency);
     for (const JoinedMode& mode : joined_modes({damper}, springs)) found.push_back(mode.frequency);
     for (const ContactModes* structure : {base, damper}) {
-      const Loss loss = structure->is_solved() ? Loss{.structural = 1} : structure->loss();
-      for (const ContactMode& mode : structure->modes()) add_resonance(mode.frequency, loss, found);
+      for (const ContactMode& mode : structure->modes()) found.push_back(mode.frequency);
     }
     for (const double value : found) values.push_back(value / system_.orders[at(a)]);
   }

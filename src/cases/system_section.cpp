@@ -22,14 +22,13 @@ using problems::LibraryModel;
 constexpr double usual_harmonics_tolerance = 1e-4;
 
 NumberRule damping_rule() {
-  return {[](double zeta) { return std::abs(zeta) < 1; }, " > -1 and < 1"};
+  return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
 }
 
-/// What a damping ratio may be: 0, too, where friction is all the damping, but not in a study of what is not
-/// damped otherwise: there a peak over the preload has no bound.
-NumberRule ratio_rule(bool in_study, bool is_base, bool is_damped) {
-  if (in_study && !is_damped) return inside(0, 1);
-  if (!in_study && is_base) return damping_rule();
+/// What a damping ratio may be: 0, too, of what is damped otherwise.
+NumberRule ratio_rule(bool may_be_negative, bool is_damped) {
+  if (!is_damped) return may_be_negative ? damping_rule() : inside(0, 1);
+  if (may_be_negative) return {[](double zeta) { return std::abs(zeta) < 1; }, " > -1 and < 1"};
   return {[](double zeta) { return zeta >= 0 && zeta < 1; }, " >= 0 and < 1"};
 }
 
@@ -138,7 +137,7 @@ K units_key() {
 std::vector<K> shared_keys() {
   const auto base = [](const S& settings) {
     const bool in_study = settings.use->linear_passive;
-    NumberRule rule = ratio_rule(in_study, true, settings.is_base_damped);
+    NumberRule rule = ratio_rule(!in_study, settings.is_base_damped);
     if (in_study) {
       rule.text +=
           ", as a base that its own motion excites grows without bound wherever friction does not hold it: "
@@ -146,9 +145,7 @@ std::vector<K> shared_keys() {
     }
     return rule;
   };
-  const auto damper = [](const S& settings) {
-    return ratio_rule(settings.use->linear_passive, false, settings.is_damper_damped);
-  };
+  const auto damper = [](const S& settings) { return ratio_rule(false, settings.is_damper_damped); };
   const auto has_kind = [](const S& settings, const TomlSection&) { return settings.has_damping_kind; };
   const auto kind = [](const S& settings) {
     return settings.has_damping_kind ? ordered_json(to_string(settings.base_damping_kind)) : ordered_json();
@@ -157,7 +154,8 @@ std::vector<K> shared_keys() {
       {K("base", &S::base_damping, {damping_rule().text, base},
          "zeta of the base; negative where its own motion excites it, which a study does not take",
          parameter("zeta_B")),
-       K("damper", &S::damper_damping, {" >= 0 and < 1", damper}, "zeta of the damper", parameter("zeta_D")),
+       K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper",
+         parameter("zeta_D")),
        K::choice("kind", &S::base_damping_kind,
                  {{"viscous", DampingKind::viscous}, {"structural", DampingKind::structural}},
                  "of the base: C proportional to K, or K (1 + 2j zeta_B)", ", for the base", resolved(kind),
@@ -244,7 +242,7 @@ NumberRule parameter_rule(const LibraryModel* model, const std::string& paramete
     if (parameter == "zeta_B") return damping_rule();
     if (parameter == "P_2" || parameter == "cubic_stiffness" || parameter.find('.') != std::string::npos)
       return any_number();  // of its own rule
-    return parameter == "zeta_D" ? within(0, 1, " >= 0 and < 1") : positive();
+    return parameter == "zeta_D" ? inside(0, 1) : positive();
   }
   for (const Setting& setting : model->settings) {
     if (setting.name == parameter) return rule_of(setting);

@@ -383,9 +383,6 @@ TEST_CASE("All tasks compose with a load of five harmonics", "[composition][numb
   check_kind("`[excitation]`, five harmonics");
 }
 TEST_CASE("All tasks compose with masses on springs", "[composition]") { check_kind("masses on springs"); }
-TEST_CASE("All tasks compose with a contact between two dofs of one structure", "[composition]") {
-  check_kind("contact between two dofs");
-}
 TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
 TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers]") {
   check_kind("three contacts");

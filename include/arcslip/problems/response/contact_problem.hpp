@@ -19,10 +19,6 @@
 
 namespace arcslip::problems {
 
-/// Adds the frequency of a mode to the values that points are wanted at, or of one without damping, where the
-/// response alone has no value, two beside it.
-void add_resonance(double frequency, const Loss& loss, std::vector<double>& values);
-
 /// Y/R = |q| and the derivatives of ln Y as a function of (ln R, eta, P).
 struct BaseAmplitude {
   double over_R;      ///< Y/R
