@@ -46,9 +46,8 @@ void check(const HarmonicSystem& system) {
 }
 
 double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate) {
-  const double compliance =
-      std::abs(coordinate.base) * static_compliance(system.base[0], coordinate.dof) +
-      std::abs(coordinate.damper) * static_compliance(system.damper[0], coordinate.dof);
+  const double compliance = std::abs(coordinate.base) * static_compliance(system.base[0], coordinate.dof) +
+                            std::abs(coordinate.damper) * static_compliance(system.damper[0], coordinate.dof);
   return compliance > 0 ? 1 / compliance : 1;
 }
 

@@ -218,9 +218,7 @@ ModalModel modal_model(const SectorModes& found, double force, const Loss& loss)
   return {std::move(modes), loss};
 }
 
-SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& asked) {
-  ModesRequest request = asked;  // whose response has a value at its resonances, too
-  if (request.loss.part(1, 1) == 0) request.loss.structural = 2e-4;
+SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
   SectorReduction reduction(sector);
   reduction.set_forward(wave.forward());
   check_mass(sector, reduction);

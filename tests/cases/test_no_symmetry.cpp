@@ -221,7 +221,7 @@ void compare(const std::string& name, const Balance& balance, double from,
 
 }  // namespace
 
-TEST_CASE("Two Jenkins elements and two cubic springs in a row of masses are as balanced otherwise") {
+TEST_CASE("Two Jenkins elements and two cubic springs in a row of masses are as balanced otherwise", "[numbers]") {
   Balance chain{
       matrix("chain_mass"), matrix("chain_damping"), matrix("chain_stiffness"), Vector::Unit(3, 1), {}, 4};
   const auto jenkins = [](const ComplexVector& x) { return friction(x, 20, 1); };
@@ -233,7 +233,7 @@ TEST_CASE("Two Jenkins elements and two cubic springs in a row of masses are as 
   compare("nlvib_jenkins", chain, 0.0796, {0.1, 0.135, 0.18});
 }
 
-TEST_CASE("Two Duffing oscillators, where nothing rubs, are as balanced otherwise") {
+TEST_CASE("Two Duffing oscillators, where nothing rubs, are as balanced otherwise", "[numbers]") {
   Balance pair{matrix("pair_mass"),
                matrix("pair_damping"),
                matrix("pair_stiffness"),
@@ -245,7 +245,7 @@ TEST_CASE("Two Duffing oscillators, where nothing rubs, are as balanced otherwis
   compare("nlvib_duffing_pair", pair, 0.1274, {0.14, 0.16, 0.17});
 }
 
-TEST_CASE("Frequency and damping of a beam's mode over its amplitude are as balanced otherwise") {
+TEST_CASE("Frequency and damping of a beam's mode over its amplitude are as balanced otherwise", "[numbers]") {
   const Matrix m = matrix("beam_mass");
   const Matrix k = matrix("beam_stiffness");
   constexpr Index dof = 20;

@@ -58,9 +58,7 @@ TEST_CASE("Each inconsistency of a sector is named, with its dof") {
          s.against = {2, 1};
        },
        "dofs 3 and 2 are listed twice in the contact dofs"},
-      {[](FiniteSector& s) {
-         s.contacts = s.against = {1};
-       },
+      {[](FiniteSector& s) { s.contacts = s.against = {1}; },
        "the contact of dof 2 is against this dof itself, expected another one"},
       {[](FiniteSector& s) {
          s.contacts = {1};

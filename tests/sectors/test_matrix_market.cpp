@@ -169,8 +169,9 @@ TEST_CASE("What is not such a matrix is refused with file, line, what was expect
        "damping_kind, a wave is wave_number), got 0.5"},
       {"%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 2 1\n",
        "K.mtx:3: expected what is below the diagonal of a skew-symmetric matrix, got row 2, column 2"},
-      {"%%MatrixMarket matrix array real general\n", "K.mtx:1: expected the numbers of rows and columns, got "
-                                                      "the end of the file"},
+      {"%%MatrixMarket matrix array real general\n",
+       "K.mtx:1: expected the numbers of rows and columns, got "
+       "the end of the file"},
       {"%%MatrixMarket matrix array real general\n2 2\n1.0\n2.0\n3.0\n",
        "K.mtx:5: expected 4 entries, got 3"},
       {"%%MatrixMarket matrix array real symmetric\n2 2\n1\n2\n3\n4\n",

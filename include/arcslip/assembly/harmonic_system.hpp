@@ -39,8 +39,8 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value);
 /// threshold is not positive.
 void check(const HarmonicSystem& system);
 
-/// The static stiffness of the structures in a coordinate, which an element's force is measured by where it has
-/// none of its own.
+/// The static stiffness of the structures in a coordinate, which an element's force is measured by where it
+/// has none of its own.
 double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate);
 
 /// k of each contact.
