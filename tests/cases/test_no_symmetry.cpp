@@ -110,7 +110,7 @@ ComplexVector cubic(const ComplexVector& x, double k3) {
 }
 
 /// A force w f(w^T q).
-struct Branch {
+struct HysteresisBranch {
   Vector w;
   std::function<ComplexVector(const ComplexVector&)> force;
 };
@@ -138,7 +138,7 @@ Vector solved(const std::function<Vector(const Vector&)>& residual, Vector u) {
 struct Balance {
   Matrix m, c, k;
   Vector load;
-  std::vector<Branch> branches;
+  std::vector<HysteresisBranch> branches;
   Index harmonics;
 
   /// q of all harmonics, real parts and imaginary ones, harmonic by harmonic.
@@ -155,7 +155,8 @@ struct Balance {
       r.col(a) = k * q.col(a) + Complex(0, hw) * (c * q.col(a)) - hw * hw * (m * q.col(a));
     }
     r.col(0) -= load;
-    for (const Branch& branch : branches) r += branch.w * branch.force(q.transpose() * branch.w).transpose();
+    for (const HysteresisBranch& branch : branches)
+      r += branch.w * branch.force(q.transpose() * branch.w).transpose();
     Vector out(u.size());
     for (Index i = 0; i < r.size(); ++i) out.segment<2>(2 * i) << r(i).real(), r(i).imag();
     return out;
@@ -168,8 +169,8 @@ Matrix matrix(const std::string& name) {
 }
 
 /// The run of a case, at the `user` points by the name of the column.
-struct Run {
-  Run(const std::string& name, const std::string& values) {
+struct CaseRun {
+  CaseRun(const std::string& name, const std::string& values) {
     const auto outcome =
         testing::arcslip_program(fmt::format("run '{}' -o '{}' --quiet --set 'continuation.stop_at=[{}]'",
                                              case_named(name), folder.path("out"), values));
@@ -198,7 +199,7 @@ void check_near(double value, double expected, double tolerance = 1e-9) {
 /// Walks from eta `from` to each of `values` and compares all dofs there.
 void compare(const std::string& name, const Balance& balance, double from,
              const std::vector<double>& values) {
-  const Run run(name, fmt::format("{}", fmt::join(values, ", ")));
+  const CaseRun run(name, fmt::format("{}", fmt::join(values, ", ")));
   REQUIRE(run.points.size() >= values.size());
   Vector u = Vector::Zero(2 * balance.m.rows() * balance.harmonics);
   for (Index i = 0; i < balance.m.rows(); ++i) u(2 * i) = 1e-2 * balance.load.norm();
@@ -221,7 +222,8 @@ void compare(const std::string& name, const Balance& balance, double from,
 
 }  // namespace
 
-TEST_CASE("Two Jenkins elements and two cubic springs in a row of masses are as balanced otherwise", "[numbers]") {
+TEST_CASE("Two Jenkins elements and two cubic springs in a row of masses are as balanced otherwise",
+          "[numbers]") {
   Balance chain{
       matrix("chain_mass"), matrix("chain_damping"), matrix("chain_stiffness"), Vector::Unit(3, 1), {}, 4};
   const auto jenkins = [](const ComplexVector& x) { return friction(x, 20, 1); };
@@ -245,13 +247,14 @@ TEST_CASE("Two Duffing oscillators, where nothing rubs, are as balanced otherwis
   compare("nlvib_duffing_pair", pair, 0.1274, {0.14, 0.16, 0.17});
 }
 
-TEST_CASE("Frequency and damping of a beam's mode over its amplitude are as balanced otherwise", "[numbers]") {
+TEST_CASE("Frequency and damping of a beam's mode over its amplitude are as balanced otherwise",
+          "[numbers]") {
   const Matrix m = matrix("beam_mass");
   const Matrix k = matrix("beam_stiffness");
   constexpr Index dof = 20;
   const double beta = 2 * 0.01 / (two_pi * 99.270419269413949);
   const std::vector<double> values = {5e-5, 1e-4, 2e-4, 1e-3};
-  const Run run("nlvib_beam", fmt::format("{}", fmt::join(values, ", ")));
+  const CaseRun run("nlvib_beam", fmt::format("{}", fmt::join(values, ", ")));
   REQUIRE(run.points.size() == values.size());
   Vector u = Vector::Zero(12);  // x_3, ..., x_11, eta, zeta, with x_1 = R
   u.tail<2>() << 99.270419269413949, 0.0065;
