@@ -7,6 +7,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/elements/idle.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
@@ -40,8 +41,9 @@ void check(const HarmonicSystem& system) {
       refuse("base, damper and contacts must be as many");
   }
   for (const SectorContact& contact : system.contacts) {
-    if (!(contact.stiffness >= 0 && contact.slip_per_preload > 0))
-      refuse("stiffness must not be negative, and the slip threshold must be positive");
+    const bool rubs = contact.stiffness > 0 && contact.slip_per_preload > 0;
+    if (!rubs && !(contact.stiffness == 0 && contact.slip_per_preload == never_slips))
+      refuse("stiffness and slip threshold must be positive, or 0 and `never_slips` where nothing rubs");
   }
 }
 

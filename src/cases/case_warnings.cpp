@@ -135,8 +135,13 @@ class Slips {
  public:
   void look(const ProblemRequest& problem, const Ranges& ranges) {
     ++count_;
-    add(0, about_window(problem, ranges));
-    add(1, about_preloads(problem, ranges));
+    try {
+      add(0, about_window(problem, ranges));
+      add(1, about_preloads(problem, ranges));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {  // what cannot be built is named when it is met
+    }
   }
 
   std::vector<std::string> sentences(const char* what) const {

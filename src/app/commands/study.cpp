@@ -147,7 +147,7 @@ int study(const StudyOptions& options) {
     study = read_study(file);
     file.named("system", [&] {
       build(study->design(0).problem());
-      if (!crew.leads()) return;
+      if (!crew.leads() || options.quiet) return;
       for (const std::string& warning : warnings_of(*study)) complain("arcslip: warning: " + warning);
     });
   } catch (const std::exception& wrong) {
