@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cases/continuation_section.hpp"
+#include "cases/stored_point.hpp"
 #include "cases/system_section.hpp"
 #include "cases/unit_names.hpp"
 
@@ -121,6 +122,15 @@ void check_start(const CaseBranch& branch, const TomlSection& section) {
     section.fail("start", "not beside switching, which follows the branch that begins at branch.from");
 }
 
+void read_from_point(CaseBranch& branch, const TomlSection& section) {
+  const continuation::TraceOptions& options = branch.options;
+  branch.stored = read_stored_point(section);
+  const auto value = branch.stored->parameters.find(options.parameter);
+  if (value == branch.stored->parameters.end())
+    section.fail("from_point", fmt::format("the point has no {}", options.parameter));
+  branch.start = value->second;
+}
+
 void check_all(const CaseBranch& branch, const TomlSection& section) {
   if (branch.all_solutions) section.require("start", "the value of the parameter to find all solutions at");
 }
@@ -212,6 +222,11 @@ const KeyTable<CaseBranch>& branch_keys() {
                "follow all branches that meet this one, at branch points and corners", along),
        K("start", &S::start, {" from `from` to `to`", rule_of_range},
          "trace both ways from this value; not beside switching", along, then(check_start)),
+       K::special("from_point", "\"DIR:branch/point\"",
+                  "trace both ways from a special point of the run in DIR, at its value of the parameter",
+                  read_from_point, along, only("not beside start", lacks("start")),
+                  only("not beside switching",
+                       [](const S& branch, const TomlSection&) { return !branch.switching; })),
        K::flag("all_solutions", &S::all_solutions,
                "find all solutions at `start` by deflation and trace the branch of each", along,
                then(check_all)),

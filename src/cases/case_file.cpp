@@ -165,8 +165,14 @@ void take_units(const TomlSection& section, CaseBranch& branch) {
     continuation::TraceOptions& options = branch.options;
     options.from /= unit;
     options.to /= unit;
-    if (branch.start) *branch.start /= unit;
+    if (branch.start && !branch.stored) *branch.start /= unit;
     for (double& value : options.stop_at) value /= unit;
+  }
+  if (branch.stored) {
+    const auto [low, high] = std::minmax({branch.options.from, branch.options.to});
+    if (!(*branch.start >= low && *branch.start <= high))
+      section.fail("from_point", fmt::format("the point has {} = {:g}, which is not from {:g} to {:g}",
+                                             branch.options.parameter, *branch.start, low, high));
   }
   if (!branch.curve) return;
   CurveRequest& curve = *branch.curve;
@@ -276,7 +282,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   read_system(*document_, replacements, model_, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response->one_way;
-  if (model_ == nullptr) take_units(section_, branch);
+  take_units(section_, branch);
   branch.problem.system.varied = varied_parameter(section_, branch);
   branch.problem.system.tells_lag = may_tell_lag(branch.problem) && branch.curve && branch.curve->level &&
                                     branch.curve->level->observable == "lag";

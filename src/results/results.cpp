@@ -1,6 +1,7 @@
 #include "arcslip/results/results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/version.hpp"
+#include "cases/stored_point.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/stability_results.hpp"
@@ -48,19 +50,34 @@ void add_units(const ProblemRequest& problem, ordered_json& summary) {
                       {"energy_J", scale.energy(1)}};
 }
 
+/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, and of so
+/// many that nobody would read them.
+ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
+  if (traced.curve || point.unknowns.size() > most_stored_unknowns) return nullptr;
+  ordered_json parameters;
+  const std::vector<std::string> names = traced.base.problem->parameter_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    parameters[names[i]] = point.parameters(static_cast<Index>(i));
+  return {{"regime", digits(point.regime)},
+          {"parameters", parameters},
+          {"unknowns", fmt::format("{}", fmt::join(point.unknowns, " "))}};
+}
+
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
   const PhysicalColumns physical(traced);
   ordered_json listed = ordered_json::array();
-  for (const BranchPoint& point : traced.branch.points) {
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const BranchPoint& point = traced.branch.points[i];
     if (point.type == PointType::regular) continue;
     const std::vector<double>& values = columns.values(point);
-    ordered_json special = {{"type", to_string(point.type)}};
+    ordered_json special = {{"type", to_string(point.type)}, {"point", i}};
     for (const Index k : columns.shown())
       special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
     const std::vector<double> in_units = physical.values(values);
     for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
+    if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));
   }
   return listed;

@@ -54,6 +54,13 @@ struct ProblemRequest {
   bool stability = false;  ///< whether its points come with their Floquet exponents
 };
 
+/// A point that a run has left, which a branch begins from.
+struct StoredPoint {
+  Vector unknowns;                           ///< of the problem
+  std::map<std::string, double> parameters;  ///< by name
+  continuation::Regime regime;               ///< in which it lies
+};
+
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.
 struct CaseBranch {
   nlohmann::ordered_json values;       ///< what `for_each` sets on it, by key
@@ -61,6 +68,7 @@ struct CaseBranch {
   continuation::TraceOptions options;  ///< of [branch] and [continuation]
   std::string named = {};              ///< the parameter as the case file has it, perhaps with a unit
   std::optional<double> start;         ///< value of the parameter from which the branch is traced both ways
+  std::optional<StoredPoint> stored;   ///< in place of a first guess at `start`
   bool all_solutions = false;          ///< one for each solution at `start` that deflated Newton finds
   bool switching = false;              ///< follow the branches that branch points and corners lead to
   std::optional<CurveRequest> curve;   ///< none of a branch
