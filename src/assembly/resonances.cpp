@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace arcslip {
 namespace {
@@ -34,19 +35,16 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
 }
 
 std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave) {
-  constexpr double far = 10;
   const bool is_ring = system.structures == nullptr;
-  std::vector<Resonance> meant;
-  double alone = 0;
+  std::vector<Resonance> own;
+  std::map<std::string, int> counts;
   for (const Resonance& one : resonances(wave)) {
-    const bool is_first = meant.empty() || meant.back().part != one.part;
-    if (one.part != "stuck" && is_ring && !is_first) continue;
+    const int most = one.part == "stuck" ? 2 : 1;
+    if (is_ring && ++counts[one.part] > most) continue;
     if (system.eta_high > 0 && one.eta > system.eta_high) continue;
-    if (one.part != "stuck") alone = std::max(alone, one.eta);
-    if (one.part == "stuck" && alone > 0 && one.eta > far * alone) continue;
-    meant.push_back(one);
+    own.push_back(one);
   }
-  return meant;
+  return own;
 }
 
 double locking_preload(const ContactSystem& wave, const std::vector<double>& etas) {

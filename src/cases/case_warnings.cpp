@@ -49,12 +49,27 @@ const Resonance* nearest(const std::vector<Resonance>& all, const std::string& p
   return found;
 }
 
+/// Those of the base, alone or stuck to the damper: without modes of stuck contacts that are hardly more than
+/// their springs, far above what both structures do alone.
+std::vector<Resonance> base_resonances(const SystemParameters& system, const ContactSystem& wave) {
+  constexpr double far = 10;
+  std::vector<Resonance> all = resonances(system, wave);
+  double alone = 0;
+  for (const Resonance& one : all) {
+    if (one.part != "stuck") alone = std::max(alone, one.eta);
+  }
+  std::erase_if(all, [&](const Resonance& one) {
+    return one.part == "damper" || (one.part == "stuck" && alone > 0 && one.eta > far * alone);
+  });
+  return all;
+}
+
 /// Whether a resonance of any harmonic lies in the range.
 bool resonates(const SystemParameters& system, const std::pair<double, double>& range) {
   const HarmonicSystem harmonics = build_harmonic_system(system);
   for (std::size_t i = 0; i < harmonics.orders.size(); ++i) {
     const ContactSystem wave{harmonics.base[i], harmonics.damper[i], harmonics.contacts};
-    for (const Resonance& one : resonances(system, wave)) {
+    for (const Resonance& one : base_resonances(system, wave)) {
       const double eta = one.eta / harmonics.orders[i];
       if (eta >= range.first && eta <= range.second) return true;
     }
@@ -64,16 +79,16 @@ bool resonates(const SystemParameters& system, const std::pair<double, double>& 
 
 std::string about_window(const ProblemRequest& problem, const Ranges& ranges) {
   if (!ranges.eta || resonates(problem.system, *ranges.eta)) return "";
-  std::string text =
-      fmt::format("no resonance lies from {} to {}", frequency_text(ranges.eta->first, problem.physical),
-                  frequency_text(ranges.eta->second, problem.physical));
-  const std::vector<Resonance> all = resonances(problem.system, build_wave(problem.system));
+  std::string text = fmt::format("no resonance of the base lies from {} to {}",
+                                 frequency_text(ranges.eta->first, problem.physical),
+                                 frequency_text(ranges.eta->second, problem.physical));
+  const std::vector<Resonance> all = base_resonances(problem.system, build_wave(problem.system));
   std::string others;
   for (const auto& [part, told] :
        {std::pair("base", "of the base alone"), std::pair("stuck", "of the stuck whole")}) {
     const Resonance* one = nearest(all, part, *ranges.eta);
     if (one == nullptr) continue;
-    others += fmt::format("{} {} at {}", others.empty() ? "; the nearest are those" : " and", told,
+    others += fmt::format("{} {} at {}", others.empty() ? "; the nearest are that" : " and", told,
                           frequency_text(one->eta, problem.physical));
   }
   return text + others;

@@ -199,13 +199,13 @@ TEST_CASE("Ranges beside what they are meant for are said, and no others", "[uni
   CHECK(warnings_in(study).empty());
   const auto eta = warnings_in(replaced(in_hertz, "frequency_Hz", "eta"));  // Hz given as eta
   REQUIRE(eta.size() == 1);
-  CHECK_THAT(eta[0], ContainsSubstring("no resonance") && ContainsSubstring("2295.2 Hz"));
+  CHECK_THAT(eta[0], ContainsSubstring("no resonance of the base") && ContainsSubstring("2295.2 Hz"));
   const auto preload = warnings_in(replaced(study, "\"preload_N_per_m\"", "\"P\""));  // N/m given as P
   REQUIRE(preload.size() == 1);
   CHECK_THAT(preload[0], ContainsSubstring("no contact slips"));
   const auto beside = warnings_in(replaced(study, "[1500, 5000]", "[2400, 5000]"));
   REQUIRE(beside.size() == 1);
-  CHECK_THAT(beside[0], ContainsSubstring("no resonance"));
+  CHECK_THAT(beside[0], ContainsSubstring("no resonance of the base"));
   const auto some =
       warnings_in(replaced(study, "[1500, 5000]", "[2280, 5000]") + "for_each = { radius = [0.13, 0.26] }\n");
   REQUIRE(some.size() == 1);

@@ -20,10 +20,8 @@ struct Resonance {
 /// Those of base, damper and the stuck whole under their wave, part by part, each in ascending order.
 std::vector<Resonance> resonances(const ContactSystem& wave);
 
-/// Those that a response of `system`, whose wave it is, may be meant for: without modes of stuck contacts
-/// that are hardly more than their springs, far above what both structures do alone; without the second modes
-/// of beams, which are those of their elements; and of sectors none above their window, where not all are
-/// known.
+/// Those of `system`, whose wave it is: of rods and beams without the second modes of each, which are those
+/// of their elements; of sectors none above their window, where not all are known.
 std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave);
 
 /// The highest preload at which a contact slips at one of these eta, of contacts whose preload does not grow
