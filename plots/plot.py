@@ -15,6 +15,11 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 FORMATS = ("png", "svg", "pdf", "eps")
 
 
+def _printable(text):
+    """On one line that a terminal does not obey."""
+    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in text)
+
+
 def _range(text):
     axis, _, bounds = text.partition("=")
     try:
@@ -66,10 +71,10 @@ def main():
         for path in draw_folder(given.folder, options, given.release):
             print(path)
     except Refused as refused:
-        print(refused, file=sys.stderr)
+        print(_printable(str(refused)), file=sys.stderr)
         return 1
     except OSError as error:
-        print(error, file=sys.stderr)
+        print(_printable(str(error)), file=sys.stderr)
         return 4
     return 0
 

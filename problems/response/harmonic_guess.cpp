@@ -106,7 +106,8 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     if (order.joint.free.isZero(0)) continue;
     is_sine = a == 0;
     ContactMatrix stuck = order.joint.compliance;  // but for elements beside the contacts
-    for (Index j = contacts(); j < coordinates_.size(); ++j) {
+    for (Index j = 0; j < coordinates_.size(); ++j) {
+      if (is_linear(0, j)) continue;
       stuck.col(j).setZero();
       stuck(j, j) = 1;
     }

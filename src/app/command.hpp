@@ -4,6 +4,7 @@
 // NAME_command()`, and the build finds it.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +23,12 @@ struct Command {
 
 /// All of them, in alphabetical order.
 const std::vector<Command>& commands();
+
+/// Whether one has this name.
+inline bool is_command(const std::string& name) {
+  return std::any_of(commands().begin(), commands().end(),
+                     [&](const Command& command) { return command.name == name; });
+}
 
 /// `--set`.
 void add_settings(CLI::App* command, std::vector<std::string>& settings);

@@ -7,8 +7,11 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/version.hpp"
+#include "keys/printable.hpp"
+#include "keys/toml_reader.hpp"
 #include "results/output.hpp"
 
 namespace {
@@ -36,8 +39,23 @@ Exit status
   0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end, or a branch not certified,
   or an interrupt; 4 a file or standard output could not be written)";
 
+/// Why a word in the place of a command is none; empty where it is one, or no word.
+std::string unknown_command(const std::string& word) {
+  using namespace arcslip;
+  if (word.empty() || word.front() == '-' || is_command(word)) return "";
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.push_back(command.name);
+  const std::string meant = nearest_name(word, names);
+  return "arcslip: unknown command '" + printable(word, longest_name) + "'; " +
+         (meant.empty() ? "see arcslip --help" : "did you mean '" + meant + "'?");
+}
+
 int dispatch(int argc, char** argv) {
   using namespace arcslip;
+  if (const std::string wrong = argc > 1 ? unknown_command(argv[1]) : ""; !wrong.empty()) {
+    complain(wrong);
+    return status::wrong_command_line;
+  }
   CLI::App app{about, "arcslip"};
   app.set_version_flag("--version", std::string("arcslip ") + release);
   app.require_subcommand(1);
@@ -54,7 +72,7 @@ int dispatch(int argc, char** argv) {
     }
     std::ostringstream asked_for;  // --help, --version
     app.exit(error, asked_for);
-    print(asked_for.str());
+    print(wrapped(asked_for.str()));
     return status::done;
   }
   return actions.at(app.get_subcommands().front()->get_name())();

@@ -35,8 +35,9 @@ class ProgressLine {
   /// Draws what `text` returns, but not more than ten times a second.
   template <class Text>
   void show(const Text& text) {
+    if (!shown_) return;
     const auto now = std::chrono::steady_clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
+    if (now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
     drawn_ = true;
     std::fputs(("\r\033[K" + std::string(text())).c_str(), stderr);

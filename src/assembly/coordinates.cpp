@@ -5,6 +5,7 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/elements/idle.hpp"
 #include "arcslip/elements/jenkins.hpp"
 #include "arcslip/elements/memoryless.hpp"
 
@@ -67,8 +68,12 @@ Coordinates::Coordinates(const HarmonicSystem& system)
     : contacts_(std::ssize(system.contacts)), spares_base_(system.one_way) {
   for (Index i = 0; i < contacts_; ++i) {
     const SectorContact& contact = system.contacts[static_cast<std::size_t>(i)];
-    all_.push_back(
-        {-1, 1, i, std::make_shared<Jenkins>(contact.stiffness, contact.slip_per_preload), spares_base_});
+    Coordinate& one = all_.emplace_back(Coordinate{-1, 1, i, nullptr, spares_base_});
+    if (contact.stiffness > 0) {
+      one.element = std::make_shared<Jenkins>(contact.stiffness, contact.slip_per_preload);
+    } else {
+      one.element = std::make_shared<Idle>(usual_stiffness(system, one));
+    }
   }
   all_.insert(all_.end(), system.others.begin(), system.others.end());
   const auto has_border = [](const Coordinate& one) { return one.element->has_border(); };

@@ -7,6 +7,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/elements/idle.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 
 namespace arcslip {
@@ -40,9 +41,16 @@ void check(const HarmonicSystem& system) {
       refuse("base, damper and contacts must be as many");
   }
   for (const SectorContact& contact : system.contacts) {
-    if (!(contact.stiffness > 0 && contact.slip_per_preload > 0))
-      refuse("stiffness and slip threshold must be positive");
+    const bool rubs = contact.stiffness > 0 && contact.slip_per_preload > 0;
+    if (!rubs && !(contact.stiffness == 0 && contact.slip_per_preload == never_slips))
+      refuse("stiffness and slip threshold must be positive, or 0 and `never_slips` where nothing rubs");
   }
+}
+
+double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate) {
+  const double compliance = std::abs(coordinate.base) * static_compliance(system.base[0], coordinate.dof) +
+                            std::abs(coordinate.damper) * static_compliance(system.damper[0], coordinate.dof);
+  return compliance > 0 ? 1 / compliance : 1;
 }
 
 Vector contact_springs(const HarmonicSystem& system) {
@@ -106,11 +114,8 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   system.base_loss_per_zeta = losses.base_per_zeta;
   system.base_loss_fixed = losses.base_fixed;
   if (!parameters.varied.empty()) system.varied = system_parameter(parameters, parameters.varied);
-  system.others = other_coordinates(parameters, [&](const Coordinate& one) {
-    const double compliance = std::abs(one.base) * static_compliance(system.base[0], one.dof) +
-                              std::abs(one.damper) * static_compliance(system.damper[0], one.dof);
-    return compliance > 0 ? 1 / compliance : 1;
-  });
+  system.others =
+      other_coordinates(parameters, [&](const Coordinate& one) { return usual_stiffness(system, one); });
   return system;
 }
 

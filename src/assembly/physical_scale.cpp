@@ -31,7 +31,7 @@ PhysicalScale::PhysicalScale(const Geometry& geometry, const SystemParameters& s
   const double damper_stiffness = geometry.damper.stiffness(system.model, circumference_);
   const double natural = std::sqrt(damper_stiffness / geometry.damper.mass(circumference_));
   frequency_ = system.model == StructureModel::rods ? natural : two_pi * natural;
-  preload_per_length_ = base_stiffness_ / geometry.friction_coefficient;
+  preload_ = base_stiffness_ / geometry.friction_coefficient;
   energy_ = damper_stiffness * circumference_ * circumference_;
 }
 

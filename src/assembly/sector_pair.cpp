@@ -88,6 +88,10 @@ std::shared_ptr<const FullReceptance> SectorPair::damper_solves(const SectorWave
 }
 
 void SectorPair::check(const Kept& kept, const SectorWave& wave) const {
+  if (wave.sectors > 1 && !kept.part.sector.has_boundaries())
+    throw SectorError(fmt::format(
+        "the {} has no left and right boundary, as a structure without symmetry, expected with {} sectors",
+        kept.name, wave.sectors));
   found(kept, kept.checked, {wave.wave_number, wave.sectors}, [&] {
     SectorReduction reduction(kept.part.sector);
     reduction.set_forward(wave.forward());

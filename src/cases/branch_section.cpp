@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "cases/continuation_section.hpp"
+#include "cases/stored_point.hpp"
 #include "cases/system_section.hpp"
+#include "cases/unit_names.hpp"
 
 namespace arcslip {
 namespace {
@@ -19,6 +21,13 @@ std::vector<std::string> parameters_of(const ProblemRequest& problem) {
   if (problem.model != nullptr)
     return problem.model->build(problems::defaults(*problem.model))->parameter_names();
   return problem.response->parameters;
+}
+
+/// These, under names with units as well where they have any.
+std::vector<std::string> names_of_parameters(const ProblemRequest& problem) {
+  std::vector<std::string> names = parameters_of(problem);
+  if (problem.model == nullptr) add_unit_names(names);
+  return names;
 }
 
 /// Whether a name may be one of a part of a system that is not yet known: `K_FD_2`, or `stops.gap`.
@@ -47,11 +56,13 @@ bool is_curve(const CaseBranch& branch, const TomlSection& /*section*/) { return
 bool is_branch(const CaseBranch& branch, const TomlSection& /*section*/) { return !branch.curve; }
 
 void read_parameters(CaseBranch& branch, const TomlSection& section) {
-  const std::vector<std::string> names = parameters_of(branch.problem);
+  const std::vector<std::string> names = names_of_parameters(branch.problem);
   const std::string expected = fmt::format("two different names among \"{}\"", fmt::join(names, "\", \""));
   const std::vector<std::string> allowed =
       names_with(names, branch, section.texts("parameters", {}, expected));
-  const std::vector<std::string> pair = section.texts("parameters", allowed, expected);
+  const std::vector<std::string> given = section.texts("parameters", allowed, expected);
+  std::vector<std::string> pair;
+  std::transform(given.begin(), given.end(), std::back_inserter(pair), without_unit);
   if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
   const auto is_own = [&](const std::string& name) { return name == names[0] || name == names[1]; };
   if (branch.problem.model == nullptr && !is_own(pair[0]) && !is_own(pair[1]))
@@ -59,7 +70,9 @@ void read_parameters(CaseBranch& branch, const TomlSection& section) {
   if (branch.curve->is_backbone() && pair[0] != "eta")
     section.mismatch("parameters", "\"eta\" and another one: phase resonances are looked for over eta");
   branch.curve->active = pair[0];
+  branch.curve->named = given[0];
   branch.options.parameter = pair[1];
+  branch.named = given[1];
 }
 
 void read_curve(CaseBranch& branch, const TomlSection& section) {
@@ -107,6 +120,15 @@ void check_range(const CaseBranch& branch, const TomlSection& section) {
 void check_start(const CaseBranch& branch, const TomlSection& section) {
   if (branch.switching)
     section.fail("start", "not beside switching, which follows the branch that begins at branch.from");
+}
+
+void read_from_point(CaseBranch& branch, const TomlSection& section) {
+  const continuation::TraceOptions& options = branch.options;
+  branch.stored = read_stored_point(section);
+  const auto value = branch.stored->parameters.find(options.parameter);
+  if (value == branch.stored->parameters.end())
+    section.fail("from_point", fmt::format("the point has no {}", options.parameter));
+  branch.start = value->second;
 }
 
 void check_all(const CaseBranch& branch, const TomlSection& section) {
@@ -162,16 +184,18 @@ const KeyTable<CaseBranch>& branch_keys() {
            required, of_level),
        K::special(
            "parameter", "name",
-           "what varies: eta, P, F, zeta_B, zeta_D, K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
+           "what varies: eta, P, in SI units frequency_Hz, preload_N_per_m or preload_N; F, zeta_B, zeta_D, "
+           "K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
            "of one contact of "
            "several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear modes R in place of "
            "eta, of limit "
            "cycles zeta_B, or a library model's own",
            [](S& branch, const TomlSection& section) {
-             const std::vector<std::string> names = parameters_of(branch.problem);
+             const std::vector<std::string> names = names_of_parameters(branch.problem);
              const toml::node& node = section.require("parameter", one_of(names));
              const std::string given = node.value<std::string>().value_or("");
-             branch.options.parameter = section.text("parameter", names_with(names, branch, {given}));
+             branch.named = section.text("parameter", names_with(names, branch, {given}));
+             branch.options.parameter = without_unit(branch.named);
            },
            needed("required", lacks("parameters")), along),
        K::special("parameters", "two names",
@@ -187,14 +211,22 @@ const KeyTable<CaseBranch>& branch_keys() {
        K("eta", at(&S::problem, &ProblemRequest::eta), positive(),
          "the fixed frequency where P varies; of nonlinear modes one near theirs", friction, parameter("eta"),
          unresolved),
+       K("frequency_Hz", at(&S::problem, &ProblemRequest::eta), positive(),
+         "the same in Hz, of systems in SI units", friction, parameter("eta"), unresolved, unit("Hz")),
        K("R", at(&S::problem, &ProblemRequest::R), positive(),
          "the fixed amplitude of nonlinear modes where R does not vary", friction, unresolved),
-       K::special("for_each", "table, or list of tables",
-                  "one branch for each value of keys of `[system]` and `[geometry]`, or of eta", {}),
+       K::special(
+           "for_each", "table, or list of tables",
+           "one branch for each value of keys of `[system]` and `[geometry]`, or of eta or frequency_Hz", {}),
        K::flag("switching", &S::switching,
                "follow all branches that meet this one, at branch points and corners", along),
        K("start", &S::start, {" from `from` to `to`", rule_of_range},
          "trace both ways from this value; not beside switching", along, then(check_start)),
+       K::special("from_point", "\"DIR:branch/point\"",
+                  "trace both ways from a special point of the run in DIR, at its value of the parameter",
+                  read_from_point, along, only("not beside start", lacks("start")),
+                  only("not beside switching",
+                       [](const S& branch, const TomlSection&) { return !branch.switching; })),
        K::flag("all_solutions", &S::all_solutions,
                "find all solutions at `start` by deflation and trace the branch of each", along,
                then(check_all)),

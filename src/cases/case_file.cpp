@@ -15,6 +15,7 @@
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/system_section.hpp"
+#include "cases/unit_names.hpp"
 #include "keys/toml_reader.hpp"
 
 namespace arcslip {
@@ -37,16 +38,19 @@ const LibraryModel* read_model(const TomlDocument& document) {
 /// What may differ from branch to branch.
 std::vector<ListedKey> for_each_keys(const TomlDocument& document, const LibraryModel* model) {
   std::vector<ListedKey> keys = listed_keys(document, model);
-  if (model == nullptr) keys.push_back({"eta", "branch.eta"});
+  if (model == nullptr) {
+    for (const std::string name : {"eta", frequency_name}) keys.push_back({name, "branch." + name});
+  }
   return keys;
 }
 
 /// The input as it is understood, defaults included, without what belongs to [study].
-ordered_json resolve(const TomlDocument& document, const CaseBranch& first) {
+ordered_json resolve(const TomlDocument& document, const CaseBranch& first,
+                     const continuation::TraceOptions& given) {
   ordered_json resolved = to_json(document.root());
   resolved.erase("study");
   resolve_system(first.problem, resolved);
-  resolved["continuation"].update(continuation_keys().values(first.options));
+  resolved["continuation"].update(continuation_keys().values(given));
   return resolved;
 }
 
@@ -76,18 +80,19 @@ void check_level(const TomlSection& branch, const CaseBranch& first) {
 /// Refuses what `for_each` or `eta` would set although it is continued, or not a parameter at all.
 void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::vector<ListedKey>& listed,
                  const CaseBranch& common, const std::string& parameter) {
+  const std::string frequency = for_each.sets(frequency_name) ? frequency_name : frequency_key(branch);
+  const bool is_given = branch.has(frequency);
   if (common.problem.response->frequency == ResponseKind::Frequency::own &&
-      (branch.has("eta") || for_each.sets("eta"))) {
-    branch.fail(branch.has("eta") ? "eta" : "for_each", "a limit cycle has an eta of its own");
-  }
+      (is_given || for_each.sets(frequency)))
+    branch.fail(is_given ? frequency : "for_each", "a limit cycle has an eta of its own");
   for (const ListedKey& key : listed) {
     if (key.parameter == parameter && parameter != "eta" && for_each.sets(key.name))
       branch.fail("for_each", fmt::format("{} cannot be listed where {} is the continuation parameter",
                                           key.name, parameter));
   }
-  if (parameter == "eta" && (branch.has("eta") || for_each.sets("eta"))) {
-    branch.fail(branch.has("eta") ? "eta" : "for_each", "eta is fixed only where parameter = \"P\"");
-  }
+  if (parameter == "eta" && (is_given || for_each.sets(frequency)))
+    branch.fail(is_given ? frequency : "for_each",
+                fmt::format("{} is fixed only where parameter = \"P\"", frequency));
 }
 
 /// Whether stiffness is complex, which has no motion in time.
@@ -142,6 +147,39 @@ void find_seed(const TomlSection& section, CaseBranch& branch) {
                                    options.parameter, branch.curve->seed, low, high));
 }
 
+/// The fixed frequency of a set of `for_each`, as it is given.
+std::pair<std::string, double> given_frequency(const TomlDocument& document,
+                                               const Replacements& replacements) {
+  const TomlSection section(document, "branch", &replacements);
+  const std::string key = frequency_key(section);
+  return {key, section.number(key, positive())};
+}
+
+/// Brings ranges that are given in SI units to the model's.
+void take_units(const TomlSection& section, CaseBranch& branch) {
+  const auto size = [&](const std::string& name, const char* key) {
+    return size_of_unit(name, branch.problem.physical, section, branch.curve ? "parameters" : key);
+  };
+  const double unit = size(branch.named, "parameter");
+  if (unit != 1) {
+    continuation::TraceOptions& options = branch.options;
+    options.from /= unit;
+    options.to /= unit;
+    if (branch.start && !branch.stored) *branch.start /= unit;
+    for (double& value : options.stop_at) value /= unit;
+  }
+  if (branch.stored) {
+    const auto [low, high] = std::minmax({branch.options.from, branch.options.to});
+    if (!(*branch.start >= low && *branch.start <= high))
+      section.fail("from_point", fmt::format("the point has {} = {:g}, which is not from {:g} to {:g}",
+                                             branch.options.parameter, *branch.start, low, high));
+  }
+  if (!branch.curve) return;
+  CurveRequest& curve = *branch.curve;
+  const double across = size(curve.named, "parameters");
+  for (double* value : {&curve.from, &curve.to, &curve.window.low, &curve.window.high}) *value /= across;
+}
+
 /// The eta that the branches pass; 0 where they are unknown beforehand.
 std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
                                     const CaseBranch& common, const std::string& parameter) {
@@ -151,7 +189,7 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
   for (const std::size_t i : for_each.samples()) {
     const ForEachSet set = for_each.at(i);
-    const double eta = TomlSection(document, "branch", &set.replacements).number("eta", positive());
+    const double eta = given_frequency(document, set.replacements).second;
     range = {std::min(range.first, eta), std::max(range.second, eta)};
   }
   return range;
@@ -198,6 +236,8 @@ class BranchSource {
   explicit BranchSource(std::shared_ptr<const TomlDocument> document);
 
   std::size_t count() const { return for_each_->count(); }
+  /// As they are given.
+  const continuation::TraceOptions& options() const { return common_.options; }
   CaseBranch branch(std::size_t index) const;
   void check_replaced() const;
 
@@ -218,7 +258,11 @@ class BranchSource {
 BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
     : document_(std::move(document)), section_(*document_, "branch") {
   TomlSection(*document_, "").allow_only(case_sections());
-  if (section_.table() == nullptr) document_->fail(nullptr, "branch", "missing; expected a section [branch]");
+  const bool has_study = document_->root().contains("study");
+  if (section_.table() == nullptr)
+    document_->fail(nullptr, "branch",
+                    std::string("missing; expected a section [branch]") +
+                        (has_study ? "; what [study] asks for is done by arcslip study" : ""));
   model_ = read_model(*document_);
   common_ = read_branch(*document_, model_);
   parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
@@ -238,14 +282,17 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   read_system(*document_, replacements, model_, use_, branch.problem);
   const TomlSection system(*document_, "system", &replacements);
   branch.problem.system.one_way = branch.problem.response->one_way;
+  take_units(section_, branch);
   branch.problem.system.varied = varied_parameter(section_, branch);
   branch.problem.system.tells_lag = may_tell_lag(branch.problem) && branch.curve && branch.curve->level &&
                                     branch.curve->level->observable == "lag";
   if (branch.problem.harmonics_tolerance && branch.problem.response->has_own_frequency())
     system.fail("harmonics", "\"auto\" is not for limit cycles and nonlinear modes");
   if (model_ == nullptr && parameter_ != "eta" &&
-      branch.problem.response->frequency != ResponseKind::Frequency::own)
-    branch.problem.eta = TomlSection(*document_, "branch", &replacements).number("eta", positive());
+      branch.problem.response->frequency != ResponseKind::Frequency::own) {
+    const auto [key, given] = given_frequency(*document_, replacements);
+    branch.problem.eta = given / size_of_unit(key, branch.problem.physical, section_, key);
+  }
   if (model_ == nullptr && branch.problem.response->parameters.front() == "R" && parameter_ != "R")
     section_.number("R", positive());
   if (branch.curve) find_seed(section_, branch);
@@ -310,7 +357,7 @@ CasePlan plan_case(const CaseFile& file) {
   plan.title = root.has("title") ? root.text("title", {}) : "";
   plan.count = source->count();
   plan.branch = [source](std::size_t index) { return source->branch(index); };
-  plan.resolved = resolve(*file.document(), source->checked());
+  plan.resolved = resolve(*file.document(), source->checked(), source->options());
   return plan;
 }
 

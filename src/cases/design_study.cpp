@@ -31,13 +31,13 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
                                   const std::vector<int>& harmonics) {
   ProblemRequest request = design.problem();
   request.system.harmonics = harmonics;
-  request.system.preload = study.range.to;
-  const Subject subject = build(request, "eta", study.range.eta_low, study.options);
+  request.system.preload = design.range.to;
+  const Subject subject = build(request, "eta", design.range.eta_low, study.options);
   if (!subject.failure.empty())
-    throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", study.range.eta_low,
-                                         study.range.to, subject.failure));
-  return problems::ResponsePeaks({subject.built.problem, "eta", "P", study.range.eta_low,
-                                  study.range.eta_high, study.objective, subject.guess, study.options});
+    throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", design.range.eta_low,
+                                         design.range.to, subject.failure));
+  return problems::ResponsePeaks({subject.built.problem, "eta", "P", design.range.eta_low,
+                                  design.range.eta_high, study.objective, subject.guess, study.options});
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {
@@ -47,18 +47,19 @@ problems::StudiedContacts contacts_of(const SystemParameters& system) {
 
 /// What the base does without damper, which shares no objective with the damper but Y. With elements that may
 /// stand anywhere it is not known.
-void compare_to_free(const StudyCase& study, const SystemParameters& system, PreloadStudy& result) {
+void compare_to_free(const StudyCase& study, const StudyDesign& design, PreloadStudy& result) {
+  const SystemParameters& system = design.system;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   result.free_eta = result.free_Y = unknown;
   if (study.objective != "Y" || !system.others.empty()) return;
   problems::Peak free;
   if (!structures_of(system).is_one_contact(system)) {
-    free = problems::free_peak(build_wave(system).base, study.range, study.options);
+    free = problems::free_peak(build_wave(system).base, design.range, study.options);
   } else {
     const FrictionSystem pair = build_system(system);
-    free = problems::free_peak(pair, study.range, study.options);
+    free = problems::free_peak(pair, design.range, study.options);
     if (result.optimum && system.cubic_stiffness == 0 && system.base_damping > 0) {
-      result.optimum->damping = problems::equivalent_damping(pair, system.base_damping, study.range, free,
+      result.optimum->damping = problems::equivalent_damping(pair, system.base_damping, design.range, free,
                                                              result.optimum->peak.Y, study.options);
     }
   }
@@ -93,7 +94,7 @@ void complete_orders(const StudyCase& study, const StudyDesign& design, double p
 
 PreloadStudy study_with(const StudyCase& study, const StudyDesign& design, const std::vector<int>& orders) {
   problems::ResponsePeaks peaks = responses(study, design, orders);
-  return problems::study_response(peaks, study.range, contacts_of(design.system));
+  return problems::study_response(peaks, design.range, contacts_of(design.system));
 }
 
 /// The study in as many harmonics as the response at its own best preload asks for.
@@ -111,17 +112,17 @@ PreloadStudy study_balanced(const StudyCase& study, const StudyDesign& design) {
 }  // namespace
 
 PreloadStudy study_preload(const StudyCase& study, const StudyDesign& design) {
-  if (is_closed(study, design)) return problems::study_preload(design.system, study.range, study.options);
+  if (is_closed(study, design)) return problems::study_preload(design.system, design.range, study.options);
   PreloadStudy result = design.harmonics_tolerance ? study_balanced(study, design)
                                                    : study_with(study, design, design.system.harmonics);
-  compare_to_free(study, design.system, result);
+  compare_to_free(study, design, result);
   return result;
 }
 
 problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDesign& design,
                                            const PreloadStudy& nominal) {
   if (is_closed(study, design))
-    return problems::study_uncertainty(design.system, study.range, *study.uncertain, nominal, study.options);
+    return problems::study_uncertainty(design.system, design.range, *study.uncertain, nominal, study.options);
   const std::vector<int>& harmonics = nominal.harmonics.empty() ? design.system.harmonics : nominal.harmonics;
   const auto envelope = [&](const problems::DesignFactors& factors, double from, double to) {
     StudyDesign other = design;
@@ -129,7 +130,7 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
     problems::ResponsePeaks peaks = responses(study, other, harmonics);
     return envelope_over(peaks, from, to);
   };
-  return problems::study_uncertainty(study.range, *study.uncertain,
+  return problems::study_uncertainty(design.range, *study.uncertain,
                                      {design.system.preload_growth != 0, design.system.has_others()}, nominal,
                                      envelope);
 }

@@ -84,6 +84,7 @@ void read_geometry(const TomlDocument& document, const Replacements& replacement
   if (!geometry.needs_shear) settings.interface_stiffness = given;
   check(document, geometry, settings);
   problem.geometry = geometry;
+  problem.physical.emplace(geometry, settings);
 }
 
 }  // namespace arcslip

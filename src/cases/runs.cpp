@@ -237,12 +237,33 @@ CaseBranch seed_branch(const CaseBranch& request) {
 
 namespace {
 
+/// Puts a stored point in place of the guess, found or not. Throws InputError where it is one of another
+/// problem.
+void begin_from(const CaseBranch& request, Subject& subject) {
+  const StoredPoint& point = *request.stored;
+  const continuation::Problem& problem = *subject.built.problem;
+  if (point.unknowns.size() != problem.size())
+    throw InputError(
+        fmt::format("branch.from_point: expected a point of {} unknowns as this problem has, got {}",
+                    problem.size(), point.unknowns.size()));
+  const std::vector<std::string> names = problem.parameter_names();
+  continuation::Guess& guess = subject.guess;
+  guess = {point.unknowns, Vector(std::ssize(names)), point.regime, {}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool varies = names[i] == request.options.parameter;
+    guess.parameters(static_cast<Index>(i)) =
+        varies ? *request.start : fixed_value(request.problem, names[i]);
+  }
+  subject.failure.clear();
+}
+
 std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& time,
                                       const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
   const CaseBranch first = request->curve ? seed_branch(*request) : *request;
-  const Subject subject =
+  Subject subject =
       build(first.problem, first.options.parameter, first.start.value_or(first.options.from), time.rest());
+  if (first.stored) begin_from(first, subject);
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
   if (request->curve) return trace_curves(request, subject, time, observer);
   std::vector<TracedBranch> traced = trace_branches(request, subject, time, observer);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <optional>
 
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/sectors/matrix_market.hpp"
@@ -121,6 +122,39 @@ PartKey dofs(const char* name, std::vector<Index> FiniteSector::*member, const s
   return PartKey::special(name, "file or list of dofs", meaning, read, term...);
 }
 
+/// A dof against ground or the other structure, or a pair of dofs against each other.
+void read_contacts(PartSettings& part, const TomlSection& section) {
+  const char* expected = "a file of dofs, or an array of dofs and of pairs [i, j] of them";
+  const toml::node& node = section.require("contact", expected);
+  FiniteSector& sector = part.sector;
+  if (!node.is_array()) {
+    if (!node.is_string()) section.mismatch("contact", expected);
+    sector.contacts = parsed(part, section, "contact", largest_list, [&](const auto& text, const auto& path) {
+      return read_dofs(text, path, sector.mass.rows());
+    });
+    return;
+  }
+  const toml::array& given = *node.as_array();
+  if (std::none_of(given.begin(), given.end(), [](const toml::node& one) { return one.is_array(); })) {
+    sector.contacts = listed(part, section, "contact");
+    return;
+  }
+  const auto dof = [&](const toml::node* one) {
+    const std::optional<double> number = one == nullptr ? std::nullopt : exact_number(*one);
+    const Index size = sector.mass.rows();
+    if (!number || !(*number >= 1 && *number <= static_cast<double>(size) && *number == std::floor(*number)))
+      section.fail("contact", fmt::format("expected {}, which count from 1 to {}", expected, size));
+    return static_cast<Index>(*number) - 1;
+  };
+  for (const toml::node& one : given) {
+    const toml::array* pair = one.as_array();
+    if (pair != nullptr && pair->size() != 2)
+      section.fail("contact", fmt::format("expected pairs of two dofs, got {}", pair->size()));
+    sector.contacts.push_back(dof(pair != nullptr ? pair->get(0) : &one));
+    sector.against.push_back(pair != nullptr ? dof(pair->get(1)) : FiniteSector::ground);
+  }
+}
+
 void check_contacts(const PartSettings& part, const TomlSection& section) {
   const std::size_t count = part.sector.contacts.size();
   if (count == 0 || count >= most_contacts)
@@ -150,20 +184,29 @@ void diagonalise(PartSettings& part, const TomlSection& section) {
   sector.damping = SparseMatrix();
 }
 
+/// Whether a section has this key.
+auto has(const char* name) {
+  return [=](const PartSettings&, const TomlSection& section) { return section.has(name); };
+}
+
 KeyTable<PartSettings> keys_of_part(bool loaded) {
   using F = FiniteSector;
   const std::vector<PartKey> keys{
-      matrix("mass", &F::mass, "M: real, coordinate, symmetric, or general and so but for rounding",
-             required),
+      matrix("mass", &F::mass, "M: real, symmetric, or general and so but for rounding", required),
       matrix("stiffness", &F::stiffness, "K", required),
       matrix("damping", &F::damping,
-             "C = alpha M + beta K; any other symmetric one with `path = \"full\"` alone", otherwise("none")),
+             "C = alpha M + beta K; any other, also a gyroscopic one, with `path = \"full\"` alone",
+             otherwise("none")),
       dofs("left", &F::left, "the boundary to the sector before; dofs count from 1, in a file one a line",
-           required),
-      dofs("right", &F::right, "that to the next sector, paired with `left` in order", required),
+           needed("none, with `right`: no symmetry", has("right"))),
+      dofs("right", &F::right, "that to the next sector, paired with `left` in order",
+           needed("none, with `left`", has("left"))),
       dofs("interior", &F::interior, "the rest", otherwise("all others")),
-      dofs("contact", &F::contacts, "up to 12, not on the right; those of base and damper pair in order",
-           required, then(check_contacts)),
+      PartKey::special(
+          "contact", "file or list of dofs, or of pairs [i, j]",
+          "up to 12, not on the right; those of base and damper pair in order; [i, j] is between "
+          "two dofs of one structure, whose y is y_i - y_j",
+          read_contacts, required, then(check_contacts)),
       PartKey::choice("damping_kind", &PartSettings::damping_kind,
                       {{"viscous", DampingKind::viscous},
                        {"structural", DampingKind::structural},

@@ -30,11 +30,14 @@ struct FrictionSettings : SystemParameters {
   bool is_base_damped = false;   ///< by more than zeta, which then may be 0
   bool is_damper_damped = false;
   std::optional<double> harmonics_tolerance = {};
+  bool in_SI = false;  ///< whether masses are in kg, stiffnesses in N/m
+  double hertz = 1;    ///< eta = 1 of such a system
 };
 
 /// Keys that the models with friction share.
 std::vector<Key<FrictionSettings>> shared_keys();
 Key<FrictionSettings> preload_growth_key();
+Key<FrictionSettings> units_key();
 
 struct StructureKind {
   /// A section with keys of its own.

@@ -8,6 +8,7 @@
 #include "cases/geometry_section.hpp"
 #include "cases/study_section.hpp"
 #include "cases/system_section.hpp"
+#include "cases/unit_names.hpp"
 
 namespace arcslip {
 namespace {
@@ -20,6 +21,8 @@ struct Source {
   std::optional<ForEach> for_each;
   std::shared_ptr<const Structures> structures;
   problems::PreloadRange range;
+  std::string preload_as;
+  std::string frequency_as;
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
@@ -31,8 +34,22 @@ struct Source {
   StudyDesign design(std::size_t index) const {
     auto [values, replacements, made] = for_each->at(index);
     const ProblemRequest problem = this->problem(replacements);
-    return {std::move(values), problem.system, problem.geometry, problem.harmonics_tolerance,
-            problem.structure};
+    return {std::move(values),           problem.system,    problem.geometry, problem.physical,
+            problem.harmonics_tolerance, problem.structure, range_of(problem)};
+  }
+
+  /// In the model's units.
+  problems::PreloadRange range_of(const ProblemRequest& problem) const {
+    const TomlSection section(*file, "study");
+    const double preload = size_of_unit(preload_as, problem.physical, section, "parameter");
+    const double frequency = size_of_unit(frequency_as, problem.physical, section, frequency_as);
+    problems::PreloadRange converted = range;
+    converted.from /= preload;
+    converted.to /= preload;
+    for (double& value : converted.stop_at) value /= preload;
+    converted.eta_low /= frequency;
+    converted.eta_high /= frequency;
+    return converted;
   }
 };
 
@@ -54,6 +71,7 @@ ProblemRequest StudyDesign::problem() const {
   request.structure = structure;
   request.system = system;
   request.geometry = geometry;
+  request.physical = physical;
   request.harmonics_tolerance = harmonics_tolerance;
   return request;
 }
@@ -63,12 +81,16 @@ StudyCase read_study(const std::string& path, const std::vector<std::string>& se
 }
 
 StudyCase read_study(const CaseFile& file) {
-  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}});
+  const auto source = std::make_shared<Source>(Source{file.document(), {}, {}, {}, {}, {}});
   const TomlDocument& document = *file.document();
   const TomlSection root(document, "");
   root.allow_only(case_sections());
   const TomlSection section(document, "study");
-  if (section.table() == nullptr) document.fail(nullptr, "study", "missing; expected a section [study]");
+  if (section.table() == nullptr)
+    document.fail(
+        nullptr, "study",
+        std::string("missing; expected a section [study]") +
+            (document.root().contains("branch") ? "; what [branch] asks for is done by arcslip run" : ""));
   if (TomlSection(document, "system").table() == nullptr)
     document.fail(nullptr, "system", "missing; expected a section [system]");
 
@@ -81,8 +103,9 @@ StudyCase read_study(const CaseFile& file) {
   study.range.stop_at = study.options.stop_at;
   study.options.stop_after.clear();  // no branch of the search may end before its window does
   source->range = study.range;
+  source->preload_as = study.preload_as;
+  source->frequency_as = study.frequency_as;
   source->structures = load_structures(document);
-  study.is_physical = has_geometry(document);
   const std::vector<ListedKey> allowed = listed_keys(document, nullptr);
   source->for_each.emplace(document, section, allowed, ForEach::Lists::combined);
   for (const char* key : {"preload", "preload_per_length"}) {
@@ -95,6 +118,7 @@ StudyCase read_study(const CaseFile& file) {
   // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
   // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
+  if (const auto& scale = study.design(0).physical) study.preload_unit = scale->preload_unit();
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
   if (section.has("objective"))
     study.objective = section.text("objective", tracked_observables(study.design(0).problem(), false));

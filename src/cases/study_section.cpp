@@ -6,6 +6,8 @@
 #include <functional>
 #include <tuple>
 
+#include "cases/unit_names.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -13,8 +15,9 @@ using problems::Scatter;
 using problems::Uncertainty;
 
 void read_frequencies(StudyCase& study, const TomlSection& section) {
+  study.frequency_as = frequency_key(section);
   std::tie(study.range.eta_low, study.range.eta_high) =
-      section.rising("eta", "two numbers, 0 < low < high, between which peaks are sought");
+      section.rising(study.frequency_as, "two numbers, 0 < low < high, between which peaks are sought");
 }
 
 void read_uniform(Scatter& scatter, const TomlSection& section) {
@@ -81,16 +84,22 @@ const KeyTable<StudyCase>& study_keys() {
     return study.uncertain ? uncertain_keys().values(*study.uncertain) : nlohmann::ordered_json();
   };
   const auto objective = [](const StudyCase& study) { return nlohmann::ordered_json(study.objective); };
+  static const std::vector<std::string> swept = {"P", preload_names[0], preload_names[1]};
   static const KeyTable<StudyCase> keys{
       {StudyKey::special(
-           "parameter", "\"P\"", "what is swept",
-           [](StudyCase&, const TomlSection& section) { section.text("parameter", {"P"}); }, required),
+           "parameter", one_of(swept), "what is swept, in SI units where the system is given in them",
+           [](StudyCase& study, const TomlSection& section) {
+             study.preload_as = section.text("parameter", swept);
+           },
+           required),
        StudyKey("from", at(&StudyCase::range, &PreloadRange::from), positive(), "lowest preload", required),
        StudyKey("to", at(&StudyCase::range, &PreloadRange::to), {" > from", above}, "highest preload",
                 required),
        StudyKey::special("eta", "two numbers",
                          "the window of frequencies in which peaks are sought; one on its edge counts",
-                         read_frequencies, required),
+                         read_frequencies, needed("required, or frequency_Hz", lacks(frequency_name))),
+       StudyKey::special(frequency_name, "two numbers", "the same in Hz, of systems in SI units",
+                         read_frequencies, unit("Hz")),
        StudyKey::special("for_each", "table, or list of tables",
                          "the designs: values of keys of `[system]` and `[geometry]`, each with each", {}),
        StudyKey::special(

@@ -124,6 +124,16 @@ K preload_growth_key() {
           parameter("P_2")};
 }
 
+K units_key() {
+  return K::choice("units", &S::in_SI, {{"SI", true}},
+                   "what masses, stiffnesses and forces are in: kg, N/m and N, so that columns, ranges and "
+                   "pictures may be in Hz, N and m",
+                   "", otherwise("none: numbers without unit"), resolved([](const S& settings) {
+                     return settings.in_SI ? ordered_json("SI") : ordered_json();
+                   }),
+                   unlisted);
+}
+
 std::vector<K> shared_keys() {
   const auto base = [](const S& settings) {
     const bool in_study = settings.use->linear_passive;
@@ -194,6 +204,7 @@ const StructureKind* structure_of(const std::string& model) {
 
 void take(FrictionSettings settings, ProblemRequest& problem) {
   problem.harmonics_tolerance = settings.harmonics_tolerance;
+  if (settings.in_SI) problem.physical.emplace(settings.hertz, settings);
   problem.system = std::move(settings);
 }
 

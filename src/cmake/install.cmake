@@ -13,7 +13,7 @@ if(NOT CMAKE_INSTALL_PREFIX STREQUAL /usr)  # where Debian wants all in one file
 endif()
 file(GLOB case_files CONFIGURE_DEPENDS problems/*.toml)
 install(FILES ${case_files} DESTINATION share/arcslip/problems)
-install(DIRECTORY problems/export DESTINATION share/arcslip/problems)
+install(DIRECTORY problems/export problems/nlvib DESTINATION share/arcslip/problems)
 if(NOT CMAKE_INSTALL_PREFIX STREQUAL /usr)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()

@@ -47,13 +47,16 @@ using Sentences = std::vector<std::string>;
 
 /// Quantities as sentences name them.
 struct Units {
-  explicit Units(const Findings& findings) : physical(findings.is_physical), objective(findings.objective) {}
+  explicit Units(const Findings& findings)
+      : physical(!findings.preload_unit.empty()),
+        unit(findings.preload_unit),
+        objective(findings.objective) {}
 
   std::string preload(double value) const {
-    return physical ? fmt::format("{:.4g} N/m", value) : fmt::format("P = {:.4g}", value);
+    return physical ? fmt::format("{:.4g} {}", value, unit) : fmt::format("P = {:.4g}", value);
   }
   std::string range(double low, double high) const {
-    return physical ? fmt::format("{:.4g} to {:.4g} N/m", low, high)
+    return physical ? fmt::format("{:.4g} to {:.4g} {}", low, high, unit)
                     : fmt::format("P = {:.4g} to {:.4g}", low, high);
   }
   std::string frequency(double value) const {
@@ -68,6 +71,7 @@ struct Units {
   }
 
   bool physical;
+  std::string unit;
   std::string objective;
 };
 
@@ -209,15 +213,25 @@ class Fields {
 
 bool same(double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); }
 
-BestPreload best_preload(const Fields& row, const ordered_json& study, bool is_physical) {
+/// The suffix of columns of preloads: "N_per_m" or "N", and "" where there are none.
+std::string preload_suffix(const ResultTable& table) {
+  for (const char* suffix : {"N_per_m", "N"}) {
+    if (table.has(std::string("preload_") + suffix)) return suffix;
+  }
+  return "";
+}
+
+BestPreload best_preload(const Fields& row, const ordered_json& study, const std::string& unit) {
+  const bool is_physical = !unit.empty();
   BestPreload best;
   best.design = row.design("P_opt");
   best.kind = row.text("kind");
-  best.preload = row.number(is_physical ? "preload_N_per_m" : "P_opt");
-  best.low = row.number(is_physical ? "preload_low_N_per_m" : "P_low");
-  best.high = row.number(is_physical ? "preload_high_N_per_m" : "P_high");
-  best.from_end = same(row.number("P_low"), study.at("from").get<double>());
-  best.to_end = same(row.number("P_high"), study.at("to").get<double>());
+  best.preload = row.number(is_physical ? "preload_" + unit : "P_opt");
+  best.low = row.number(is_physical ? "preload_low_" + unit : "P_low");
+  best.high = row.number(is_physical ? "preload_high_" + unit : "P_high");
+  const bool in_units = study.value("parameter", "P") != "P";
+  best.from_end = same(in_units ? best.low : row.number("P_low"), study.at("from").get<double>());
+  best.to_end = same(in_units ? best.high : row.number("P_high"), study.at("to").get<double>());
   best.frequency = row.number(is_physical ? "frequency_Hz" : "eta_opt");
   best.peak = row.number(is_physical ? "Y_m" : "Y_opt");
   best.ratio = row.number("ratio_opt");
@@ -230,11 +244,12 @@ Findings findings_of(const ordered_json& input, const ResultTable& optimum, cons
   const ordered_json& study = input.at("study");
   Findings findings;
   findings.objective = study.value("objective", "Y");
-  findings.is_physical = findings.objective == "Y" && optimum.has("preload_N_per_m");
+  const std::string unit = findings.objective == "Y" ? preload_suffix(optimum) : "";
+  if (!unit.empty()) findings.preload_unit = unit == "N" ? "N" : "N/m";
   Fields row(optimum);
   optimum.for_each_row([&](const std::vector<std::string>& fields) {
     row.begin(fields);
-    findings.designs.push_back(best_preload(row, study, findings.is_physical));
+    findings.designs.push_back(best_preload(row, study, unit));
   });
   if (robust == nullptr) return findings;
   Fields of_scatter(*robust);
@@ -243,9 +258,9 @@ Findings findings_of(const ordered_json& input, const ResultTable& optimum, cons
     of_scatter.begin(fields);
     if (design >= findings.designs.size()) return;
     const double peak = of_scatter.number("Y_q95");
-    const double unit = findings.is_physical ? of_scatter.number("Y_q95_m") / peak : 1;
-    BestPreload::Scatter scatter{of_scatter.number(findings.is_physical ? "preload_N_per_m" : "P_q95"),
-                                 peak * unit, of_scatter.number("Y_q95_opt") * unit};
+    const double length = unit.empty() ? 1 : of_scatter.number("Y_q95_m") / peak;
+    BestPreload::Scatter scatter{of_scatter.number(unit.empty() ? "P_q95" : "preload_" + unit), peak * length,
+                                 of_scatter.number("Y_q95_opt") * length};
     if (std::isfinite(peak)) findings.designs[design].scatter = scatter;
     ++design;
   });

@@ -36,7 +36,8 @@ struct BestPreload {
 
 /// What a study found.
 struct Findings {
-  bool is_physical = false;     ///< preloads in N/m, frequencies in Hz, amplitudes in m; else nondimensional
+  /// Of preloads, "N/m" or "N", beside frequencies in Hz and amplitudes in m; "": all nondimensional.
+  std::string preload_unit = {};
   std::string objective = "Y";  ///< the quantity whose highest peak is to be low
   std::vector<BestPreload> designs;
 };

@@ -79,24 +79,37 @@ bool Columns::is_constant(const std::string& name) const {
 
 PhysicalColumns::PhysicalColumns(const TracedBranch& traced) {
   const ProblemRequest& problem = traced.request->problem;
-  if (!problem.geometry) return;
-  scale_.emplace(*problem.geometry, problem.system);
+  if (!problem.physical) return;
+  scale_ = problem.physical;
   const Columns columns(traced);
-  for (const char* name : {"eta", "P", "R", "S", "Y", "U", "dissipated"})
-    sources_.push_back(static_cast<std::size_t>(columns.find(name)));
-  names_ = {"frequency_Hz", "preload_N_per_m", "R_m", "S_m", "Y_m", "U_m", "dissipated_J"};
+  threshold_ = columns.find("S");
+  const auto add = [&](const char* source, const std::string& name, Unit unit) {
+    const Index place = columns.find(source);
+    if (place < 0) return;
+    if (unit == Unit::frequency || std::string_view(source) == "Y") shown_.push_back(names_.size());
+    sources_.push_back({static_cast<std::size_t>(place), unit});
+    names_.push_back(name);
+  };
+  add("eta", "frequency_Hz", Unit::frequency);
+  add("P", std::string("preload_") + scale_->preload_unit(), Unit::preload);
+  for (const char* name : {"R", "S", "Y", "U"}) add(name, std::string(name) + "_m", Unit::length);
+  if (threshold_ >= 0) add("dissipated", "dissipated_J", Unit::energy);
 }
 
 std::vector<double> PhysicalColumns::values(const std::vector<double>& row) const {
-  if (!scale_) return {};
-  const auto at = [&](std::size_t i) { return row[sources_[i]]; };
-  return {scale_->frequency(at(0)),        scale_->preload_per_length(at(1)), scale_->displacement(at(2)),
-          scale_->displacement(at(3)),     scale_->displacement(at(4)),       scale_->displacement(at(5)),
-          scale_->dissipated(at(6), at(3))};
-}
-
-std::vector<std::size_t> PhysicalColumns::shown() const {
-  return scale_ ? std::vector<std::size_t>{0, 4} : std::vector<std::size_t>{};
+  std::vector<double> values;
+  for (const auto& [place, unit] : sources_) {
+    const double value = row[place];
+    switch (unit) {
+      case Unit::frequency: values.push_back(scale_->frequency(value)); break;
+      case Unit::preload: values.push_back(scale_->preload(value)); break;
+      case Unit::length: values.push_back(scale_->displacement(value)); break;
+      case Unit::energy:
+        values.push_back(scale_->dissipated(value, row[static_cast<std::size_t>(threshold_)]));
+        break;
+    }
+  }
+  return values;
 }
 
 }  // namespace arcslip

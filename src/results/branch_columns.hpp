@@ -57,12 +57,16 @@ class PhysicalColumns {
   std::vector<double> values(const std::vector<double>& row) const;
 
   /// Those that the table shows of a special point.
-  std::vector<std::size_t> shown() const;
+  const std::vector<std::size_t>& shown() const { return shown_; }
 
  private:
+  enum class Unit { frequency, preload, length, energy };
+
   std::optional<PhysicalScale> scale_;
-  std::vector<std::size_t> sources_;
+  Index threshold_ = -1;                               ///< the column S, or -1
+  std::vector<std::pair<std::size_t, Unit>> sources_;  ///< columns that those in SI units are made from
   std::vector<std::string> names_;
+  std::vector<std::size_t> shown_;
 };
 
 }  // namespace arcslip

@@ -13,6 +13,7 @@
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/results/results.hpp"
+#include "cases/case_warnings.hpp"
 #include "cases/structure_kind.hpp"
 #include "keys/printable.hpp"
 
@@ -125,10 +126,17 @@ std::string heading(const CaseFile& file, const std::string& title) {
 /// Of very many the first ones and the last one are shown.
 constexpr std::size_t most_shown = 100;
 
+std::string warned(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
 /// Adds the branches and, if asked for, how exact their derivatives are; false if one is not.
 bool check_branches(const CaseFile& file, bool derivatives, std::string& text) {
   const CasePlan plan = plan_case(file);
   text += heading(file, plan.title);
+  file.named("system", [&] { text += warned(warnings_of(plan)); });
   bool good = true;
   for (std::size_t i = 0; i < plan.count; ++i) {
     if (!derivatives && i == most_shown - 1 && plan.count > most_shown) {
@@ -173,10 +181,11 @@ std::string check_study(const CaseFile& file) {
   const StudyCase study = read_study(file);
   const problems::PreloadRange& range = study.range;
   std::string text = heading(file, study.title);
-  text += fmt::format("study of {} design{}: P from {:g} to {:g}, peaks between eta = {:g} and {:g}{}\n",
-                      study.count, study.count == 1 ? "" : "s", range.from, range.to, range.eta_low,
-                      range.eta_high, study.sweep ? "" : ", no sweep.csv");
+  text += fmt::format("study of {} design{}: {} from {:g} to {:g}, peaks between {} = {:g} and {:g}{}\n",
+                      study.count, study.count == 1 ? "" : "s", study.preload_as, range.from, range.to,
+                      study.frequency_as, range.eta_low, range.eta_high, study.sweep ? "" : ", no sweep.csv");
   if (study.uncertain) text += fmt::format("  {}\n", describe(*study.uncertain));
+  file.named("system", [&] { text += warned(warnings_of(study)); });
   if (!study.keys.empty()) {
     const nlohmann::ordered_json& for_each = study.resolved["study"]["for_each"];
     for (const std::string& key : study.keys) {

@@ -1,6 +1,7 @@
 #include "arcslip/results/results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/version.hpp"
+#include "cases/stored_point.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/stability_results.hpp"
@@ -24,37 +26,58 @@ using continuation::BranchPoint;
 using continuation::PointType;
 using nlohmann::ordered_json;
 
-/// The groups that [geometry] stands for, and what one of each nondimensional quantity is.
-void add_geometry(const ProblemRequest& problem, ordered_json& summary) {
+/// The groups that [geometry] stands for.
+void add_groups(const ProblemRequest& problem, ordered_json& summary) {
   if (!problem.geometry) return;
   const SystemParameters& system = problem.system;
-  const PhysicalScale scale(*problem.geometry, system);
   ordered_json groups = {{"mass_ratio", system.mass_ratio},
                          {"frequency_ratio", system.frequency_ratio},
                          {"interface_stiffness", system.interface_stiffness},
                          {"force", system.force}};
   if (problem.geometry->preload_per_length > 0) groups["preload"] = system.preload;
   summary["groups"] = groups;
+}
+
+/// What one of each of the model's quantities is in SI units.
+void add_units(const ProblemRequest& problem, ordered_json& summary) {
+  if (!problem.physical) return;
+  const PhysicalScale& scale = *problem.physical;
+  const std::string unit = scale.preload_unit();
   summary["units"] = {{"frequency_Hz", scale.frequency(1)},
                       {"displacement_m", scale.displacement(1)},
-                      {"preload_N_per_m", scale.preload_per_length(1)},
-                      {"force_N_per_m", scale.force_per_length(1)},
+                      {"preload_" + unit, scale.preload(1)},
+                      {"force_" + unit, scale.force_per_length(1)},
                       {"energy_J", scale.energy(1)}};
+}
+
+/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, and of so
+/// many that nobody would read them.
+ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
+  if (traced.curve || point.unknowns.size() > most_stored_unknowns) return nullptr;
+  ordered_json parameters;
+  const std::vector<std::string> names = traced.base.problem->parameter_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    parameters[names[i]] = point.parameters(static_cast<Index>(i));
+  return {{"regime", digits(point.regime)},
+          {"parameters", parameters},
+          {"unknowns", fmt::format("{}", fmt::join(point.unknowns, " "))}};
 }
 
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
   const PhysicalColumns physical(traced);
   ordered_json listed = ordered_json::array();
-  for (const BranchPoint& point : traced.branch.points) {
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const BranchPoint& point = traced.branch.points[i];
     if (point.type == PointType::regular) continue;
     const std::vector<double>& values = columns.values(point);
-    ordered_json special = {{"type", to_string(point.type)}};
+    ordered_json special = {{"type", to_string(point.type)}, {"point", i}};
     for (const Index k : columns.shown())
       special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
     const std::vector<double> in_units = physical.values(values);
     for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
+    if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));
   }
   return listed;
@@ -95,7 +118,8 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                           {"points", traced.branch.points.size()},
                           {"stop", to_string(traced.branch.stop)},
                           {"explanation", traced.branch.explanation}};
-  add_geometry(traced.request->problem, summary);
+  add_groups(traced.request->problem, summary);
+  add_units(traced.request->problem, summary);
   const SystemParameters& system = traced.request->problem.system;
   const std::vector<PartModes> found = structures_of(system).modes(system);
   if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
@@ -148,13 +172,13 @@ std::string describe_groups(const ProblemRequest& problem) {
 
 std::string describe_units(const ProblemRequest& problem) {
   const SystemParameters& system = problem.system;
-  const PhysicalScale scale(problem.geometry.value(), system);
+  const PhysicalScale& scale = problem.physical.value();
   const auto n = static_cast<double>(system.wave_number);
   const double damper = system.model == StructureModel::rods ? n : n * n;
   return fmt::format(
       "eta = 1: {:.6g} Hz, P = 1: {:.6g} N/m, Y = 1: {:.6g} m; resonances alone: base {:.6g} Hz, damper "
       "{:.6g} Hz",
-      scale.frequency(1), scale.preload_per_length(1), scale.displacement(1),
+      scale.frequency(1), scale.preload(1), scale.displacement(1),
       scale.frequency(damper * system.frequency_ratio), scale.frequency(damper));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "cases/unit_names.hpp"
 #include "results/answer.hpp"
 
 namespace arcslip {
@@ -38,7 +39,7 @@ const ordered_json* peak_of(const ordered_json& branch) {
 /// How high a peak is and where; `parameter` is that of the branch.
 std::string place_text(const ordered_json& peak, const std::string& parameter) {
   const auto number = [&](const std::string& name) { return peak.at(name).get<double>(); };
-  const bool moves = parameter != "eta" && peak.contains(parameter);
+  const bool moves = without_unit(parameter) != "eta" && peak.contains(parameter);
   if (peak.contains("Y_m")) {
     return fmt::format("{} at {:.5g} Hz{}", length_text(number("Y_m")), number("frequency_Hz"),
                        moves ? fmt::format(", {} = {:.5g}", parameter, number(parameter)) : "");

@@ -36,7 +36,7 @@ std::string StudyExtras::tables() const {
   std::string sql;
   if (has_harmonics_)
     sql += "CREATE TABLE harmonics (curve INTEGER PRIMARY KEY, count INTEGER, orders TEXT);";
-  if (study_.is_physical)
+  if (is_physical())
     sql += "CREATE TABLE units (curve INTEGER PRIMARY KEY, frequency, length, preload, energy);";
   if (has_robust())
     sql += "CREATE TABLE robust (curve INTEGER PRIMARY KEY, P, Y, Y_opt, error, sampling_error);";
@@ -51,7 +51,7 @@ std::string StudyExtras::tables() const {
 
 void StudyExtras::open(const Database& database) {
   if (has_harmonics_) insert_harmonics_ = database.prepare(insertion("harmonics", 3));
-  if (study_.is_physical) insert_units_ = database.prepare(insertion("units", 5));
+  if (is_physical()) insert_units_ = database.prepare(insertion("units", 5));
   if (has_robust()) insert_robust_ = database.prepare(insertion("robust", 6));
   if (has_quantiles())
     insert_quantiles_ = database.prepare(insertion("quantiles", 3 + 2 * study_.uncertain->quantiles.size()));
@@ -71,11 +71,10 @@ void StudyExtras::add(std::size_t curve, const problems::PreloadStudy& result,
     insert_harmonics_->bind(key).bind(static_cast<std::int64_t>(result.harmonics.size()));
     insert_harmonics_->bind(fmt::format("{}", fmt::join(result.harmonics, " "))).run();
   }
-  if (study_.is_physical) {
-    const StudyDesign design = study_.design(curve);
-    const PhysicalScale scale(design.geometry.value(), design.system);
+  if (is_physical()) {
+    const PhysicalScale scale = study_.design(curve).physical.value();
     insert_units_->bind(key).bind(scale.frequency(1)).bind(scale.displacement(1));
-    insert_units_->bind(scale.preload_per_length(1)).bind(scale.energy(1)).run();
+    insert_units_->bind(scale.preload(1)).bind(scale.energy(1)).run();
   }
   if (uncertain == nullptr || !uncertain->failure.empty()) return;
   insert_robust_->bind(key).bind(uncertain->preload).bind(uncertain->Y);
@@ -91,10 +90,10 @@ void StudyExtras::add(std::size_t curve, const problems::PreloadStudy& result,
 }
 
 std::vector<ExtraColumn> StudyExtras::optimum_columns() const {
-  if (!study_.is_physical) return {};
-  return {{"preload_N_per_m", "d.P_opt*u.preload"},
-          {"preload_low_N_per_m", "d.P_low*u.preload"},
-          {"preload_high_N_per_m", "d.P_high*u.preload"},
+  if (!is_physical()) return {};
+  return {{preload_name(), "d.P_opt*u.preload"},
+          {preload_name("low_"), "d.P_low*u.preload"},
+          {preload_name("high_"), "d.P_high*u.preload"},
           {"frequency_Hz", "d.eta_opt*u.frequency"},
           {"Y_m", "d.Y_opt*u.length"},
           {"Y_nd_max_m", "d.Y_nd_max*u.length"},
@@ -102,14 +101,14 @@ std::vector<ExtraColumn> StudyExtras::optimum_columns() const {
 }
 
 std::vector<ExtraColumn> StudyExtras::sweep_columns() const {
-  if (!study_.is_physical) return {};
-  return {{"preload_N_per_m", "s.P*u.preload"},
+  if (!is_physical()) return {};
+  return {{preload_name(), "s.P*u.preload"},
           {"frequency_Hz", "s.eta_peak*u.frequency"},
           {"Y_m", "s.Y_max*u.length"}};
 }
 
 std::string StudyExtras::join_units() const {
-  return study_.is_physical ? " LEFT JOIN units u ON u.curve = d.curve" : "";
+  return is_physical() ? " LEFT JOIN units u ON u.curve = d.curve" : "";
 }
 
 std::vector<ExtraColumn> StudyExtras::robust_columns() const {
@@ -121,7 +120,7 @@ std::vector<ExtraColumn> StudyExtras::robust_columns() const {
                                       {"ratio_q95_opt", "r.Y_opt/d.Y_nd_max"},
                                       {"error", "r.error"},
                                       {"sampling_error", "r.sampling_error"}};
-  append(columns, study_.is_physical, {{"preload_N_per_m", "r.P*u.preload"}, {"Y_q95_m", "r.Y*u.length"}});
+  append(columns, is_physical(), {{preload_name(), "r.P*u.preload"}, {"Y_q95_m", "r.Y*u.length"}});
   return columns;
 }
 
@@ -133,7 +132,7 @@ std::vector<ExtraColumn> StudyExtras::quantile_columns() const {
     columns.push_back({"ratio_" + name, fmt::format("q.\"{}\"/d.Y_nd_max", name)});
   for (const std::string& name : quantile_names(*study_.uncertain, "error_"))
     columns.push_back({name, fmt::format("q.\"{}\"", name)});
-  append(columns, study_.is_physical, {{"preload_N_per_m", "q.P*u.preload"}});
+  append(columns, is_physical(), {{preload_name(), "q.P*u.preload"}});
   return columns;
 }
 

@@ -45,6 +45,12 @@ class StudyExtras {
   std::vector<ExtraColumn> quantile_columns() const;
 
  private:
+  bool is_physical() const { return !study_.preload_unit.empty(); }
+  /// "preload_low_N_per_m"
+  std::string preload_name(const char* which = "") const {
+    return std::string("preload_") + which + study_.preload_unit;
+  }
+
   StudyCase study_;
   bool has_harmonics_;
   std::optional<Statement> insert_harmonics_;

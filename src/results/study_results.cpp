@@ -33,24 +33,26 @@ std::string places(const std::vector<std::size_t>& curves, std::size_t count) {
 std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store,
                                  const std::vector<HarmonicsCheck>& checks) {
   const problems::PreloadRange& range = study.range;
+  const bool is_same = study.frequency_as == "eta";  // of all designs
   std::vector<std::size_t> without_resonance, at_end;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
     if (design.kind == "failed") return true;
-    const bool on_edge = design.free_eta == range.eta_low || design.free_eta == range.eta_high;
+    const problems::PreloadRange own = is_same ? range : study.design(design.curve).range;
+    const bool on_edge = design.free_eta == own.eta_low || design.free_eta == own.eta_high;
     if (on_edge) without_resonance.push_back(design.curve);
     if (design.kind == "end") at_end.push_back(design.curve);
     return true;
   });
   std::vector<std::string> sentences;
   if (!without_resonance.empty())
-    sentences.push_back(
-        fmt::format("Without damper Y is highest on an end of the window eta = {:g} to {:g}, not at a "
-                    "resonance in it{}: the ratio compares with that.",
-                    range.eta_low, range.eta_high, places(without_resonance, study.count)));
+    sentences.push_back(fmt::format(
+        "Without damper Y is highest on an end of the window {} = {:g} to {:g}, not at a "
+        "resonance in it{}: the ratio compares with that.",
+        study.frequency_as, range.eta_low, range.eta_high, places(without_resonance, study.count)));
   if (!at_end.empty())
     sentences.push_back(fmt::format(
-        "Y_max is lowest on an end of the range P = {:g} to {:g}{}: beyond it may lie a better preload.",
-        range.from, range.to, places(at_end, study.count)));
+        "Y_max is lowest on an end of the range {} = {:g} to {:g}{}: beyond it may lie a better preload.",
+        study.preload_as, range.from, range.to, places(at_end, study.count)));
   const std::vector<std::string> of_checks = sentences_of(checks, study.count);
   sentences.insert(sentences.end(), of_checks.begin(), of_checks.end());
   return sentences;
@@ -114,7 +116,8 @@ std::string study_table(const StudyCase& study, const StudyStore& store, const S
   for (const std::string& key : study.keys) text += fmt::format(" {:>{}}", key, width(key));
   text += fmt::format(" {:>13} {:>13} {:>13} {:>13}", "P_opt", "eta_opt", "Y_opt", "ratio_opt");
   if (store.has_robust()) text += fmt::format(" {:>13} {:>13}", "P_q95", "ratio_q95");
-  if (study.is_physical) text += fmt::format(" {:>15} {:>13}", "preload_N_per_m", "Y_m");
+  if (!study.preload_unit.empty())
+    text += fmt::format(" {:>15} {:>13}", "preload_" + study.preload_unit, "Y_m");
   text += "  kind\n";
   std::size_t rows = 0;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
@@ -126,10 +129,9 @@ std::string study_table(const StudyCase& study, const StudyStore& store, const S
                         design.ratio);
     if (store.has_robust())
       text += fmt::format(" {:>13.6g} {:>13.6g}", design.robust_preload, design.robust_ratio);
-    if (made.geometry) {
-      const PhysicalScale scale(*made.geometry, made.system);
-      text += fmt::format(" {:>15.6g} {:>13.6g}", scale.preload_per_length(design.preload),
-                          scale.displacement(design.Y));
+    if (made.physical) {
+      text += fmt::format(" {:>15.6g} {:>13.6g}", made.physical->preload(design.preload),
+                          made.physical->displacement(design.Y));
     }
     text += fmt::format("  {}\n", design.kind);
     return ++rows < most_rows;

@@ -63,13 +63,17 @@ ExtendedSector::Real ExtendedSector::stiffness_terms(const NumberVector& unfolde
   return sum;
 }
 
-Index ExtendedSector::reduced_contact(Index contact) const {
-  return map_.reduced[static_cast<std::size_t>(sector_.contacts[static_cast<std::size_t>(contact)])];
+ExtendedSector::NumberVector ExtendedSector::contact_force(Index contact) const {
+  const auto i = static_cast<std::size_t>(contact);
+  const auto reduced = [&](Index dof) { return map_.reduced[static_cast<std::size_t>(dof)]; };
+  NumberVector force = NumberVector::Unit(map_.size, reduced(sector_.contacts[i]));
+  if (sector_.against_of(i) != FiniteSector::ground) force(reduced(sector_.against_of(i))) = -1;
+  return force;
 }
 
 ExtendedSector::NumberVector ExtendedSector::observed(const NumberVector& reduced) const {
   NumberVector values(contacts() + outputs());
-  for (Index i = 0; i < contacts(); ++i) values(i) = reduced(reduced_contact(i));
+  for (Index i = 0; i < contacts(); ++i) values(i) = (contact_force(i).transpose() * reduced).value();
   for (Index i = 0; i < outputs(); ++i) {
     const auto dof = static_cast<std::size_t>(sector_.outputs[static_cast<std::size_t>(i)]);
     const Number value = reduced(map_.reduced[dof]);

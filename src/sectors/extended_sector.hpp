@@ -32,8 +32,8 @@ class ExtendedSector {
   const NumberVector& load() const { return load_; }  ///< T^H F
   Index size() const { return map_.size; }
   Index contacts() const { return std::ssize(sector_.contacts); }
-  /// Reduced dof of a contact.
-  Index reduced_contact(Index contact) const;
+  /// A unit force on a contact, on reduced dofs: its column of E.
+  NumberVector contact_force(Index contact) const;
   Index outputs() const { return std::ssize(sector_.outputs); }
   /// The contacts and then the outputs of a reduced vector.
   NumberVector observed(const NumberVector& reduced) const;

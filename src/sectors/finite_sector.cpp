@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace arcslip {
 namespace {
@@ -64,12 +66,22 @@ class Places {
 constexpr const char* right_name = "the right boundary";
 
 void check_contacts(const FiniteSector& sector, const Places& places) {
-  Places contacts(sector.mass.rows());
-  contacts.add(sector.contacts, "the contact dofs");
-  for (const Index dof : sector.contacts) {
-    if (places.of(dof) == right_name) {
+  constexpr const char* name = "the contact dofs";
+  std::set<std::pair<Index, Index>> met;
+  const auto check = [&](Index dof) {
+    places.check_range(dof, name);
+    if (places.of(dof) == right_name)
       fail("contact dof {} is on the right boundary, expected its pair on the left one", dof + 1);
-    }
+  };
+  for (std::size_t i = 0; i < sector.contacts.size(); ++i) {
+    const Index dof = sector.contacts[i];
+    const Index other = sector.against_of(i);
+    check(dof);
+    if (other != FiniteSector::ground) check(other);
+    if (dof == other) fail("the contact of dof {} is against this dof itself, expected another one", dof + 1);
+    if (met.insert(std::minmax(dof, other)).second) continue;
+    if (other == FiniteSector::ground) fail("dof {} is listed twice in {}", dof + 1, name);
+    fail("dofs {} and {} are listed twice in {}", dof + 1, other + 1, name);
   }
   for (const Index dof : sector.outputs) places.check_range(dof, "the output dofs");
 }
@@ -81,7 +93,6 @@ void check_dofs(FiniteSector& sector) {
     fail("the left boundary has {} dofs and the right one {}, expected pairs", sector.left.size(),
          sector.right.size());
   }
-  if (sector.left.empty()) fail("the boundaries have no dofs, expected at least one pair");
   Places places(n);
   places.add(sector.left, "the left boundary");
   places.add(sector.right, right_name);
@@ -126,6 +137,16 @@ void symmetrise(SparseMatrix& matrix, const char* name, double tolerance) {
   if (worst > 0) matrix = SparseMatrix(0.5 * (matrix + transposed));
 }
 
+void check_finite(SparseMatrix& matrix, const char* name) {
+  matrix.makeCompressed();
+  for (Index j = 0; j < matrix.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+      if (!std::isfinite(entry.value()))
+        fail("the {} matrix is not finite at row {}, column {}", name, entry.row() + 1, j + 1);
+    }
+  }
+}
+
 void check_diagonal(const SparseMatrix& matrix, const char* name, const FiniteSector& sector) {
   const auto has = [&](Index dof) {
     const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[dof];
@@ -149,7 +170,7 @@ FiniteSector checked(FiniteSector sector, double asymmetry) {
   check_dofs(sector);
   symmetrise(sector.mass, "mass", asymmetry);
   symmetrise(sector.stiffness, "stiffness", asymmetry);
-  if (sector.damping.size() != 0) symmetrise(sector.damping, "damping", asymmetry);
+  if (sector.damping.size() != 0) check_finite(sector.damping, "damping");
   check_diagonal(sector.mass, "mass", sector);
   check_diagonal(sector.stiffness, "stiffness", sector);
   return sector;

@@ -23,7 +23,7 @@ KrylovSpace::KrylovSpace(const FiniteSector& sector, const SectorWave& wave, con
   reduction_.set_forward(wave.forward());
   const Index contacts = extended_.contacts();
   block_ = ComplexMatrix::Zero(reduction_.size(), contacts + 1);
-  for (Index i = 0; i < contacts; ++i) block_(extended_.reduced_contact(i), i) = 1;
+  for (Index i = 0; i < contacts; ++i) block_.col(i) = extended_.contact_force(i).cast<Complex>();
   block_.col(contacts) = reduction_.load();
   basis_.resize(reduction_.size(), 0);
   if (is_static(request)) return;

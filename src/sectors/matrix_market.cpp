@@ -15,6 +15,7 @@ namespace arcslip {
 namespace {
 
 constexpr std::int64_t shortest_entry = 6;  // "1 1 0" and the end of its line
+constexpr std::int64_t shortest_value = 2;  // "0" and its end, of an array
 constexpr std::int64_t largest_index = std::numeric_limits<SparseMatrix::StorageIndex>::max();
 constexpr std::string_view blanks = " \t\r\v\f";
 
@@ -130,7 +131,16 @@ void end_of_line(Lines& lines, std::string_view after) {
   if (!word.empty()) lines.fail(fmt::format("the end of the line after {}", after), lines.given(word));
 }
 
-MatrixSymmetry read_banner(Lines& lines) {
+/// What the first line says.
+struct Banner {
+  bool is_array = false;    ///< all entries by columns, without indices
+  bool is_complex = false;  ///< each with an imaginary part
+  double mirror = 0;        ///< A_ji over A_ij, of which the lower triangle is given; 0: all are given
+
+  bool has_diagonal() const { return mirror >= 0; }
+};
+
+Banner read_banner(Lines& lines) {
   const auto require = [&](std::string_view name, const std::vector<std::string_view>& choices) {
     const std::string_view word = lines.word();
     std::string lower(word.substr(0, 20));
@@ -146,11 +156,14 @@ MatrixSymmetry read_banner(Lines& lines) {
   require("a Matrix Market file, which begins with", {"%%matrixmarket"});
   lines.trust();
   require("the object", {"matrix"});
-  require("the format", {"coordinate"});
-  require("values that are", {"real", "integer"});
-  const std::string_view symmetry = require("a matrix that is", {"general", "symmetric"});
+  Banner banner;
+  banner.is_array = require("the format", {"coordinate", "array"}) == "array";
+  banner.is_complex = require("values that are", {"real", "integer", "complex"}) == "complex";
+  const std::string_view symmetry =
+      require("a matrix that is", {"general", "symmetric", "skew-symmetric", "hermitian"});
+  banner.mirror = symmetry == "general" ? 0 : symmetry == "skew-symmetric" ? -1 : 1;
   end_of_line(lines, "the banner");
-  return symmetry == "symmetric" ? MatrixSymmetry::symmetric : MatrixSymmetry::general;
+  return banner;
 }
 
 struct Sizes {
@@ -158,24 +171,29 @@ struct Sizes {
   std::int64_t entries;
 };
 
-Sizes read_sizes(Lines& lines, MatrixSymmetry symmetry) {
+Sizes read_sizes(Lines& lines, const Banner& banner) {
   if (!lines.advance_to_words())
-    lines.fail("the numbers of rows, columns and entries", "the end of the file");
+    lines.fail(
+        banner.is_array ? "the numbers of rows and columns" : "the numbers of rows, columns and entries",
+        "the end of the file");
   const auto size = [&](const char* name, std::int64_t low) {
     return integer(lines, low, largest_index,
                    [&] { return fmt::format("a number of {} from {} to {}", name, low, largest_index); });
   };
   const std::int64_t rows = size("rows", 1);
   const std::int64_t columns = size("columns", 1);
-  const std::int64_t entries = size("entries", 0);
+  const std::int64_t given =
+      banner.mirror == 0 ? rows * rows : rows * (rows + (banner.mirror > 0 ? 1 : -1)) / 2;
+  const std::int64_t entries = banner.is_array ? given : size("entries", 0);
   end_of_line(lines, "the sizes");
   if (rows != columns) lines.fail("a square matrix", fmt::format("{} rows and {} columns", rows, columns));
-  const std::int64_t possible = (lines.bytes_left() + 1) / shortest_entry;
+  const std::int64_t possible =
+      (lines.bytes_left() + 1) / (banner.is_array ? shortest_value : shortest_entry);
   if (entries > possible) {
     lines.fail(fmt::format("at most the {} entries that the rest of the file has room for", possible),
                std::to_string(entries));
   }
-  if (symmetry == MatrixSymmetry::symmetric && entries > largest_index / 2) {
+  if (banner.mirror != 0 && entries > largest_index / 2) {
     lines.fail(fmt::format("at most {} entries of a symmetric matrix", largest_index / 2),
                std::to_string(entries));
   }
@@ -188,7 +206,26 @@ Sizes read_sizes(Lines& lines, MatrixSymmetry symmetry) {
 
 using Triplet = Eigen::Triplet<double, SparseMatrix::StorageIndex>;
 
-void read_entry(Lines& lines, std::int64_t rows, MatrixSymmetry symmetry, std::vector<Triplet>& entries) {
+/// The next value of a line. Of a complex one the imaginary part must be zero: a structure moves in time by
+/// real matrices, and waves and losses make them complex later.
+double read_value(Lines& lines, const Banner& banner) {
+  const auto number = [&] {
+    const std::string_view word = lines.word();
+    const std::optional<double> value = finite_number(word);
+    if (!value) lines.fail("a finite number", lines.given(word));
+    return *value;
+  };
+  const double value = number();
+  if (!banner.is_complex) return value;
+  if (const double imaginary = number(); imaginary != 0)
+    lines.fail(
+        "an imaginary part that is 0, as M, C and K are real (structural damping is damping_kind, a wave "
+        "is wave_number)",
+        fmt::format("{:g}", imaginary));
+  return value;
+}
+
+void read_entry(Lines& lines, std::int64_t rows, const Banner& banner, std::vector<Triplet>& entries) {
   const auto index = [&](const char* name) {
     const std::int64_t value =
         integer(lines, 1, rows, [&] { return fmt::format("a {} from 1 to {}", name, rows); });
@@ -196,15 +233,50 @@ void read_entry(Lines& lines, std::int64_t rows, MatrixSymmetry symmetry, std::v
   };
   const auto row = index("row");
   const auto column = index("column");
-  const std::string_view word = lines.word();
-  const std::optional<double> value = finite_number(word);
-  if (!value) lines.fail("a finite number", lines.given(word));
+  const double value = read_value(lines, banner);
   end_of_line(lines, "the value");
-  if (symmetry == MatrixSymmetry::symmetric && column > row) {
-    lines.fail("the lower triangle of a symmetric matrix",
+  const bool is_above = banner.has_diagonal() ? column > row : column >= row;
+  if (banner.mirror != 0 && is_above) {
+    lines.fail(banner.has_diagonal() ? "the lower triangle of a symmetric matrix"
+                                     : "what is below the diagonal of a skew-symmetric matrix",
                fmt::format("row {}, column {}", row + 1, column + 1));
   }
-  entries.emplace_back(row, column, *value);
+  entries.emplace_back(row, column, value);
+}
+
+/// One column after the other, of a symmetric matrix from the diagonal down. Zeros beside the diagonal are
+/// left out.
+void read_array(Lines& lines, const Sizes& sizes, const Banner& banner, std::vector<Triplet>& entries) {
+  std::int64_t count = 0;
+  bool has_line = lines.advance_to_words();
+  for (std::int64_t column = 0; column < sizes.rows; ++column) {
+    const std::int64_t first = banner.mirror == 0 ? 0 : banner.has_diagonal() ? column : column + 1;
+    for (std::int64_t row = first; row < sizes.rows; ++row, ++count) {
+      if (!has_line) lines.fail(fmt::format("{} entries", sizes.entries), fmt::format("{}", count));
+      const double value = read_value(lines, banner);
+      using Storage = SparseMatrix::StorageIndex;
+      if (value != 0 || row == column)
+        entries.emplace_back(static_cast<Storage>(row), static_cast<Storage>(column), value);
+      if (lines.line().find_first_not_of(blanks) == std::string_view::npos)
+        has_line = lines.advance_to_words();
+    }
+  }
+  if (has_line)
+    lines.fail(fmt::format("no more than the {} entries of the sizes", sizes.entries), quoted(lines.line()));
+}
+
+void read_coordinates(Lines& lines, const Sizes& sizes, const Banner& banner, std::vector<Triplet>& entries) {
+  entries.reserve(static_cast<std::size_t>(sizes.entries));
+  while (lines.advance_to_words()) {
+    if (std::ssize(entries) == sizes.entries) {
+      lines.fail(fmt::format("no more than the {} entries of the sizes", sizes.entries),
+                 quoted(lines.line()));
+    }
+    read_entry(lines, sizes.rows, banner, entries);
+  }
+  if (std::ssize(entries) < sizes.entries) {
+    lines.fail(fmt::format("{} entries", sizes.entries), fmt::format("{}", entries.size()));
+  }
 }
 
 }  // namespace
@@ -216,26 +288,15 @@ void check_banner(std::string_view beginning, const std::string& file) {
 
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file) {
   Lines lines(text, file, "%");
-  const MatrixSymmetry symmetry = read_banner(lines);
-  const Sizes sizes = read_sizes(lines, symmetry);
+  const Banner banner = read_banner(lines);
+  const Sizes sizes = read_sizes(lines, banner);
   std::vector<Triplet> entries;
-  entries.reserve(static_cast<std::size_t>(sizes.entries));
-  while (lines.advance_to_words()) {
-    if (std::ssize(entries) == sizes.entries) {
-      lines.fail(fmt::format("no more than the {} entries of the sizes", sizes.entries),
-                 quoted(lines.line()));
-    }
-    read_entry(lines, sizes.rows, symmetry, entries);
-  }
-  if (std::ssize(entries) < sizes.entries) {
-    lines.fail(fmt::format("{} entries", sizes.entries), fmt::format("{}", entries.size()));
-  }
+  (banner.is_array ? read_array : read_coordinates)(lines, sizes, banner, entries);
   SparseMatrix matrix(sizes.rows, sizes.rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  if (symmetry == MatrixSymmetry::symmetric) {
-    entries = std::vector<Triplet>();
-    matrix = SparseMatrix(matrix.selfadjointView<Eigen::Lower>());
-  }
+  entries = std::vector<Triplet>();
+  if (banner.mirror > 0) matrix = SparseMatrix(matrix.selfadjointView<Eigen::Lower>());
+  if (banner.mirror < 0) matrix = SparseMatrix(matrix - SparseMatrix(matrix.transpose()));
   for (Index k = 0; k < matrix.nonZeros(); ++k) {
     if (!std::isfinite(matrix.valuePtr()[k]))
       lines.fail("entries given twice to have a finite sum", "infinity");

@@ -129,9 +129,7 @@ class FullResponse {
       throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
     const Index contacts = extended_.contacts();
     ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
-    for (Index i = 0; i < contacts; ++i)
-      motion.col(i) =
-          solve(ExtendedSector::NumberVector::Unit(extended_.size(), extended_.reduced_contact(i)), eta);
+    for (Index i = 0; i < contacts; ++i) motion.col(i) = solve(extended_.contact_force(i), eta);
     motion.col(contacts) = solve(extended_.load(), eta);
     return motion;
   }
@@ -192,6 +190,18 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
   result.check_etas = std::move(etas);
 }
 
+/// Refuses a load that moves no contact of a structure without symmetry, not even by rounding.
+void check_load(const FiniteSector& sector, const SectorModes& modes) {
+  constexpr double rounding = 1e-12;
+  if (sector.load.isZero(0)) return;
+  const ComplexVector& loads = modes.loads;
+  for (Index i = 0; i < std::ssize(sector.contacts); ++i) {
+    const ComplexVector shape = modes.shapes.row(i).transpose();
+    if (shape.cwiseAbs().dot(loads.cwiseAbs()) > rounding * shape.norm() * loads.norm()) return;
+  }
+  throw SectorError("the load moves no contact: its dof stands still, or the two of a pair move alike");
+}
+
 }  // namespace
 
 Complex SectorWave::forward() const {
@@ -216,6 +226,7 @@ SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, con
   SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, request, dofs)
                                                  : lanczos_modes(sector, wave, request);
   result.dofs = dofs;
+  if (!sector.has_boundaries()) check_load(sector, result);
   if (!request.compared) return result;
   constexpr auto digits = static_cast<double>(std::numeric_limits<ExtendedSector::Real>::epsilon());
   compare(sector, wave, request, digits * largest_square(reduction) / (two_pi * two_pi), result);

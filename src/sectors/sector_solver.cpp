@@ -12,7 +12,11 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
     : reduction_(sector), loss_(loss), outputs_(sector.outputs) {
   reduction_.set_forward(forward);
   check_mass(sector, reduction_);
-  for (const Index dof : sector.contacts) contacts_.push_back(reduction_.reduced_dof(dof));
+  for (std::size_t i = 0; i < sector.contacts.size(); ++i) {
+    const Index other = sector.against_of(i);
+    contacts_.push_back({reduction_.reduced_dof(sector.contacts[i]),
+                         other == FiniteSector::ground ? other : reduction_.reduced_dof(other)});
+  }
   dynamic_stiffness_ = reduction_.stiffness();
   slope_ = dynamic_stiffness_;
   const auto m = std::ssize(contacts_);
@@ -58,7 +62,11 @@ void SectorSolver::assemble(double eta) {
 
 void SectorSolver::set_right_hand_sides() {
   left_.setZero();
-  for (Index i = 0; i < contacts(); ++i) left_(contacts_[static_cast<std::size_t>(i)], i) = 1;
+  for (Index i = 0; i < contacts(); ++i) {
+    const auto [dof, against] = contacts_[static_cast<std::size_t>(i)];
+    left_(dof, i) = 1;
+    if (against != FiniteSector::ground) left_(against, i) = -1;
+  }
   right_ = left_;
   right_.rightCols<1>() = reduction_.load();
   left_.rightCols<1>() = reduction_.load().conjugate();
@@ -67,9 +75,12 @@ void SectorSolver::set_right_hand_sides() {
 void SectorSolver::collect() {
   const Index m = contacts();
   for (Index i = 0; i < m; ++i) {
-    const Index dof = contacts_[static_cast<std::size_t>(i)];
+    const auto [dof, against] = contacts_[static_cast<std::size_t>(i)];
     response_.compliance.row(i) = right_.row(dof).head(m);
     response_.free(i) = right_(dof, m);
+    if (against == FiniteSector::ground) continue;
+    response_.compliance.row(i) -= right_.row(against).head(m);
+    response_.free(i) -= right_(against, m);
   }
   for (Index i = 0; i < std::ssize(outputs_); ++i) {
     const Index dof = outputs_[static_cast<std::size_t>(i)];
@@ -83,7 +94,8 @@ void SectorSolver::collect() {
   response_.load_motion_eta.noalias() = -product_.transpose() * left_.col(m);
 }
 
-/// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian.
+/// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian but for what is gyroscopic in C and
+/// does no work.
 void SectorSolver::collect_works(double eta) {
   const auto [k, m] = MatrixFactors<double>(eta, loss_);
   product_.setZero();

@@ -1,6 +1,9 @@
 // What the program tells of itself and of the keys of case files.
 
+#include <sstream>
+
 #include "catch.hpp"
+#include "places.hpp"
 #include "program.hpp"
 
 using namespace arcslip::testing;
@@ -71,4 +74,36 @@ TEST_CASE("bash completes commands, options, case files and keys") {
   CHECK(completed("arcslip run min") == "mine.toml\n");
   CHECK(completed("arcslip run --set system.wave_n") == "system.wave_number=\n");
   CHECK(completed("arcslip help continuation.max_step") == "continuation.max_step\n");
+}
+
+TEST_CASE("A command that is none is answered with the nearest one") {
+  const Outcome near = arcslip_program("rnu case.toml");
+  CHECK(near.status == 2);
+  CHECK(near.err == "arcslip: unknown command 'rnu'; did you mean 'run'?\n");
+  const Outcome far = arcslip_program("zzzzzzzz");
+  CHECK(far.status == 2);
+  CHECK(is_one_line(far.err));
+  CHECK_THAT(far.err, ContainsSubstring("see arcslip --help"));
+}
+
+TEST_CASE("help tells of a command what its --help does, no line wider than 100 columns") {
+  for (const std::string command : {"run", "study", "check", "plot", "report", "help"}) {
+    INFO(command);
+    const Outcome help = arcslip_program("help " + command);
+    CHECK(help.status == 0);
+    const Outcome own = arcslip_program(command + " --help");
+    CHECK(help.out == own.out);
+    std::istringstream lines(help.out);
+    for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
+  }
+}
+
+TEST_CASE("A case of the other command says which one it is for") {
+  const std::string problems = source_folder() + "/problems/";
+  const Outcome run = arcslip_program("run " + problems + "figure_12.toml");
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, ContainsSubstring("section [branch]") && ContainsSubstring("arcslip study"));
+  const Outcome study = arcslip_program("study " + problems + "figure_8.toml");
+  CHECK(study.status == 1);
+  CHECK_THAT(study.err, ContainsSubstring("section [study]") && ContainsSubstring("arcslip run"));
 }

@@ -46,7 +46,7 @@ TEST_CASE("Every study's case is read, and its last design has an optimum", "[ca
     ++cases;
     INFO(entry.path().stem());
     const StudyCase study = read_study(entry.path());
-    const auto result = problems::study_preload(study.design(study.count - 1).system, study.range);
+    const auto result = problems::study_preload(study.design(study.count - 1).system, study.design(0).range);
     CHECK(result.failure.empty());
     CHECK(result.optimum.has_value());
   }

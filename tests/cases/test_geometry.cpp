@@ -132,7 +132,7 @@ TEST_CASE("The scale leads back from the groups to what they were made of", "[ge
   const StructureModel model = GENERATE(StructureModel::rods, StructureModel::beams);
   const SystemParameters system = groups_of(geometry, model);
   const PhysicalScale scale(geometry, system);
-  CHECK_THAT(scale.preload_per_length(system.preload), WithinRel(geometry.preload_per_length, rounding));
+  CHECK_THAT(scale.preload(system.preload), WithinRel(geometry.preload_per_length, rounding));
   CHECK_THAT(scale.force_per_length(system.force), WithinRel(geometry.force_per_length, rounding));
   CHECK_THAT(scale.displacement(1e-3), WithinRel(2e-3, rounding));
   // S = P K*/K_FD is mu p_0 L/k_F, and a cycle of amplitude R = 3 S loses 4 mu p_0 L (R - S) in the ring.
@@ -237,8 +237,7 @@ TEST_CASE("Curves and limit cycles have columns in SI units, systems without geo
                             ridge.input.branches[0].problem.system);
   for (const auto& row : rows_of(ridge.traced)) {
     CHECK_THAT(number(row, "frequency_Hz"), WithinRel(scale.frequency(number(row, "eta")), rounding));
-    CHECK_THAT(number(row, "preload_N_per_m"),
-               WithinRel(scale.preload_per_length(number(row, "P")), rounding));
+    CHECK_THAT(number(row, "preload_N_per_m"), WithinRel(scale.preload(number(row, "P")), rounding));
     CHECK_THAT(number(row, "Y_m"), WithinRel(scale.displacement(number(row, "Y")), rounding));
   }
   const Run cycle("rotor_ring",

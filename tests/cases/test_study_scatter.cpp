@@ -33,7 +33,12 @@ StudyCase study_of(const SystemParameters& system, const Uncertainty& uncertaint
   study.options.from = study.range.from;
   study.options.to = study.range.to;
   study.uncertain = uncertainty;
-  study.design = [=](std::size_t) { return StudyDesign{{}, system, {}, {}}; };
+  study.design = [system, range = study.range](std::size_t) {
+    StudyDesign design;
+    design.system = system;
+    design.range = range;
+    return design;
+  };
   return study;
 }
 

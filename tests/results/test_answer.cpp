@@ -21,9 +21,9 @@ BestPreload rotor() {
       "damper.width = 0.006", "smooth", 312.55, 188.55, 855.26, false, false, 2282.006, 4.5626e-6, 0.14757};
 }
 
-Findings physical(std::vector<BestPreload> designs) { return {true, "Y", std::move(designs)}; }
+Findings physical(std::vector<BestPreload> designs) { return {"N/m", "Y", std::move(designs)}; }
 
-Findings nondimensional(const BestPreload& design) { return {false, "Y", {design}}; }
+Findings nondimensional(const BestPreload& design) { return {"", "Y", {design}}; }
 
 std::string first_line(const Findings& findings) { return study_answer(findings).front(); }
 
@@ -47,7 +47,7 @@ TEST_CASE("A nondimensional study answers in P, eta and the quantity that it low
             "The highest peak is within a factor 2 of that from P = 0.1 to 2, from the low end of the range "
             "on."});
   best.ratio = std::nan("");
-  Findings of_damper{false, "U", {best}};
+  Findings of_damper{"", "U", {best}};
   CHECK(first_line(of_damper) == "Best preload P = 0.84: highest peak U = 0.002089 at eta = 4.6289.");
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("The answer of a study comes from its tables", "[answer]") {
   const arcslip::ResultTable robusts(robust, {"P_q95"}, "designs");
   const Findings found = findings_of(input, optima, &robusts);
   REQUIRE(found.designs.size() == 2);
-  CHECK(found.is_physical);
+  CHECK(found.preload_unit == "N/m");
   const BestPreload& best = found.designs[0];
   CHECK(best.design == "mass_ratio = 5");
   CHECK(best.preload == 100);

@@ -44,7 +44,7 @@ TEST_CASE("The summaries of a run and of a study stand beside each other, whiche
   REQUIRE(arcslip_program("study " + words).status == 0);
   has_both();
   if (!has_matplotlib()) return;
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  const Outcome outcome = arcslip_program("plot " + folder.path("r") + " --format svg");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   require_pictures(
@@ -148,7 +148,7 @@ TEST_CASE("Of a run and a study what can be drawn is drawn", "[folders]") {
   REQUIRE(arcslip_program("run " + words).status == 0);
   // A design alone without its peaks over the preload gives no picture.
   REQUIRE(arcslip_program("study " + words + " --set study.sweep=false").status == 0);
-  const Outcome outcome = arcslip_program("plot " + folder.path("r"));
+  const Outcome outcome = arcslip_program("plot " + folder.path("r") + " --format svg");
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   require_pictures(folder.path("r"), 2'000,

@@ -123,7 +123,7 @@ TEST_CASE("Designs of a study may be given in SI units, with lists and ranges of
   const StudyCase study = case_texts::read_study_text(
       rings_text +
       "for_each = { damper.width = { from = 0.05, to = 0.1, count = 2 }, \"base.height\" = [0.04, 0.08] }\n");
-  CHECK(study.is_physical);
+  CHECK(study.preload_unit == "N_per_m");
   CHECK(study.keys == std::vector<std::string>{"damper.width", "base.height"});
   REQUIRE(study.count == 4);
   // M* = rho_B w_B h_B/(rho_D w_D h_D), gamma = h_B/h_D sqrt(E_B rho_D/(E_D rho_B)).
@@ -251,12 +251,12 @@ TEST_CASE("The study of rotor and ring finds what the case says", "[study]") {
     const PhysicalScale scale(*design.geometry, design.system);
     const FinishedDesign done = study_design(study, i);
     REQUIRE(done.result.optimum);
-    CHECK_THAT(scale.preload_per_length(done.result.optimum->peak.preload),
+    CHECK_THAT(scale.preload(done.result.optimum->peak.preload),
                WithinAbs(newtons_per_metre[i], 0.05));  // as printed there
     CHECK_THAT(micrometres(scale, done.result.optimum->peak.Y), WithinAbs(heights[i], 0.005));
     if (i == 1) continue;
     REQUIRE(done.uncertain);
-    CHECK_THAT(scale.preload_per_length(done.uncertain->preload), WithinAbs(352, 0.5));
+    CHECK_THAT(scale.preload(done.uncertain->preload), WithinAbs(352, 0.5));
     CHECK_THAT(micrometres(scale, done.uncertain->Y), WithinAbs(6.25, 0.005));
     CHECK_THAT(micrometres(scale, done.uncertain->Y_nominal), WithinAbs(6.70, 0.005));
   }

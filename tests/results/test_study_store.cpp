@@ -246,8 +246,9 @@ TEST_CASE("Threads compute every design once, and stop where they are told to", 
   std::atomic<std::size_t> asked = 0;
   study.design = [&](std::size_t i) {
     ++asked;
-    return StudyDesign{
-        {{"i", i}}, {}, {}};  // with an empty range, which the study refuses: a failure at once
+    StudyDesign design;  // with an empty range, which the study refuses: a failure at once
+    design.values = {{"i", i}};
+    return design;
   };
   StudyWorkers workers(study, 3);
   std::set<std::size_t> curves;

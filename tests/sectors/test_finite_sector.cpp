@@ -53,8 +53,18 @@ TEST_CASE("Each inconsistency of a sector is named, with its dof") {
          s.left = {0, 1};
        },
        "the left boundary has 2 dofs and the right one 1, expected pairs"},
-      {[](FiniteSector& s) { s.left = s.right = {}; },
-       "the boundaries have no dofs, expected at least one pair"},
+      {[](FiniteSector& s) {
+         s.contacts = {1, 2};
+         s.against = {2, 1};
+       },
+       "dofs 3 and 2 are listed twice in the contact dofs"},
+      {[](FiniteSector& s) { s.contacts = s.against = {1}; },
+       "the contact of dof 2 is against this dof itself, expected another one"},
+      {[](FiniteSector& s) {
+         s.contacts = {1};
+         s.against = {3};
+       },
+       "contact dof 4 is on the right boundary, expected its pair on the left one"},
       {[](FiniteSector& s) { s.left = {4}; }, "expected dofs from 1 to 4 in the left boundary, got 5"},
       {[](FiniteSector& s) { s.right = {-1}; }, "expected dofs from 1 to 4 in the right boundary, got 0"},
       {[](FiniteSector& s) { s.right = {0}; }, "dof 1 is in the left boundary and in the right boundary"},

@@ -91,6 +91,26 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
+TEST_CASE("Dense, skew-symmetric and complex matrices are the same as sparse real ones") {
+  const auto read = [](const std::string& kind, const std::string& rest) {
+    return Matrix(read_matrix_market("%%MatrixMarket matrix " + kind + "\n" + rest, "K.mtx"));
+  };
+  Matrix symmetric(2, 2);
+  symmetric << 2, -1, -1, 0;
+  CHECK(read("array real general", "2 2\n2\n-1\n-1\n0\n") == symmetric);
+  CHECK(read("array real general", "2 2\n2 -1\n-1 0\n") == symmetric);
+  CHECK(read("array integer symmetric", "2 2\n2\n-1\n0\n") == symmetric);
+  CHECK(read("array complex hermitian", "2 2\n2 0\n-1 0\n0 0\n") == symmetric);
+  CHECK(read("coordinate complex general", "2 2 3\n1 1 2 0\n1 2 -1 0\n2 1 -1 0\n") == symmetric);
+  Matrix skew(2, 2);
+  skew << 0, -3, 3, 0;
+  CHECK(read("coordinate real skew-symmetric", "2 2 1\n2 1 3\n") == skew);
+  CHECK(read("array real skew-symmetric", "2 2\n3\n") == skew);
+  const SparseMatrix dense =
+      read_matrix_market("%%MatrixMarket matrix array real symmetric\n2 2\n1\n0\n0\n", "K.mtx");
+  CHECK(dense.nonZeros() == 2);  // the diagonal, which a structure must have, and no other zero
+}
+
 }  // namespace
 
 TEST_CASE("A general matrix is read with comments, blank lines, carriage returns and no last newline") {
@@ -134,15 +154,30 @@ TEST_CASE("What is not such a matrix is refused with file, line, what was expect
       {"", "K.mtx:1: expected a line that begins with %%MatrixMarket, got an empty file"},
       {"3 3 1\n1 1 1\n", "K.mtx:1: expected a Matrix Market file, which begins with %%matrixmarket, got '3'"},
       {"%%MatrixMarket vector\n", "K.mtx:1: expected the object matrix, got 'vector'"},
-      {"%%MatrixMarket matrix array real general\n", "K.mtx:1: expected the format coordinate, got 'array'"},
-      {"%%MatrixMarket matrix coordinate complex general\n",
-       "K.mtx:1: expected values that are real or integer, got 'complex'"},
+      {"%%MatrixMarket matrix dense real general\n",
+       "K.mtx:1: expected the format coordinate or array, got 'dense'"},
       {"%%MatrixMarket matrix coordinate pattern general\n",
-       "K.mtx:1: expected values that are real or integer, got 'pattern'"},
-      {"%%MatrixMarket matrix coordinate real hermitian\n",
-       "K.mtx:1: expected a matrix that is general or symmetric, got 'hermitian'"},
+       "K.mtx:1: expected values that are real or integer or complex, got 'pattern'"},
+      {"%%MatrixMarket matrix coordinate real triangular\n",
+       "K.mtx:1: expected a matrix that is general or symmetric or skew-symmetric or hermitian, got "
+       "'triangular'"},
       {"%%MatrixMarket matrix coordinate real",
-       "K.mtx:1: expected a matrix that is general or symmetric, got the end of the line"},
+       "K.mtx:1: expected a matrix that is general or symmetric or skew-symmetric or hermitian, got the end "
+       "of the line"},
+      {"%%MatrixMarket matrix coordinate complex hermitian\n1 1 1\n1 1 2 0.5\n",
+       "K.mtx:3: expected an imaginary part that is 0, as M, C and K are real (structural damping is "
+       "damping_kind, a wave is wave_number), got 0.5"},
+      {"%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 2 1\n",
+       "K.mtx:3: expected what is below the diagonal of a skew-symmetric matrix, got row 2, column 2"},
+      {"%%MatrixMarket matrix array real general\n",
+       "K.mtx:1: expected the numbers of rows and columns, got "
+       "the end of the file"},
+      {"%%MatrixMarket matrix array real general\n2 2\n1.0\n2.0\n3.0\n",
+       "K.mtx:5: expected 4 entries, got 3"},
+      {"%%MatrixMarket matrix array real symmetric\n2 2\n1\n2\n3\n4\n",
+       "K.mtx:6: expected no more than the 3 entries of the sizes, got '4'"},
+      {"%%MatrixMarket matrix array real general\n1000 1000\n1\n",
+       "K.mtx:2: expected at most the 1 entries that the rest of the file has room for, got 1000000"},
       {banner, "K.mtx:1: expected the numbers of rows, columns and entries, got the end of the file"},
       {banner + "3 3\n",
        "K.mtx:2: expected a number of entries from 0 to 2147483647, got the end of the line"},

@@ -39,6 +39,10 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value);
 /// threshold is not positive.
 void check(const HarmonicSystem& system);
 
+/// The static stiffness of the structures in a coordinate, which an element's force is measured by where it
+/// has none of its own.
+double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate);
+
 /// k of each contact.
 Vector contact_springs(const HarmonicSystem& system);
 

@@ -45,17 +45,24 @@ struct Geometry {
 /// finite and positive where the sizes are beyond what a double holds.
 void set_groups(const Geometry& geometry, SystemParameters& system);
 
-/// From nondimensional quantities to SI units.
+/// From the quantities of the model to SI units.
 class PhysicalScale {
  public:
+  /// Of a model whose matrices are in kg and N/m, eta in so many Hz, preloads those of a contact in N. Of
+  /// `system` K_FD counts.
+  PhysicalScale(double hertz, const SystemParameters& system)
+      : interface_stiffness_(system.interface_stiffness), frequency_(hertz), per_length_(false) {}
+
   /// Of `system` the model and K_FD count.
   PhysicalScale(const Geometry& geometry, const SystemParameters& system);
 
   double frequency(double eta) const { return eta * frequency_; }                     ///< Hz
   double displacement(double amplitude) const { return amplitude * circumference_; }  ///< of Y, U, R, S; m
-  double preload_per_length(double preload) const { return preload * preload_per_length_; }  ///< p_0, N/m
-  double force_per_length(double force) const { return force * base_stiffness_; }            ///< f_0, N/m
-  double energy(double energy) const { return energy * energy_; }                            ///< J
+  double preload(double preload) const { return preload * preload_; }  ///< p_0, in `preload_unit`
+  /// As columns have it: "N_per_m", or "N" of a contact.
+  const char* preload_unit() const { return per_length_ ? "N_per_m" : "N"; }
+  double force_per_length(double force) const { return force * base_stiffness_; }  ///< f_0, N/m
+  double energy(double energy) const { return energy * energy_; }                  ///< J
 
   /// Energy lost to friction per cycle by the whole ring, J. `dissipated` is that of one contact over k S^2,
   /// as in branches.csv, and N k S^2 = K_FD S^2.
@@ -64,12 +71,13 @@ class PhysicalScale {
   }
 
  private:
-  double circumference_;
-  double base_stiffness_;       ///< k_B, N/m
+  double circumference_ = 1;
+  double base_stiffness_ = 1;   ///< k_B, N/m
   double interface_stiffness_;  ///< K_FD
   double frequency_;            ///< Omega_D/(2 pi), Hz
-  double preload_per_length_;   ///< k_B/mu, N/m
-  double energy_;               ///< k_D L^2, J
+  double preload_ = 1;          ///< k_B/mu, N/m
+  double energy_ = 1;           ///< k_D L^2, J
+  bool per_length_ = true;      ///< whether preloads are those of a length
 };
 
 }  // namespace arcslip

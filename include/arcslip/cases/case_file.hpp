@@ -28,6 +28,7 @@ struct CurveRequest {
   double from = 0;                           ///< the end of the range at which the search begins
   double to = 0;                             ///< the other end
   double seed = 0;                           ///< value of the second parameter at which they are looked for
+  std::string named = {};  ///< the first parameter as the case file has it, perhaps with a unit
 
   /// Whether it is a backbone: what the load does work on lags by a quarter of a period, as at a resonance.
   bool is_backbone() const { return name == "phase_resonance"; }
@@ -41,7 +42,8 @@ struct ProblemRequest {
   problems::LibraryModel::Values settings;                      ///< the library model's
   const StructureKind* structure = nullptr;                     ///< what base and damper are then
   SystemParameters system;                                      ///< unless it is one of the library's
-  std::optional<Geometry> geometry;                             ///< where the system is given in SI units
+  std::optional<Geometry> geometry;                             ///< where rings are given in SI units
+  std::optional<PhysicalScale> physical;                        ///< of a system that is given in SI units
   const ResponseKind* response = find_response_kind("forced");  ///< what is asked of a system with friction
   double eta = 0;  ///< the fixed frequency where eta is not continued; near that of a nonlinear mode
   double R = 0;    ///< the fixed amplitude of a nonlinear mode where R is not continued
@@ -52,12 +54,21 @@ struct ProblemRequest {
   bool stability = false;  ///< whether its points come with their Floquet exponents
 };
 
+/// A point that a run has left, which a branch begins from.
+struct StoredPoint {
+  Vector unknowns;                           ///< of the problem
+  std::map<std::string, double> parameters;  ///< by name
+  continuation::Regime regime;               ///< in which it lies
+};
+
 /// One branch that a case asks for. With `switching` or for a curve several may come of it.
 struct CaseBranch {
   nlohmann::ordered_json values;       ///< what `for_each` sets on it, by key
   ProblemRequest problem;              ///< that is traced, or extended by the curve
   continuation::TraceOptions options;  ///< of [branch] and [continuation]
+  std::string named = {};              ///< the parameter as the case file has it, perhaps with a unit
   std::optional<double> start;         ///< value of the parameter from which the branch is traced both ways
+  std::optional<StoredPoint> stored;   ///< in place of a first guess at `start`
   bool all_solutions = false;          ///< one for each solution at `start` that deflated Newton finds
   bool switching = false;              ///< follow the branches that branch points and corners lead to
   std::optional<CurveRequest> curve;   ///< none of a branch

@@ -16,9 +16,11 @@ namespace arcslip {
 struct StudyDesign {
   nlohmann::ordered_json values;                   ///< what `for_each` sets on it, by key
   SystemParameters system;                         ///< with its values set
-  std::optional<Geometry> geometry;                ///< where the system is given in SI units
+  std::optional<Geometry> geometry;                ///< where rings are given in SI units
+  std::optional<PhysicalScale> physical;           ///< of a system that is given in SI units
   std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
   const StructureKind* structure = nullptr;        ///< what base and damper are
+  problems::PreloadRange range = {};               ///< that is swept, with the window
 
   /// Its forced response.
   ProblemRequest problem() const;
@@ -29,12 +31,14 @@ struct StudyCase {
   std::string title;                   ///< of the file, or empty
   nlohmann::ordered_json resolved;     ///< the input with its defaults filled in
   std::vector<std::string> keys;       ///< of for_each, in the order of the columns of optimum.csv
-  problems::PreloadRange range;        ///< of every design
+  problems::PreloadRange range;        ///< as it is given, in the units of `preload_as` and `frequency_as`
+  std::string preload_as = "P";        ///< what the range is of, perhaps with a unit: "preload_N_per_m"
+  std::string frequency_as = "eta";    ///< what the window is of, or "frequency_Hz"
   std::string objective = "Y";         ///< the observable whose peaks are to be low
   continuation::TraceOptions options;  ///< tolerance and limits
   bool sweep = true;                   ///< whether sweep.csv is wanted beside optimum.csv
   std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does
-  bool is_physical = false;                        ///< whether its designs are given in SI units
+  std::string preload_unit = {};                   ///< of designs in SI units, as PhysicalScale has it; or ""
   std::size_t count = 1;                           ///< of designs
   std::function<StudyDesign(std::size_t)> design;  ///< the i-th
 };

@@ -6,7 +6,7 @@
 //   M d'' + C d' + K d = f,   d = (d_L, d_I, d_R),   d_R = d_L e^{-ja} under a travelling wave
 //
 // Dofs that are held are left out by whoever writes the matrices. Dofs count from 0 here and from 1 in
-// errors.
+// errors. A structure without symmetry is the one sector of N = 1 and has no boundaries.
 
 #include <stdexcept>
 #include <vector>
@@ -30,17 +30,28 @@ struct FiniteSector {
   std::vector<Index> right;     ///< boundary to the next sector, paired with `left` in order
   std::vector<Index> interior;  ///< empty: all others
   std::vector<Index> contacts;  ///< not on the right, where they are those of the next sector
-  std::vector<Index> outputs;   ///< anywhere
-  ComplexVector load;           ///< n; amplitude of the force e^{j w t} on the sector of phase 0
+  /// Of each contact the dof whose motion is taken off that of its own, or `ground`; empty: all are against
+  /// ground, or against the other structure.
+  std::vector<Index> against = {};
+  std::vector<Index> outputs;  ///< anywhere
+  ComplexVector load;          ///< n; amplitude of the force e^{j w t} on the sector of phase 0
+
+  static constexpr Index ground = -1;
+
+  /// What the i-th contact is against.
+  Index against_of(std::size_t i) const { return against.empty() ? ground : against[i]; }
+  /// Whether it meets sectors beside it.
+  bool has_boundaries() const { return !left.empty(); }
 };
 
 /// Largest |A_ij - A_ji| over the largest of |A_ij|, |A_ji| and sqrt|A_ii A_jj| that is taken for rounding.
 inline constexpr double largest_asymmetry = 1e-8;
 
-/// The same sector with its interior listed and its matrices compressed and symmetric to the last digit, by
-/// the mean of A_ij and A_ji. Throws SectorError naming the first inconsistency: sizes, dofs missing, listed
-/// twice or out of range, boundaries that do not pair, numbers that are not finite, asymmetry, a dof without
-/// an entry on the diagonal of mass and stiffness (on a boundary, one of the pair must have it).
+/// The same sector with its interior listed, its matrices compressed and M and K symmetric to the last digit,
+/// by the mean of A_ij and A_ji; C may have a gyroscopic part. Throws SectorError naming the first
+/// inconsistency: sizes, dofs missing, listed twice or out of range, boundaries that do not pair, numbers
+/// that are not finite, asymmetry, contacts that are the same or against their own dof, a dof without an
+/// entry on the diagonal of mass and stiffness (on a boundary, one of the pair must have it).
 FiniteSector checked(FiniteSector sector, double asymmetry = largest_asymmetry);
 
 /// Where each dof of the sector goes under d_R = d_L e^{-ja}: the reduced dofs are `left`, then `interior`.

@@ -1,12 +1,14 @@
 #pragma once
 
-// Sparse matrices and lists of dofs as text: the coordinate format of Matrix Market [Boisvert, Pozo and
-// Remington, The Matrix Market exchange formats, NISTIR 5935 (1996)], as finite-element programs write it.
+// Matrices and lists of dofs as text: the formats of Matrix Market [Boisvert, Pozo and Remington, The Matrix
+// Market exchange formats, NISTIR 5935 (1996)], as finite-element programs write them,
 //
 //   %%MatrixMarket matrix coordinate real symmetric
 //   % comments and blank lines anywhere
 //   rows columns entries
 //   row column value          one entry a line, indices from 1
+//
+// or `array` in place of `coordinate`, without indices, column by column.
 //
 // A text can be hostile: what is allocated is bounded by its length, at most 16 bytes for each of its own and
 // 16 MiB besides.
@@ -30,9 +32,10 @@ class MatrixTextError : public std::runtime_error {
 /// Rows that a matrix may have beyond one for each of its entries.
 inline constexpr Index most_empty_rows = Index{1} << 19;
 
-/// The square matrix that `text` holds, compressed, in coordinate format with real or integer values, general
-/// or symmetric (the lower triangle given). Entries given more than once are summed. `file` is its name in
-/// errors. Throws MatrixTextError.
+/// The square matrix that `text` holds, compressed, in coordinate or array format, general, symmetric or
+/// Hermitian (the lower triangle given), or skew-symmetric (what is below the diagonal), with real or integer
+/// values, or complex ones without imaginary part. Entries given more than once are summed. `file` is its
+/// name in errors. Throws MatrixTextError.
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file);
 
 /// Refuses a text that does not begin as those of matrices do. `beginning` holds its first line at least.

@@ -6,8 +6,8 @@
 //   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
 //   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
 //
-// E has a unit column for each contact. One symbolic analysis serves the sparse LU factorisations of Z
-// at every eta.
+// E has a column for each contact, with 1 at its dof and -1 at that which it is against. One symbolic
+// analysis serves the sparse LU factorisations of Z at every eta.
 
 #include <memory>
 
@@ -61,7 +61,11 @@ class SectorSolver {
 
   SectorReduction reduction_;
   Loss loss_;
-  std::vector<Index> contacts_;            // reduced dofs
+  struct Contact {
+    Index dof;      // reduced
+    Index against;  // as well, or ground
+  };
+  std::vector<Contact> contacts_;
   std::vector<Index> outputs_;             // dofs of the sector
   ComplexSparseMatrix dynamic_stiffness_;  // Z
   ComplexSparseMatrix slope_;              // dZ/deta

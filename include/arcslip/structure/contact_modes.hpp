@@ -127,7 +127,7 @@ class ContactModes {
 
 /// One contact dof of each sector.
 struct SectorContact {
-  double stiffness = 1;         ///< k > 0
+  double stiffness = 1;         ///< k > 0, or 0 where nothing rubs and S/P is `never_slips`
   double slip_per_preload = 1;  ///< S/P > 0
 };
 

@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interface_text.hpp"
+#include "app/wrap.hpp"
 #include "cases/key_catalogue.hpp"
 #include "keys/printable.hpp"
 #include "results/output.hpp"
@@ -14,7 +15,7 @@ namespace arcslip {
 namespace {
 
 struct HelpOptions {
-  std::string key;        ///< empty: all of them
+  std::string key;        ///< or a command; empty: all keys
   bool markdown = false;  ///< tables of all keys, as the manual has them
   bool man = false;       ///< the manual page
   std::string shell;      ///< whose completion is asked for
@@ -74,7 +75,11 @@ bool ends_with(const std::string& name, const std::string& words) {
   return name == words || name.ends_with("." + words);
 }
 
-int help_of(const std::string& asked, const std::vector<KeySection>& sections) {
+int help_of(const std::string& asked, const std::vector<KeySection>& sections, const CLI::App& app) {
+  if (is_command(asked)) {
+    print(wrapped(app.get_subcommand(asked)->help(app.get_name())));
+    return status::done;
+  }
   std::string text;
   std::vector<std::string> names;
   for (const KeySection& section : sections) {
@@ -84,7 +89,7 @@ int help_of(const std::string& asked, const std::vector<KeySection>& sections) {
     }
   }
   if (!text.empty()) {
-    print(text);
+    print(wrapped(text));
     return status::done;
   }
   const std::string meant = nearest_name(asked.substr(asked.rfind('.') + 1), names);
@@ -117,9 +122,11 @@ int help(const CLI::App& program, const HelpOptions& options) {
     return status::done;
   }
   const std::vector<KeySection> sections = key_catalogue();
-  if (!options.key.empty()) return help_of(options.key, sections);
+  if (!options.key.empty()) return help_of(options.key, sections, program);
   std::string text;
-  if (!options.markdown) text = list_keys({}) + "\narcslip help KEY tells all of one.\n";
+  if (!options.markdown)
+    text =
+        wrapped(list_keys({}) + "\narcslip help KEY tells all of one, arcslip help COMMAND of a command.\n");
   for (const KeySection& section : sections) {
     if (options.markdown) text += as_markdown(section) + "\n";
   }
@@ -129,8 +136,9 @@ int help(const CLI::App& program, const HelpOptions& options) {
 
 Command::Action add_help(CLI::App& app) {
   const auto options = std::make_shared<HelpOptions>();
-  CLI::App* command = app.add_subcommand("help", "List the keys of case files, or tell all of one");
-  command->add_option("KEY", options->key, "As max_step, or continuation.max_step");
+  CLI::App* command =
+      app.add_subcommand("help", "List the keys of case files, or tell all of one or of a command");
+  command->add_option("KEY", options->key, "As max_step, or continuation.max_step; or a command");
   command->add_flag("--markdown", options->markdown, "All keys as tables in Markdown");
   command->add_flag("--man", options->man, "The manual page, for man -l");
   command->add_option("--completion", options->shell, "Completion for a shell: bash or zsh")

@@ -11,9 +11,11 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/certification.hpp"
 #include "arcslip/results/results.hpp"
+#include "cases/case_warnings.hpp"
 #include "keys/printable.hpp"
 #include "results/certificate_results.hpp"
 #include "results/output.hpp"
@@ -100,7 +102,11 @@ class Run {
 
 int Run::execute() {
   require_provable(plan_, options_);
-  file_.named("system", [&] { build(plan_.branch(0).problem); });
+  file_.named("system", [&] {
+    build(plan_.branch(0).problem);
+    if (options_.quiet) return;
+    for (const std::string& warning : warnings_of(plan_)) complain("arcslip: warning: " + warning);
+  });
   const bool resumes = !options_.resume.empty();
   if (resumes) progress_.take_up(options_.resume, plan_);
   const RunCheckpoint reached = progress_.reached();
@@ -145,13 +151,13 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
   ProgressLine line(!options_.quiet);
   std::size_t points = 0;
   const auto watch = [&](const continuation::BranchPoint& point) {
-    if (++points % 256 == 0) {
-      line.show([&] {
-        const continuation::TraceOptions& options = request.options;
-        return fmt::format("branch {} of {}: {} points, arclength {:.4g}, {} from {:g} to {:g}", i + 1,
-                           plan_.count, points, point.arclength, options.parameter, options.from, options.to);
-      });
-    }
+    ++points;
+    line.show([&] {
+      const continuation::TraceOptions& options = request.options;
+      return fmt::format("branch {} of {}: {} points, {:.0f} s, arclength {:.4g}, {} from {:g} to {:g}",
+                         i + 1, plan_.count, points, seconds_since(start_), point.arclength,
+                         options.parameter, options.from, options.to);
+    });
     return !interrupted();
   };
   std::vector<TracedBranch> traced;
@@ -259,9 +265,9 @@ int run(const RunOptions& options) {
 
 constexpr const char* run_notes = R"(
 Writes DIR/branches.csv (one row for each point), DIR/curves.csv (more rows in between, for pictures), DIR/summary.json
-(special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a run cleanly: what was traced is written and marked
-as interrupted, with DIR/run.checkpoint, from which --resume DIR goes on to the same tables; so it does where max_seconds
-were too few.
+(special points, why each branch ended) and prints the special points. Branches are written as they come. Ctrl-C ends a
+run cleanly: what was traced is written and marked as interrupted, with DIR/run.checkpoint, from which --resume DIR goes
+on to the same tables; so it does where max_seconds were too few.
 
 A curve of peaks in two parameters: curve = "peak", parameters = ["eta", "P"], window = [0.5, 120.0] of eta, from = 0.1 and
 to = 100.0 of P. A case file has these keys, of which `arcslip help KEY` tells more; problems/figure_8.toml is one:
@@ -291,7 +297,8 @@ Command::Action add_run(CLI::App& app) {
       "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
       "jumped; forced responses with one contact; status 3 where a segment is not proven");
   command->footer([] {
-    return run_notes + list_keys({"system", "geometry", "element", "branch", "continuation"});
+    return as_paragraphs(run_notes) +
+           list_keys({"system", "geometry", "element", "excitation", "branch", "continuation"});
   });
   return [options] { return run(*options); };
 }

@@ -9,8 +9,11 @@
 #include "app/crew.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/cases/runs.hpp"
+#include "cases/case_warnings.hpp"
 #include "keys/printable.hpp"
+#include "results/answer.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
 #include "results/study_results.hpp"
@@ -63,6 +66,13 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   return failures;
 }
 
+/// What was found, in words.
+std::string answer(const std::string& folder, const StudyCase& study) {
+  std::string text;
+  for (const std::string& sentence : study_answer(folder, study.resolved)) text += sentence + "\n";
+  return text;
+}
+
 /// What a study that is done gives: files, the table, the designs that failed.
 int conclude(const StudyOptions& options, const StudyCase& study, const std::string& folder,
              StudyStore& store, StudyWork& work) {
@@ -75,7 +85,8 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
                       plural(study.count, "design"), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
-                      list_of_files(study)));
+                      list_of_files(study)) +
+          answer(folder, study));
   }
   for (const std::string& warning : warnings_of(work.checks)) complain("arcslip: warning: " + warning);
   return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
@@ -134,7 +145,11 @@ int study(const StudyOptions& options) {
   try {
     const CaseFile file(options.case_path, options.settings);
     study = read_study(file);
-    file.named("system", [&] { build(study->design(0).problem()); });
+    file.named("system", [&] {
+      build(study->design(0).problem());
+      if (!crew.leads() || options.quiet) return;
+      for (const std::string& warning : warnings_of(*study)) complain("arcslip: warning: " + warning);
+    });
   } catch (const std::exception& wrong) {
     error = wrong.what();
   }
@@ -161,7 +176,7 @@ the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }
 continuation.stop_at get a row for every peak. Where something scatters, DIR/quantiles.csv has the quantiles and
 DIR/robust.csv the preload at which the 95 % quantile is lowest.
 
-A case file has [system] and [geometry], as for arcslip run, and these keys; problems/figure_12.toml is one:
+A case file has [system] and more as for arcslip run, and these keys; problems/figure_12.toml is one:
 
 )";
 
@@ -178,7 +193,10 @@ Command::Action add_study(CLI::App& app) {
   command->add_flag("--resume", options->resume, "Go on with the study in DIR, if there is one");
   add_settings(command, options->settings);
   command->add_flag("--quiet", options->quiet, "Print neither progress nor the table");
-  command->footer([] { return study_notes + list_keys({"study", "study.uncertain", "continuation"}); });
+  command->footer([] {
+    return as_paragraphs(study_notes) + list_keys({"study", "study.uncertain", "continuation", "system",
+                                                   "geometry", "element", "excitation"});
+  });
   return [options] { return study(*options); };
 }
 

@@ -1,4 +1,5 @@
-// Any structure of N equal sectors: base and damper from the matrices of one sector each.
+// Any structure of N equal sectors, or without symmetry: base and damper from the matrices of one sector
+// each.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +9,7 @@
 #include <tuple>
 
 #include "arcslip/assembly/sector_pair.hpp"
+#include "arcslip/elements/idle.hpp"
 #include "arcslip/results/results.hpp"
 #include "cases/sector_part.hpp"
 #include "cases/structure_kind.hpp"
@@ -18,7 +20,11 @@ namespace {
 using nlohmann::ordered_json;
 
 struct SectorSettings : FrictionSettings {
-  SectorSettings() { has_damping_kind = false; }
+  SectorSettings() {
+    has_damping_kind = false;
+    elements = 1;
+    wave_number = 0;
+  }
 
   std::shared_ptr<const SectorPair> sectors = {};
   std::vector<double> contact_stiffness = {};  ///< of each contact
@@ -36,16 +42,17 @@ void read_reduction_window(SectorSettings& settings, const TomlSection& section)
 }
 
 /// Reads a number for all contacts, or a list with one for each.
-SectorKey::Reader for_contacts(const std::string& name, std::vector<double> SectorSettings::*member) {
+SectorKey::Reader for_contacts(const std::string& name, std::vector<double> SectorSettings::*member,
+                               const NumberRule& rule = positive()) {
   return [=](SectorSettings& settings, const TomlSection& section) {
     const std::size_t count = settings.sectors->base().sector.contacts.size();
     std::vector<double>& values = settings.*member;
     const toml::table* table = section.table();
     if (table == nullptr || !(*table)[name].is_array()) {
-      values.assign(count, section.number(name, positive()));
+      values.assign(count, section.number(name, rule));
       return;
     }
-    values = section.numbers(name, positive());
+    values = section.numbers(name, rule);
     if (values.size() != count)
       section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
                                      values.size()));
@@ -70,6 +77,7 @@ void check_use(const TomlSection& section, const SectorSettings& settings) {
   try {
     settings.sectors->check(settings.wave_number, settings.elements);
   } catch (const SectorError& error) {
+    if (!section.has("wave_number")) section.fail("base", error.what());
     section.fail("wave_number", fmt::format("at {}: {}", settings.wave_number, error.what()));
   }
 }
@@ -92,23 +100,32 @@ const KeyTable<SectorSettings>& sector_keys() {
   const auto has_no_range = [](const SectorSettings& settings, const TomlSection&) {
     return !(settings.eta_low > 0);
   };
+  const auto is_cyclic = [](const SectorSettings& settings, const TomlSection&) {
+    const SectorPair* pair = settings.sectors.get();
+    return pair != nullptr && (pair->base().sector.has_boundaries() ||
+                               (pair->damper() != nullptr && pair->damper()->sector.has_boundaries()));
+  };
   static const KeyTable<SectorSettings> keys{
-      {SectorKey::special("model", "\"sector\"", "any structure of N equal sectors", {},
+      {SectorKey::special("model", "\"sector\"", "any structure, or one of N equal sectors", {},
                           otherwise("required"), unlisted),
-       SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N", required),
+       SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N",
+                 needed("required beside `left` and `right`; without them 1", is_cyclic)),
        SectorKey("wave_number", &SectorSettings::wave_number, {" >= 0 and <= sectors/2", wave_rule},
-                 "n, nodal diameters", required),
-       SectorKey::special("contact_stiffness", "number or list",
-                          "k of the contact of a sector; of several contacts that of all, or a list",
-                          for_contacts("contact_stiffness", &SectorSettings::contact_stiffness), required,
-                          parameter("K_FD"))},
+                 "n, nodal diameters",
+                 needed("required beside `left` and `right`; without them 0", is_cyclic)),
+       SectorKey::special(
+           "contact_stiffness", "number or list",
+           "k of the contact of a sector; of several contacts that of all, or a list, in which "
+           "0 is a place for elements where nothing rubs",
+           for_contacts("contact_stiffness", &SectorSettings::contact_stiffness, at_least(0)), required,
+           parameter("K_FD"))},
       keys_of<SectorSettings>(shared_keys()),
       {SectorKey::special("limit_per_preload", "number or list",
                           "L: a contact slips where its force is L P, S = L P/k",
                           for_contacts("limit_per_preload", &SectorSettings::limit_per_preload),
                           resolved([](const SectorSettings&) { return 1.0; })),
        SectorKey("force", &SectorSettings::force, positive(), "factor of the load", parameter("F")),
-       preload_growth_key(),
+       preload_growth_key(), units_key(),
        SectorKey::choice("path", &SectorSettings::path,
                          {{"reduced", SectorPath::reduced}, {"full", SectorPath::full}},
                          "the response by modes, or by a sparse LU factorisation at each eta", "", unlisted,
@@ -167,7 +184,8 @@ void read_sector(const StructureKind::Source& source, ProblemRequest& problem) {
   const std::vector<double>& k = settings.contact_stiffness;
   settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
   for (std::size_t i = 0; i < count; ++i)
-    settings.contacts.push_back({k[i], settings.limit_per_preload[i] / k[i]});
+    settings.contacts.push_back(k[i] > 0 ? SectorContact{k[i], settings.limit_per_preload[i] / k[i]}
+                                         : SectorContact{0, never_slips});
   check_use(source.section, settings);
   take(std::move(settings), problem);
 }
@@ -191,10 +209,12 @@ std::string sector_in_words(const ProblemRequest& problem) {
     limits.push_back(contact.slip_per_preload * contact.stiffness);
   }
   const auto& sectors = static_cast<const SectorPair&>(*system.structures);
-  std::string text =
-      fmt::format("sector, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})",
-                  system.wave_number, system.elements, fmt::join(k, ", "), fmt::join(limits, ", "),
-                  system.force, system.base_damping, to_string(sectors.base().damping_kind));
+  const bool is_cyclic = system.elements > 1 || sectors.base().sector.has_boundaries();
+  std::string text = is_cyclic ? fmt::format("sector, n = {}, N = {}", system.wave_number, system.elements)
+                               : std::string("structure without symmetry");
+  text += fmt::format(", k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})", fmt::join(k, ", "),
+                      fmt::join(limits, ", "), system.force, system.base_damping,
+                      to_string(sectors.base().damping_kind));
   if (sectors.damper() != nullptr)
     text +=
         fmt::format(", {:g} (damper, {})", system.damper_damping, to_string(sectors.damper()->damping_kind));

@@ -81,7 +81,10 @@ class SpringMass : public Structures {
 };
 
 struct SpringMassSettings : FrictionSettings {
-  SpringMassSettings() { has_damping_kind = false; }
+  SpringMassSettings() {
+    has_damping_kind = false;
+    hertz = 1 / two_pi;  // of radians a second
+  }
 
   SpringMassChain base = {};
   SpringMassChain damper = {};
@@ -165,7 +168,7 @@ const KeyTable<SpringMassSettings>& spring_mass_keys() {
       {SpringMassKey("limit_per_preload", &S::limit_per_preload, positive(),
                      "L: the contact slips where its force is L P, S = L P/k"),
        SpringMassKey("force", &S::force, positive(), "factor of the load", parameter("F")),
-       preload_growth_key()}};
+       preload_growth_key(), units_key()}};
   return keys;
 }
 

@@ -1,0 +1,40 @@
+#pragma once
+
+// A contact of stiffness 0: no force, in a coordinate that other elements may act in.
+
+#include "arcslip/elements/element.hpp"
+
+namespace arcslip {
+
+/// S/P of such a contact: beyond all motion, with a square that a double holds.
+inline constexpr double never_slips = 1e100;
+
+/// Nothing, which stays in its first state.
+class Idle final : public Element {
+ public:
+  /// `reference` is the stiffness that its coordinate meets, > 0.
+  explicit Idle(double reference) : reference_(reference) {}
+
+  double reference_stiffness() const override { return reference_; }
+  bool has_border() const override { return true; }
+  std::string beyond() const override { return "slip"; }
+  bool is_linear(bool /*slips*/) const override { return false; }
+  void force(std::span<const int> /*orders*/, const HarmonicVector& x, double /*load*/, bool /*slips*/,
+             bool derivatives, ElementForce& out) const override {
+    out.set_linear(0, x, derivatives);
+  }
+  VaryingStiffness stiffness_in_time(std::span<const int> /*orders*/,
+                                     const HarmonicVector& /*x*/) const override {
+    return {{0}};
+  }
+  double threshold(double load) const override { return never_slips * load; }
+  double threshold_by_log_load() const override { return 1; }
+
+ private:
+  void second(const ElementForce& /*at*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
+              double /*load*/, bool /*slips*/, const Way& /*way*/, ElementForce& /*change*/) const override {}
+
+  double reference_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "arcslip/cases/study_case.hpp"
+#include "arcslip/version.hpp"
+#include "keys/printable.hpp"
+#include "results/atomic_file.hpp"
+#include "results/mode_table.hpp"
+#include "results/output.hpp"
+#include "results/output_folder.hpp"
+
+namespace arcslip {
+namespace {
+
+struct ModesOptions {
+  std::string case_path;
+  std::string folder;                 ///< empty: out/<name of the case file>
+  std::vector<std::string> settings;  ///< "section.key=value"
+  Index highest = 50;                 ///< number of waves
+  double speed = 0;                   ///< revolutions a minute, of engine-order lines; 0: none
+  bool quiet = false;
+};
+
+/// The first system that the case is about.
+ProblemRequest first_problem(const CaseFile& file) {
+  ProblemRequest problem =
+      file.has("branch") ? plan_case(file).branch(0).problem : read_study(file).design(0).problem();
+  if (problem.model != nullptr)
+    throw InputError(fmt::format("{}: modes are those of systems with friction, not of {}", file.path(),
+                                 problem.model->name));
+  return problem;
+}
+
+int modes(const ModesOptions& options) {
+  catch_interrupts();
+  const BeforeTheEnd say_so([] { complain("arcslip: interrupted"); });
+  const CaseFile file(options.case_path, options.settings);
+  const ProblemRequest problem = first_problem(file);
+  if (options.speed > 0 && !problem.physical)
+    throw InputError(file.path() +
+                     ": --speed is in revolutions a minute: for systems in SI units, by [geometry] or "
+                     "units = \"SI\"");
+  std::vector<WaveModes> waves;
+  file.named("system", [&] { waves = modes_of(problem, options.highest); });
+  const OutputFolder folder(results_folder(options.folder, options.case_path));
+  const nlohmann::ordered_json about = {
+      {"arcslip", release},
+      {"nodes", problem.system.elements},
+      {"speed_per_minute",
+       options.speed > 0 ? nlohmann::ordered_json(options.speed) : nlohmann::ordered_json()}};
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>("modes.csv", modes_csv(problem, waves)),
+        {"modes.json", about.dump(2) + "\n"}}) {
+    AtomicFile written(folder.path() + "/" + name);
+    written.write(text);
+    written.sync();
+    written.commit();
+  }
+  if (!options.quiet) print(modes_text(problem, waves) + fmt::format("\n{}/modes.csv\n", folder.path()));
+  return status::done;
+}
+
+Command::Action add_modes(CLI::App& app) {
+  const auto options = std::make_shared<ModesOptions>();
+  CLI::App* command = app.add_subcommand(
+      "modes", "Natural frequencies of base, damper and both stuck, for every nodal diameter");
+  command->add_option("CASE", options->case_path, "Case file (TOML)")->required();
+  command->add_option("-o,--output", options->folder, "Folder for the results; out/<case> if not given")
+      ->type_name("DIR");
+  command->add_option("--to", options->highest, "The highest number of waves; 50 if not given")
+      ->type_name("N")
+      ->check(CLI::Range(Index{0}, Index{100000}));
+  command
+      ->add_option("--speed", options->speed, "Revolutions a minute, for engine-order lines in the picture")
+      ->type_name("RPM")
+      ->check(CLI::PositiveNumber);
+  add_settings(command, options->settings);
+  command->add_flag("--quiet", options->quiet, "Print no table");
+  command->footer(
+      "\nOf the first branch or design of the case. Writes DIR/modes.csv; arcslip plot DIR draws frequencies "
+      "over nodal "
+      "diameters, with engine orders where --speed is given. Of sectors modes are those below the end of the "
+      "window "
+      "that the case looks at, or of system.reduction_window.");
+  return [options] { return modes(*options); };
+}
+
+}  // namespace
+
+Command modes_command() { return {"modes", add_modes}; }
+
+}  // namespace arcslip

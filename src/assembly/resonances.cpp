@@ -1,0 +1,69 @@
+#include "arcslip/assembly/resonances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace arcslip {
+namespace {
+
+Vector springs_of(const ContactSystem& wave) {
+  Vector springs(std::ssize(wave.contacts));
+  std::transform(wave.contacts.begin(), wave.contacts.end(), springs.begin(),
+                 [](const SectorContact& contact) { return contact.stiffness; });
+  return springs;
+}
+
+}  // namespace
+
+std::vector<Resonance> resonances(const ContactSystem& wave) {
+  std::vector<Resonance> all;
+  const auto add = [&](const char* part, const ContactModes& structure) {
+    std::vector<Resonance> own;
+    for (const ContactMode& mode : structure.modes()) {
+      const double eta = mode.frequency;
+      own.push_back({part, eta, eta > 0 ? structure.loss().part(eta, eta) / (2 * eta * eta) : 0});
+    }
+    std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.eta < b.eta; });
+    all.insert(all.end(), own.begin(), own.end());
+  };
+  add("base", wave.base);
+  add("damper", wave.damper);
+  for (const JoinedMode& mode : joined_modes({&wave.base, &wave.damper}, springs_of(wave)))
+    all.push_back({"stuck", mode.frequency, mode.damping});
+  return all;
+}
+
+std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave) {
+  const bool is_ring = system.structures == nullptr;
+  std::vector<Resonance> own;
+  std::map<std::string, int> counts;
+  for (const Resonance& one : resonances(wave)) {
+    const int most = one.part == "stuck" ? 2 : 1;
+    if (is_ring && ++counts[one.part] > most) continue;
+    if (system.eta_high > 0 && one.eta > system.eta_high) continue;
+    own.push_back(one);
+  }
+  return own;
+}
+
+double locking_preload(const ContactSystem& wave, const std::vector<double>& etas) {
+  const auto count = std::ssize(wave.contacts);
+  const Vector springs = springs_of(wave);
+  double highest = 0;
+  for (const double eta : etas) {
+    ContactReceptance at = wave.base.at(eta);
+    wave.damper.add(eta, at);
+    ContactMatrix joined = at.compliance * springs.asDiagonal();
+    joined.diagonal().array() += 1;
+    invert(joined);
+    const ContactVector relative = joined * at.free;
+    for (Index i = 0; i < count; ++i) {
+      const double slip = wave.contacts[static_cast<std::size_t>(i)].slip_per_preload;
+      highest = std::max(highest, std::abs(relative(i)) / slip);
+    }
+  }
+  return highest;
+}
+
+}  // namespace arcslip

@@ -1,0 +1,28 @@
+#pragma once
+
+// Natural frequencies of base, damper and the stuck whole, for every number of waves round the circumference.
+
+#include <string>
+#include <vector>
+
+#include "arcslip/assembly/resonances.hpp"
+#include "arcslip/cases/case_file.hpp"
+
+namespace arcslip {
+
+/// Those of one number of waves.
+struct WaveModes {
+  Index wave_number;
+  std::vector<Resonance> modes;  ///< part by part, ascending
+};
+
+/// Of the waves that the structure has, up to `highest`. Throws std::exception where one cannot be had.
+std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest);
+
+/// modes.csv: wave_number, part, mode (from 1 in each part), eta, frequency_Hz of systems in SI units, zeta.
+std::string modes_csv(const ProblemRequest& problem, const std::vector<WaveModes>& waves);
+
+/// The same for people: a row for each wave, a column for each mode; frequencies in Hz where they are known.
+std::string modes_text(const ProblemRequest& problem, const std::vector<WaveModes>& waves);
+
+}  // namespace arcslip
