@@ -121,7 +121,7 @@ Guess HarmonicCycle::guess(double zeta_value, double preload_value,
   HarmonicSystem damped = system_;
   for (ContactModes& base : damped.base)
     base = base.with(system_.base_loss_fixed + zeta_value * system_.base_loss_per_zeta);
-  const Vector springs = contact_springs(system_);
+  const Vector springs = contact_springs(system_.contacts);
   std::vector<Found> found;
   for (const JoinedMode& mode : joined_modes({&damped.base[0], &damped.damper[0]}, springs)) {
     add_cycles(damped, mode, zeta_value, preload_value, limits, found);

@@ -271,7 +271,7 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
 
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
-  const Vector springs = contact_springs(system_);
+  const Vector springs = contact_springs(system_.contacts);
   std::vector<double> values;
   for (Index a = 0; a < harmonics(); ++a) {
     const ContactModes* base = &system_.base[at(a)];

@@ -112,7 +112,7 @@ continuation::Guess NonlinearMode::guess(double eta_value, const Vector& paramet
 continuation::Guess NonlinearMode::guess(double eta_value, double R_value, double preload_value) const {
   if (!(eta_value > 0 && R_value > 0 && preload_value > 0))
     throw std::invalid_argument("NonlinearMode: eta, R and the preload must be positive");
-  const Vector springs = contact_springs(system_);
+  const Vector springs = contact_springs(system_.contacts);
   std::vector<JoinedMode> modes = joined_modes({&system_.base[0], &system_.damper[0]}, springs);
   constexpr double still = 1e-8;  // of the most that any mode moves it: rounding, as of both moving as one
   double most = 0;

@@ -53,13 +53,6 @@ double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinat
   return compliance > 0 ? 1 / compliance : 1;
 }
 
-Vector contact_springs(const HarmonicSystem& system) {
-  Vector springs(std::ssize(system.contacts));
-  for (Index i = 0; i < springs.size(); ++i)
-    springs(i) = system.contacts[static_cast<std::size_t>(i)].stiffness;
-  return springs;
-}
-
 HarmonicSystem one_harmonic(ContactSystem system) {
   return {{1}, {std::move(system.base)}, {std::move(system.damper)}, std::move(system.contacts),
           0,   std::move(system.outputs)};

@@ -5,17 +5,6 @@
 #include <map>
 
 namespace arcslip {
-namespace {
-
-Vector springs_of(const ContactSystem& wave) {
-  Vector springs(std::ssize(wave.contacts));
-  std::transform(wave.contacts.begin(), wave.contacts.end(), springs.begin(),
-                 [](const SectorContact& contact) { return contact.stiffness; });
-  return springs;
-}
-
-}  // namespace
-
 std::vector<Resonance> resonances(const ContactSystem& wave) {
   std::vector<Resonance> all;
   const auto add = [&](const char* part, const ContactModes& structure) {
@@ -29,7 +18,7 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
   };
   add("base", wave.base);
   add("damper", wave.damper);
-  for (const JoinedMode& mode : joined_modes({&wave.base, &wave.damper}, springs_of(wave)))
+  for (const JoinedMode& mode : joined_modes({&wave.base, &wave.damper}, contact_springs(wave.contacts)))
     all.push_back({"stuck", mode.frequency, mode.damping});
   return all;
 }
@@ -41,7 +30,6 @@ std::vector<Resonance> resonances(const SystemParameters& system, const ContactS
   for (const Resonance& one : resonances(wave)) {
     const int most = one.part == "stuck" ? 2 : 1;
     if (is_ring && ++counts[one.part] > most) continue;
-    if (system.eta_high > 0 && one.eta > system.eta_high) continue;
     own.push_back(one);
   }
   return own;
@@ -49,7 +37,7 @@ std::vector<Resonance> resonances(const SystemParameters& system, const ContactS
 
 double locking_preload(const ContactSystem& wave, const std::vector<double>& etas) {
   const auto count = std::ssize(wave.contacts);
-  const Vector springs = springs_of(wave);
+  const Vector springs = contact_springs(wave.contacts);
   double highest = 0;
   for (const double eta : etas) {
     ContactReceptance at = wave.base.at(eta);

@@ -8,20 +8,21 @@
 #include <optional>
 
 #include "arcslip/assembly/resonances.hpp"
+#include "cases/unit_names.hpp"
 
 namespace arcslip {
 namespace {
 
 constexpr std::size_t most_looked_at = 100;
 
+using Range = std::pair<double, double>;  // rising
+
 /// What a branch or a design passes, in the model's units.
 struct Ranges {
-  std::optional<std::pair<double, double>> eta;      ///< in which a resonance is looked for
-  std::optional<std::pair<double, double>> preload;  ///< of all preloads
-  std::vector<double> fixed_eta = {};                ///< where the frequency does not vary
+  std::optional<Range> eta;            ///< in which a resonance is looked for
+  std::optional<Range> preload;        ///< of all preloads
+  std::vector<double> fixed_eta = {};  ///< where the frequency does not vary
 };
-
-std::pair<double, double> rising(double a, double b) { return std::minmax(a, b); }
 
 /// In SI units as well where there are any.
 std::string frequency_text(double eta, const std::optional<PhysicalScale>& scale) {
@@ -31,13 +32,12 @@ std::string frequency_text(double eta, const std::optional<PhysicalScale>& scale
 
 std::string preload_text(double preload, const std::optional<PhysicalScale>& scale) {
   if (!scale) return fmt::format("P = {:.4g}", preload);
-  const char* unit = scale->preload_unit() == std::string("N") ? "N" : "N/m";
-  return fmt::format("{:.4g} {} (P = {:.4g})", scale->preload(preload), unit, preload);
+  return fmt::format("{:.4g} {} (P = {:.4g})", scale->preload(preload), unit_in_words(scale->preload_unit()),
+                     preload);
 }
 
 /// The resonance of a part that is nearest to a range, as a factor; null if it has none.
-const Resonance* nearest(const std::vector<Resonance>& all, const std::string& part,
-                         const std::pair<double, double>& range) {
+const Resonance* nearest(const std::vector<Resonance>& all, const std::string& part, const Range& range) {
   const Resonance* found = nullptr;
   const auto distance = [&](const Resonance& one) {
     return std::max(range.first / one.eta, one.eta / range.second);
@@ -49,27 +49,26 @@ const Resonance* nearest(const std::vector<Resonance>& all, const std::string& p
   return found;
 }
 
-/// Those of the base, alone or stuck to the damper: without modes of stuck contacts that are hardly more than
-/// their springs, far above what both structures do alone.
-std::vector<Resonance> base_resonances(const SystemParameters& system, const ContactSystem& wave) {
+/// Those of base and damper, alone or stuck: without modes of stuck contacts that are hardly more than their
+/// springs, far above what both structures do alone.
+std::vector<Resonance> meant_resonances(const SystemParameters& system, const ContactSystem& wave) {
   constexpr double far = 10;
   std::vector<Resonance> all = resonances(system, wave);
   double alone = 0;
   for (const Resonance& one : all) {
     if (one.part != "stuck") alone = std::max(alone, one.eta);
   }
-  std::erase_if(all, [&](const Resonance& one) {
-    return one.part == "damper" || (one.part == "stuck" && alone > 0 && one.eta > far * alone);
-  });
+  std::erase_if(
+      all, [&](const Resonance& one) { return one.part == "stuck" && alone > 0 && one.eta > far * alone; });
   return all;
 }
 
 /// Whether a resonance of any harmonic lies in the range.
-bool resonates(const SystemParameters& system, const std::pair<double, double>& range) {
+bool resonates(const SystemParameters& system, const Range& range) {
   const HarmonicSystem harmonics = build_harmonic_system(system);
   for (std::size_t i = 0; i < harmonics.orders.size(); ++i) {
     const ContactSystem wave{harmonics.base[i], harmonics.damper[i], harmonics.contacts};
-    for (const Resonance& one : base_resonances(system, wave)) {
+    for (const Resonance& one : meant_resonances(system, wave)) {
       const double eta = one.eta / harmonics.orders[i];
       if (eta >= range.first && eta <= range.second) return true;
     }
@@ -79,10 +78,10 @@ bool resonates(const SystemParameters& system, const std::pair<double, double>& 
 
 std::string about_window(const ProblemRequest& problem, const Ranges& ranges) {
   if (!ranges.eta || resonates(problem.system, *ranges.eta)) return "";
-  std::string text = fmt::format("no resonance of the base lies from {} to {}",
+  std::string text = fmt::format("no resonance of the base or the damper lies from {} to {}",
                                  frequency_text(ranges.eta->first, problem.physical),
                                  frequency_text(ranges.eta->second, problem.physical));
-  const std::vector<Resonance> all = base_resonances(problem.system, build_wave(problem.system));
+  const std::vector<Resonance> all = meant_resonances(problem.system, build_wave(problem.system));
   std::string others;
   for (const auto& [part, told] :
        {std::pair("base", "of the base alone"), std::pair("stuck", "of the stuck whole")}) {
@@ -121,27 +120,19 @@ std::string about_preloads(const ProblemRequest& problem, const Ranges& ranges) 
                      preload_text(limit, problem.physical));
 }
 
+/// None where another parameter moves resonances and limits.
 Ranges ranges_of(const CaseBranch& branch) {
   const continuation::TraceOptions& options = branch.options;
+  std::vector<std::pair<std::string, Range>> varied{
+      {options.parameter, std::minmax(options.from, options.to)}};
+  if (branch.curve)
+    varied.emplace_back(branch.curve->active, Range(branch.curve->window.low, branch.curve->window.high));
   Ranges ranges;
-  const auto along = rising(options.from, options.to);
-  const bool is_curve = branch.curve.has_value();
-  const auto varies = [&](const std::string& name) {
-    return options.parameter == name || (is_curve && branch.curve->active == name);
-  };
-  const auto range = [&](const std::string& name) {
-    return options.parameter == name ? along : rising(branch.curve->window.low, branch.curve->window.high);
-  };
-  if (varies("eta")) {
-    ranges.eta = range("eta");
-  } else {
-    ranges.fixed_eta = {branch.problem.eta};
-  }
-  if (varies("P")) ranges.preload = range("P");
-  // Other parameters move resonances and limits.
-  for (const std::string& name : {options.parameter, is_curve ? branch.curve->active : options.parameter}) {
+  for (const auto& [name, range] : varied) {
     if (name != "eta" && name != "P") return {};
+    (name == "eta" ? ranges.eta : ranges.preload) = range;
   }
+  if (!ranges.eta) ranges.fixed_eta = {branch.problem.eta};
   return ranges;
 }
 
@@ -196,7 +187,7 @@ std::vector<std::string> warnings_of(const StudyCase& study) {
   for (std::size_t i = 0; i < std::min(study.count, most_looked_at); ++i) {
     const StudyDesign design = study.design(i);
     const problems::PreloadRange& range = design.range;
-    slips.look(design.problem(), {std::pair(range.eta_low, range.eta_high), std::pair(range.from, range.to)});
+    slips.look(design.problem(), {Range(range.eta_low, range.eta_high), Range(range.from, range.to)});
   }
   return slips.sentences("designs");
 }

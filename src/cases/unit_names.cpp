@@ -6,6 +6,8 @@
 
 namespace arcslip {
 
+std::string unit_in_words(const std::string& preload_unit) { return preload_unit == "N" ? "N" : "N/m"; }
+
 std::string without_unit(const std::string& name) {
   if (name == frequency_name) return "eta";
   const bool is_preload = std::find(preload_names.begin(), preload_names.end(), name) != preload_names.end();

@@ -15,6 +15,9 @@ namespace arcslip {
 inline constexpr std::array preload_names = {"preload_N_per_m", "preload_N"};
 inline constexpr const char* frequency_name = "frequency_Hz";
 
+/// "N/m" of PhysicalScale's "N_per_m", and "N" of "N".
+std::string unit_in_words(const std::string& preload_unit);
+
 /// "eta" or "P" of a name with a unit; any other as it is.
 std::string without_unit(const std::string& name);
 

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "cases/key_catalogue.hpp"
+#include "cases/unit_names.hpp"
 
 namespace arcslip {
 
@@ -245,7 +246,7 @@ Findings findings_of(const ordered_json& input, const ResultTable& optimum, cons
   Findings findings;
   findings.objective = study.value("objective", "Y");
   const std::string unit = findings.objective == "Y" ? preload_suffix(optimum) : "";
-  if (!unit.empty()) findings.preload_unit = unit == "N" ? "N" : "N/m";
+  if (!unit.empty()) findings.preload_unit = unit_in_words(unit);
   Fields row(optimum);
   optimum.for_each_row([&](const std::vector<std::string>& fields) {
     row.begin(fields);

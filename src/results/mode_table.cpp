@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "arcslip/assembly/structures.hpp"
 
 namespace arcslip {
 namespace {
+
+constexpr std::array part_names = {"base", "damper", "stuck"};
 
 /// From 0 or, of rings, from 1 to as many as N nodes tell apart.
 std::pair<Index, Index> waves_of(const SystemParameters& system) {
@@ -34,6 +39,8 @@ std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest) {
     system.wave_number = n;
     structures_of(system).check(n, system.elements);
     waves.push_back({n, resonances(system, build_wave(system))});
+    if (system.eta_high > 0)
+      std::erase_if(waves.back().modes, [&](const Resonance& mode) { return mode.eta > system.eta_high; });
   }
   return waves;
 }
@@ -55,31 +62,30 @@ std::string modes_text(const ProblemRequest& problem, const std::vector<WaveMode
   constexpr std::size_t most_columns = 6;
   constexpr std::size_t most_rows = 40;
   const auto& scale = problem.physical;
-  std::vector<std::string> columns;
-  std::vector<std::map<std::string, std::string>> rows;
+  using Column = std::pair<std::size_t, Index>;  // part, number within it
+  std::set<Column> columns;
+  std::vector<std::map<Column, std::string>> rows;
   for (const WaveModes& wave : waves) {
     auto& row = rows.emplace_back();
     for_each_mode(wave, [&](const Resonance& mode, Index number) {
-      const std::string name = fmt::format("{} {}", mode.part, number);
-      if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
-      row[name] = fmt::format("{:.6g} {:7.1e}", scale ? scale->frequency(mode.eta) : mode.eta, mode.damping);
+      const auto part = std::find(part_names.begin(), part_names.end(), mode.part) - part_names.begin();
+      const Column column(part, number);
+      columns.insert(column);
+      row[column] =
+          fmt::format("{:.6g} {:7.1e}", scale ? scale->frequency(mode.eta) : mode.eta, mode.damping);
     });
   }
-  // Part by part, whichever wave brought a mode first.
-  const auto rank = [](const std::string& name) {
-    return std::pair(name[0] == 's' ? 2 : name[0] == 'd', name.size());
-  };
-  std::stable_sort(columns.begin(), columns.end(), [&](const std::string& a, const std::string& b) {
-    return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
-  });
+  const std::vector<Column> shown(
+      columns.begin(),
+      std::next(columns.begin(), static_cast<std::ptrdiff_t>(std::min(columns.size(), most_columns))));
   std::string text = fmt::format("{} and damping ratio of each mode\n\n{:>5}",
                                  scale ? "Frequency in Hz" : "Frequency eta", "n");
-  const std::size_t shown = std::min(columns.size(), most_columns);
-  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {:>18}", columns[i]);
-  text += columns.size() > shown ? "  ...\n" : "\n";
+  for (const auto& [part, number] : shown)
+    text += fmt::format("  {:>18}", fmt::format("{} {}", part_names[part], number));
+  text += columns.size() > shown.size() ? "  ...\n" : "\n";
   for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
     text += fmt::format("{:>5}", waves[i].wave_number);
-    for (std::size_t k = 0; k < shown; ++k) text += fmt::format("  {:>18}", rows[i][columns[k]]);
+    for (const Column& column : shown) text += fmt::format("  {:>18}", rows[i][column]);
     text += "\n";
   }
   if (rows.size() > most_rows) text += fmt::format("... and {} more\n", rows.size() - most_rows);

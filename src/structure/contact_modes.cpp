@@ -166,6 +166,13 @@ ContactModes ContactModes::varied(const Variation& at) const {
   return structure.solved_by(receptance_, at.load * receptance_load_, receptance_work_);
 }
 
+Vector contact_springs(const std::vector<SectorContact>& contacts) {
+  Vector springs(std::ssize(contacts));
+  std::transform(contacts.begin(), contacts.end(), springs.begin(),
+                 [](const SectorContact& contact) { return contact.stiffness; });
+  return springs;
+}
+
 ContactOutput driven_motion(ContactModes base) { return {"lag", std::move(base), true, true}; }
 
 double ContactOutput::amplitude(double eta, const ContactVector& forces) const {

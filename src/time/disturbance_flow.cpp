@@ -17,7 +17,7 @@ Index points_for(int highest) { return 16 + 2 * highest; }
 /// Those of the contacts, and 0 for further coordinates.
 Vector springs_of(const HarmonicSystem& system) {
   Vector springs = Vector::Zero(std::ssize(system.contacts) + std::ssize(system.others));
-  springs.head(std::ssize(system.contacts)) = contact_springs(system);
+  springs.head(std::ssize(system.contacts)) = contact_springs(system.contacts);
   return springs;
 }
 

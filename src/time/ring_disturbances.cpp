@@ -128,7 +128,7 @@ struct RingDisturbances::Builder {
 
 RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves) : waves_(waves) {
   const int highest = system.orders.back();
-  Builder builder{waves_, contact_springs(system), system.others, highest, cells_};
+  Builder builder{waves_, contact_springs(system.contacts), system.others, highest, cells_};
   builder.build();
   if (!builder.is_small()) {
     balanced_.emplace(

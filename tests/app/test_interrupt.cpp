@@ -198,7 +198,7 @@ void check_resumed(const std::string& path, const std::vector<std::string>& sett
 TEST_CASE("An interrupted run goes on to the tables of one that was not", "[interrupt]") {
   SECTION("several branches") {
     check_resumed(figure_8_case,
-                  {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", "continuation.max_step=0.005"},
+                  {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", "continuation.max_step=0.002"},
                   true);
   }
   SECTION("branches that are switched to") {

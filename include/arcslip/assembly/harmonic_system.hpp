@@ -43,9 +43,6 @@ void check(const HarmonicSystem& system);
 /// has none of its own.
 double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate);
 
-/// k of each contact.
-Vector contact_springs(const HarmonicSystem& system);
-
 /// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
 ContactSystem build_wave(const SystemParameters& parameters);
 

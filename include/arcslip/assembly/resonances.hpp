@@ -21,7 +21,7 @@ struct Resonance {
 std::vector<Resonance> resonances(const ContactSystem& wave);
 
 /// Those of `system`, whose wave it is: of rods and beams without the second modes of each, which are those
-/// of their elements; of sectors none above their window, where not all are known.
+/// of their elements.
 std::vector<Resonance> resonances(const SystemParameters& system, const ContactSystem& wave);
 
 /// The highest preload at which a contact slips at one of these eta, of contacts whose preload does not grow

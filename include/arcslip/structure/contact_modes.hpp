@@ -131,6 +131,9 @@ struct SectorContact {
   double slip_per_preload = 1;  ///< S/P > 0
 };
 
+/// k of each contact.
+Vector contact_springs(const std::vector<SectorContact>& contacts);
+
 /// A further dof of base or damper whose amplitude is wanted: one of theirs seen as a contact after all
 /// others.
 struct ContactOutput {
