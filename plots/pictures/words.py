@@ -87,19 +87,23 @@ def symbol(name, is_friction=True):
     return _library_symbol(stem)
 
 
+def _with_unit(text, unit):
+    return f"{text}  ({unit})" if unit else text
+
+
 def axis_title(name, is_friction=True):
     """What stands along an axis."""
     stem, unit = unit_of(name)
     found = SYMBOLS.get(stem) if is_friction else None
     text = "  ".join(part for part in (found[1], found[0]) if part) if found else symbol(name, is_friction)
     unit = unit or KEY_UNITS.get(name.rpartition(".")[2], "")
-    return f"{text}  ({unit})" if unit else text
+    return _with_unit(text, unit)
 
 
 def short_title(name, is_friction=True):
     """The same where there is no room for words."""
     _, unit = unit_of(name)
-    return f"{symbol(name, is_friction)}  ({unit})" if unit else symbol(name, is_friction)
+    return _with_unit(symbol(name, is_friction), unit)
 
 
 def number_text(value):

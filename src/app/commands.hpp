@@ -22,6 +22,9 @@ std::string list_keys(const std::vector<std::string>& sections);
 /// Runs a command; what it throws is printed on stderr and becomes the status.
 int guarded(const std::function<int()>& command);
 
+/// Says them on stderr, before the work or after it.
+void warn(const std::vector<std::string>& warnings);
+
 /// Where results go: `given`, or out/<name of the case file>.
 std::string results_folder(const std::string& given, const std::string& case_path);
 

@@ -87,6 +87,10 @@ void arcslip::add_settings(CLI::App* command, std::vector<std::string>& settings
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void arcslip::warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) complain("arcslip: warning: " + warning);
+}
+
 int arcslip::guarded(const std::function<int()>& command) {
   try {
     return command();

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "app/interface_text.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/version.hpp"
 #include "cases/key_catalogue.hpp"
 
@@ -30,18 +30,8 @@ std::string man_text(const std::string& text) {
 /// Lines as they are, the longer ones broken between words.
 std::string man_lines(const std::string& text) {
   constexpr std::size_t longest = 76;
-  std::string result = ".nf\n";
-  std::istringstream lines(text.substr(std::min(text.find_first_not_of('\n'), text.size())));
-  for (std::string line; std::getline(lines, line);) {
-    while (line.size() > longest) {
-      const std::size_t space = line.rfind(' ', longest);
-      if (space == std::string::npos || line.find_first_not_of(' ') > space) break;
-      result += man_text(line.substr(0, space)) + "\n";
-      line = "    " + line.substr(space + 1);
-    }
-    result += man_text(line) + "\n";
-  }
-  return result + ".fi\n";
+  const std::string told = text.substr(std::min(text.find_first_not_of('\n'), text.size()));
+  return ".nf\n" + man_text(wrapped(told, longest)) + ".fi\n";
 }
 
 std::string man_option(const CLI::Option& option) {

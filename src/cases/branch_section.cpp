@@ -151,90 +151,112 @@ void read_extrema(CaseBranch& branch, const TomlSection& section) {
   if (ridge && observables.size() != 1) section.mismatch("extrema_of", expected);
 }
 
+using BranchKey = Key<CaseBranch>;
+
+const auto not_beside_curve =
+    only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
+const auto beside_curve = only("only beside curve", is_curve);
+const auto with_friction = only("only for systems with friction", of_friction);
+const auto beside_level = only("only beside curve = \"level\"", is_level);
+
+Choices<const ResponseKind*> response_choices() {
+  Choices<const ResponseKind*> all;
+  for (const ResponseKind& kind : response_kinds()) all.emplace_back(kind.name, &kind);
+  return all;
+}
+
+/// What is asked, and what varies.
+std::vector<BranchKey> keys_of_request() {
+  return {
+      BranchKey::choice("response", at(&CaseBranch::problem, &ProblemRequest::response), response_choices(),
+                        "what is asked of a system with friction", "", with_friction),
+      BranchKey::special("curve", one_of(curve_names()), "a curve of such points in two parameters",
+                         read_curve),
+      BranchKey::special(
+          "level_of", "name", "the observable that has a given value along the curve",
+          [](CaseBranch& branch, const TomlSection& section) {
+            branch.curve->level->observable = section.text("level_of", {});
+          },
+          required, beside_level),
+      BranchKey::special(
+          "level", "number", "that value; of phases in radians",
+          [](CaseBranch& branch, const TomlSection& section) {
+            branch.curve->level->value = section.number("level", any_number());
+          },
+          required, beside_level),
+      BranchKey::special(
+          "parameter", "name",
+          "what varies: eta, P, in SI units frequency_Hz, preload_N_per_m or preload_N; F, zeta_B, zeta_D, "
+          "K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
+          "of one contact of several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear "
+          "modes R in place of "
+          "eta, of limit "
+          "cycles zeta_B, or a library model's own",
+          [](CaseBranch& branch, const TomlSection& section) {
+            const std::vector<std::string> names = names_of_parameters(branch.problem);
+            const toml::node& node = section.require("parameter", one_of(names));
+            const std::string given = node.value<std::string>().value_or("");
+            branch.named = section.text("parameter", names_with(names, branch, {given}));
+            branch.options.parameter = without_unit(branch.named);
+          },
+          needed("required", lacks("parameters")), not_beside_curve),
+      BranchKey::special(
+          "parameters", "two names",
+          "of a curve: its first points are looked for over the first, at the second of `[system]`",
+          read_parameters, required, beside_curve),
+      BranchKey::special("window", "two numbers",
+                         "range of the first parameter of a curve, searched from its first value on",
+                         read_window, required, beside_curve)};
+}
+
+/// The range, and what is fixed.
+std::vector<BranchKey> keys_of_range() {
+  return {
+      BranchKey("from", at(&CaseBranch::options, &TraceOptions::from), {"", rule_of_parameter},
+                "first value of the parameter, of a curve of the second one", required),
+      BranchKey("to", at(&CaseBranch::options, &TraceOptions::to), {"", rule_of_parameter},
+                "last value, on which a branch ends", required, then(check_range)),
+      BranchKey("eta", at(&CaseBranch::problem, &ProblemRequest::eta), positive(),
+                "the fixed frequency where P varies; of nonlinear modes one near theirs", with_friction,
+                parameter("eta"), unresolved),
+      BranchKey("frequency_Hz", at(&CaseBranch::problem, &ProblemRequest::eta), positive(),
+                "the same in Hz, of systems in SI units", with_friction, parameter("eta"), unresolved,
+                unit("Hz")),
+      BranchKey("R", at(&CaseBranch::problem, &ProblemRequest::R), positive(),
+                "the fixed amplitude of nonlinear modes where R does not vary", with_friction, unresolved),
+      BranchKey::special(
+          "for_each", "table, or list of tables",
+          "one branch for each value of keys of `[system]` and `[geometry]`, or of eta or frequency_Hz", {})};
+}
+
+/// From where and how branches are traced, and what is looked for on them.
+std::vector<BranchKey> keys_of_ways() {
+  return {
+      BranchKey::flag("switching", &CaseBranch::switching,
+                      "follow all branches that meet this one, at branch points and corners",
+                      not_beside_curve),
+      BranchKey("start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
+                "trace both ways from this value; not beside switching", not_beside_curve, then(check_start)),
+      BranchKey::special(
+          "from_point", "\"DIR:branch/point\"",
+          "trace both ways from a special point of the run in DIR, at its value of the parameter",
+          read_from_point, not_beside_curve, only("not beside start", lacks("start")),
+          only("not beside switching",
+               [](const CaseBranch& branch, const TomlSection&) { return !branch.switching; })),
+      BranchKey::flag("all_solutions", &CaseBranch::all_solutions,
+                      "find all solutions at `start` by deflation and trace the branch of each",
+                      not_beside_curve, then(check_all)),
+      BranchKey::special("extrema_of", "list of names",
+                         "observables whose peaks and troughs are located; of a curve of these the one",
+                         read_extrema, needed("`[\"Y\"]` of forced responses", always)),
+      BranchKey::flag("stability", at(&CaseBranch::problem, &ProblemRequest::stability),
+                      "growth of disturbances of a forced response in every wave")};
+}
+
 }  // namespace
 
 const KeyTable<CaseBranch>& branch_keys() {
-  using S = CaseBranch;
-  using K = Key<S>;
-  static const auto along =
-      only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
-  static const auto across = only("only beside curve", is_curve);
-  static const auto friction = only("only for systems with friction", of_friction);
-  static const auto of_level = only("only beside curve = \"level\"", is_level);
-  static const auto responses = [] {
-    Choices<const ResponseKind*> all;
-    for (const ResponseKind& kind : response_kinds()) all.emplace_back(kind.name, &kind);
-    return all;
-  }();
-  static const KeyTable<S> keys{
-      {K::choice("response", at(&S::problem, &ProblemRequest::response), responses,
-                 "what is asked of a system with friction", "", friction),
-       K::special("curve", one_of(curve_names()), "a curve of such points in two parameters", read_curve),
-       K::special(
-           "level_of", "name", "the observable that has a given value along the curve",
-           [](S& branch, const TomlSection& section) {
-             branch.curve->level->observable = section.text("level_of", {});
-           },
-           required, of_level),
-       K::special(
-           "level", "number", "that value; of phases in radians",
-           [](S& branch, const TomlSection& section) {
-             branch.curve->level->value = section.number("level", any_number());
-           },
-           required, of_level),
-       K::special(
-           "parameter", "name",
-           "what varies: eta, P, in SI units frequency_Hz, preload_N_per_m or preload_N; F, zeta_B, zeta_D, "
-           "K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
-           "of one contact of "
-           "several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear modes R in place of "
-           "eta, of limit "
-           "cycles zeta_B, or a library model's own",
-           [](S& branch, const TomlSection& section) {
-             const std::vector<std::string> names = names_of_parameters(branch.problem);
-             const toml::node& node = section.require("parameter", one_of(names));
-             const std::string given = node.value<std::string>().value_or("");
-             branch.named = section.text("parameter", names_with(names, branch, {given}));
-             branch.options.parameter = without_unit(branch.named);
-           },
-           needed("required", lacks("parameters")), along),
-       K::special("parameters", "two names",
-                  "of a curve: its first points are looked for over the first, at the second of `[system]`",
-                  read_parameters, required, across),
-       K::special("window", "two numbers",
-                  "range of the first parameter of a curve, searched from its first value on", read_window,
-                  required, across),
-       K("from", at(&S::options, &TraceOptions::from), {"", rule_of_parameter},
-         "first value of the parameter, of a curve of the second one", required),
-       K("to", at(&S::options, &TraceOptions::to), {"", rule_of_parameter},
-         "last value, on which a branch ends", required, then(check_range)),
-       K("eta", at(&S::problem, &ProblemRequest::eta), positive(),
-         "the fixed frequency where P varies; of nonlinear modes one near theirs", friction, parameter("eta"),
-         unresolved),
-       K("frequency_Hz", at(&S::problem, &ProblemRequest::eta), positive(),
-         "the same in Hz, of systems in SI units", friction, parameter("eta"), unresolved, unit("Hz")),
-       K("R", at(&S::problem, &ProblemRequest::R), positive(),
-         "the fixed amplitude of nonlinear modes where R does not vary", friction, unresolved),
-       K::special(
-           "for_each", "table, or list of tables",
-           "one branch for each value of keys of `[system]` and `[geometry]`, or of eta or frequency_Hz", {}),
-       K::flag("switching", &S::switching,
-               "follow all branches that meet this one, at branch points and corners", along),
-       K("start", &S::start, {" from `from` to `to`", rule_of_range},
-         "trace both ways from this value; not beside switching", along, then(check_start)),
-       K::special("from_point", "\"DIR:branch/point\"",
-                  "trace both ways from a special point of the run in DIR, at its value of the parameter",
-                  read_from_point, along, only("not beside start", lacks("start")),
-                  only("not beside switching",
-                       [](const S& branch, const TomlSection&) { return !branch.switching; })),
-       K::flag("all_solutions", &S::all_solutions,
-               "find all solutions at `start` by deflation and trace the branch of each", along,
-               then(check_all)),
-       K::special("extrema_of", "list of names",
-                  "observables whose peaks and troughs are located; of a curve of these the one",
-                  read_extrema, needed("`[\"Y\"]` of forced responses", always)),
-       K::flag("stability", at(&S::problem, &ProblemRequest::stability),
-               "growth of disturbances of a forced response in every wave")}};
+  static const KeyTable<CaseBranch> keys{keys_of_request(), keys_of_range(), keys_of_ways()};
   return keys;
 }
 

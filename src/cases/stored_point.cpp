@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "keys/printable.hpp"
+#include "results/summary_file.hpp"
 
 namespace arcslip {
 namespace {
@@ -38,22 +38,15 @@ Place read_place(const TomlSection& section) {
 
 /// The special points of its branch.
 ordered_json read_special(const TomlSection& section, const Place& place) {
-  const std::string path = place.folder + "/summary.json";
-  std::ifstream file(path);
-  if (!file) section.fail(point_key, fmt::format("{}: cannot be read", printable(path, longest_name)));
-  const ordered_json summary = ordered_json::parse(file, nullptr, false);
-  if (!summary.is_object() || !summary.contains("branches"))
-    section.fail(point_key, fmt::format("{}: is no summary of a run", printable(path, longest_name)));
-  for (const ordered_json& branch : summary["branches"]) {
+  const std::string shown = printable(place.folder, longest_name);
+  const std::optional<ordered_json> summary = run_summary(place.folder);
+  if (!summary) section.fail(point_key, fmt::format("{}: cannot be read as a folder of a run", shown));
+  for (const ordered_json& branch : summary->at("branches")) {
     if (branch.value("branch", ordered_json()) == place.branch)
       return branch.value("special", ordered_json());
   }
-  section.fail(point_key, fmt::format("{}: has no branch {}", printable(path, longest_name), place.branch));
+  section.fail(point_key, fmt::format("{}: has no branch {}", shown, place.branch));
 }
-
-}  // namespace
-
-namespace {
 
 StoredPoint point_of(const ordered_json& state) {
   StoredPoint point;

@@ -4,10 +4,10 @@
 #include <map>
 #include <sstream>
 
+#include "case_texts.hpp"
 #include "catch.hpp"
 #include "places.hpp"
 #include "program.hpp"
-#include "temporary_folder.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -39,20 +39,8 @@ std::map<Key, double> first_modes(const std::string& csv) {
 
 TEST_CASE("modes gives rods the frequencies of their finite elements, for every wave") {
   const TemporaryFolder folder;
-  const std::string path = folder.write("rods.toml", R"([system]
-model = "rods"
-wave_number = 1
-elements = 12
-mass_ratio = 3.0
-frequency_ratio = 1.5
-interface_stiffness = 40.0
-preload = 1.0
-force = 1.0
-[branch]
-parameter = "eta"
-from = 0.5
-to = 3.0
-)");
+  const std::string path = folder.write(
+      "rods.toml", case_texts::rods_under_force + "[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 3.0\n");
   const Outcome outcome = arcslip_program("modes " + path + " -o " + folder.path("m"));
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);

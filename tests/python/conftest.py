@@ -2,7 +2,9 @@
 
 import os
 import pathlib
+import signal
 import subprocess
+import sys
 
 import pytest
 
@@ -22,5 +24,21 @@ def program():
 
     def run(*arguments):
         return subprocess.run([path, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def interrupted():
+    """What a script prints that says "ready" and is interrupted at its work two seconds later."""
+
+    def run(script):
+        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+            assert child.stdout.readline() == "ready\n"
+            with pytest.raises(subprocess.TimeoutExpired):
+                child.wait(2)
+            child.send_signal(signal.SIGINT)
+            out, _ = child.communicate(timeout=20)
+        return out
 
     return run

@@ -5,9 +5,6 @@ import json
 import os
 import pathlib
 import re
-import signal
-import subprocess
-import sys
 import textwrap
 import tomllib
 
@@ -223,7 +220,7 @@ def test_progress_is_told_and_its_exception_comes_through(cases):
         arcslip.run(**long, progress=fails)
 
 
-def test_ctrl_c_ends_the_work_with_what_was_traced(cases, tmp_path):
+def test_ctrl_c_ends_the_work_with_what_was_traced(cases, tmp_path, interrupted):
     script = textwrap.dedent(
         f"""
         import warnings, arcslip, sys
@@ -234,13 +231,7 @@ def test_ctrl_c_ends_the_work_with_what_was_traced(cases, tmp_path):
         print(result.interrupted, result.branches[-1].stop, len(result.branches[-1]) > 1)
         """
     )
-    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
-        assert child.stdout.readline() == "ready\n"
-        with pytest.raises(subprocess.TimeoutExpired):
-            child.wait(2)
-        child.send_signal(signal.SIGINT)
-        out, _ = child.communicate(timeout=20)
-    assert out == "True interrupted True\n"
+    assert interrupted(script) == "True interrupted True\n"
     assert json.loads((tmp_path / "out/summary.json").read_text())["interrupted"] is True
 
 

@@ -1,8 +1,5 @@
 """Elements and matrices that a program gives in place of names: the same results, and mistakes that are named."""
 
-import signal
-import subprocess
-import sys
 import textwrap
 import tomllib
 import traceback
@@ -149,7 +146,7 @@ def test_wrong_uses_are_refused():
         arcslip.run(with_element({"kind": own(), "k": 1.0}), verify=True)
 
 
-def test_ctrl_c_within_a_function_leaves_what_was_traced():
+def test_ctrl_c_within_a_function_leaves_what_was_traced(interrupted):
     script = textwrap.dedent(
         f"""
         import warnings, time, arcslip
@@ -164,13 +161,7 @@ def test_ctrl_c_within_a_function_leaves_what_was_traced():
         print(result.interrupted, len(result.branches[0]) > 1)
         """
     )
-    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
-        assert child.stdout.readline() == "ready\n"
-        with pytest.raises(subprocess.TimeoutExpired):
-            child.wait(2)
-        child.send_signal(signal.SIGINT)
-        out, _ = child.communicate(timeout=20)
-    assert out == "True True\n"
+    assert interrupted(script) == "True True\n"
 
 
 @pytest.fixture(scope="module")

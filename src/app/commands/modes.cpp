@@ -64,6 +64,12 @@ int modes(const ModesOptions& options) {
   return status::done;
 }
 
+constexpr const char* modes_notes =
+    "\nOf the first branch or design of the case. Writes DIR/modes.csv; arcslip plot DIR draws frequencies "
+    "over "
+    "nodal diameters, with engine orders where --speed is given. Of sectors modes are those below the end of "
+    "the window that the case looks at, or of system.reduction_window.";
+
 Command::Action add_modes(CLI::App& app) {
   const auto options = std::make_shared<ModesOptions>();
   CLI::App* command = app.add_subcommand(
@@ -80,12 +86,7 @@ Command::Action add_modes(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   add_settings(command, options->settings);
   command->add_flag("--quiet", options->quiet, "Print no table");
-  command->footer(
-      "\nOf the first branch or design of the case. Writes DIR/modes.csv; arcslip plot DIR draws frequencies "
-      "over nodal "
-      "diameters, with engine orders where --speed is given. Of sectors modes are those below the end of the "
-      "window "
-      "that the case looks at, or of system.reduction_window.");
+  command->footer(modes_notes);
   return [options] { return modes(*options); };
 }
 

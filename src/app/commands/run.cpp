@@ -104,8 +104,7 @@ int Run::execute() {
   require_provable(plan_, options_);
   file_.named("system", [&] {
     build(plan_.branch(0).problem);
-    if (options_.quiet) return;
-    for (const std::string& warning : warnings_of(plan_)) complain("arcslip: warning: " + warning);
+    if (!options_.quiet) warn(warnings_of(plan_));
   });
   const bool resumes = !options_.resume.empty();
   if (resumes) progress_.take_up(options_.resume, plan_);

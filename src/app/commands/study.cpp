@@ -88,7 +88,7 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
                       list_of_files(study)) +
           answer(folder, study));
   }
-  for (const std::string& warning : warnings_of(work.checks)) complain("arcslip: warning: " + warning);
+  warn(warnings_of(work.checks));
   return report_failures(study, store) > 0 ? status::incomplete_branch : status::done;
 }
 
@@ -147,8 +147,7 @@ int study(const StudyOptions& options) {
     study = read_study(file);
     file.named("system", [&] {
       build(study->design(0).problem());
-      if (!crew.leads() || options.quiet) return;
-      for (const std::string& warning : warnings_of(*study)) complain("arcslip: warning: " + warning);
+      if (crew.leads() && !options.quiet) warn(warnings_of(*study));
     });
   } catch (const std::exception& wrong) {
     error = wrong.what();
