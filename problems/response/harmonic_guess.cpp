@@ -128,23 +128,39 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     return reached(*this, guess, preload, preload_value, limits);
   }
   constexpr double small = 1e-3;  // of the force under which the linear response does
-  const double share = linear_share(guess, small / std::max(1.0, holding));
-  guess.unknowns *= share;
+  const double share = take_small(guess, small / std::max(1.0, holding));
   guess.parameters = Vector::Constant(1, share);
   guess = reached(LoadPath(*this, parameters), guess, 0, 1, limits);
   guess.parameters = parameters;
   return guess;
 }
 
-/// A share of the load, at most `share`, under which what the elements beside the contacts do to the stuck
-/// response is nothing to it.
-double HarmonicResponse::linear_share(const Guess& stuck, double share) const {
+/// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under which
+/// what the elements beside the contacts do to it is nothing or, where they act on the smallest motions, does
+/// so after a step of Newton's.
+double HarmonicResponse::take_small(Guess& stuck, double share) const {
   constexpr double nothing = 1e-3;
+  constexpr double smallest = 1e-100;
+  constexpr double smallest_stiff = 1e-12;
   Vector residual(size());
-  for (; share > 1e-100; share *= 0.1) {
-    const Vector u = share * stuck.unknowns;
-    if (evaluate(u, stuck.parameters, 0, share, {&residual}) && residual.lpNorm<Eigen::Infinity>() < nothing)
-      return share;
+  Matrix jacobian(size(), size());
+  const auto is_solved = [&](const Vector& u, double part, Matrix* by_unknowns) {
+    return evaluate(u, stuck.parameters, 0, part, {&residual, by_unknowns}) &&
+           residual.lpNorm<Eigen::Infinity>() < nothing;
+  };
+  const auto found = [&](Vector u, double part) {
+    stuck.unknowns = std::move(u);
+    return part;
+  };
+  for (double part = share; part > smallest; part *= 0.1) {
+    if (is_solved(part * stuck.unknowns, part, nullptr)) return found(part * stuck.unknowns, part);
+  }
+  for (double part = share; part > smallest_stiff; part *= 0.1) {
+    Vector u = part * stuck.unknowns;
+    if (is_solved(u, part, &jacobian)) return found(std::move(u), part);
+    jacobian += residual * u.transpose() / u.squaredNorm();  // as F is relative to |u|
+    u -= jacobian.partialPivLu().solve(residual);
+    if (is_solved(u, part, nullptr)) return found(std::move(u), part);
   }
   throw std::invalid_argument("HarmonicResponse: the response to a small force is not linear");
 }

@@ -126,6 +126,10 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
                                           "own waves would change",
                                           system.varied));
   if (!problem.response->in_time) section.fail("stability", "only for the forced response");
+  for (const PlacedElement& one : system.others) {
+    if (one.kind->has_memory)
+      section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
+  }
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
   try {

@@ -31,6 +31,7 @@ struct ElementKind {
   };
   std::vector<Value> settings;                                        ///< all of them
   std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values
+  bool has_memory = false;  ///< whether its force follows from the way that the motion has taken
 };
 
 /// All of them, in alphabetical order.

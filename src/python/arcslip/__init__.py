@@ -12,6 +12,7 @@ problems written in Python. Both give `Branch` objects, whose columns are numpy 
 from ._branch import Branch, Sample
 from ._cases import Check, Run, Study, check, run, study
 from ._core import version as __version__
+from ._cycle import marched
 from ._element import Element
 from ._problem import Problem
 from ._trace import solve_all, trace, trace_all
@@ -26,6 +27,7 @@ __all__ = [
     "Study",
     "__version__",
     "check",
+    "marched",
     "run",
     "solve_all",
     "study",

@@ -110,6 +110,8 @@ class Element:
     force: _Function
     slope: _Function | None
     settings: dict[str, float | None]
+    memory: bool
+    samples: int
     def __init__(
         self,
         kind: str,
@@ -117,7 +119,17 @@ class Element:
         slope: _Function | None = None,
         settings: Mapping[str, float | None] | None = None,
         scales_force: Sequence[str] = (),
+        *,
+        memory: bool = False,
+        samples: int = 512,
     ) -> None: ...
+
+def marched(
+    step: Callable[..., tuple[ArrayLike, ArrayLike]],
+    state: float | Sequence[float] = 0.0,
+    *,
+    most_periods: int = 200,
+) -> Callable[..., NDArray[Any]]: ...
 
 class _Columns:
     def __getitem__(self, name: str) -> NDArray[Any]: ...

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "arcslip/elements/hysteretic.hpp"
 #include "arcslip/elements/sampled.hpp"
 #include "python/binding/arrays.hpp"
 
@@ -35,11 +38,11 @@ std::shared_ptr<const py::object> kept(const py::object& object) {
           }};
 }
 
-/// The law with values of its settings, one of which may be continued.
-class PythonLaw final : public SampledLaw {
+/// The functions of an element with values of its settings, one of which may be continued.
+class Functions {
  public:
-  PythonLaw(std::shared_ptr<const py::object> element, std::shared_ptr<Raised> raised,
-            std::vector<Jet> settings)
+  Functions(std::shared_ptr<const py::object> element, std::shared_ptr<Raised> raised,
+            const std::vector<Jet>& settings)
       : element_(std::move(element)), raised_(std::move(raised)), values_(std::ssize(settings)) {
     for (std::size_t i = 0; i < settings.size(); ++i) {
       values_(static_cast<Index>(i)) = settings[i].value;
@@ -49,15 +52,23 @@ class PythonLaw final : public SampledLaw {
     }
   }
 
-  void at(const Vector& x, int derivatives, LawSamples& out) const override {
+  int varied() const { return varied_; }
+  const Jet& rate() const { return rate_; }
+  const Vector& values() const { return values_; }
+  /// Of its attributes, with the lock held.
+  py::object attribute(const char* name) const { return element_->attr(name); }
+
+  /// Runs `work` with the lock, anew where Ctrl-C ended it; what it raises is kept.
+  template <class Work>
+  void call(const Work& work) const {
     const py::gil_scoped_acquire lock;
     try {
       try {
-        fill(x, derivatives, out);
+        work();
       } catch (py::error_already_set& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) throw;
         raised_->interrupted = true;  // the work ends at its next point
-        fill(x, derivatives, out);
+        work();
       }
     } catch (...) {
       raised_->note(std::current_exception());
@@ -66,9 +77,27 @@ class PythonLaw final : public SampledLaw {
   }
 
  private:
+  std::shared_ptr<const py::object> element_;
+  std::shared_ptr<Raised> raised_;
+  Vector values_;
+  int varied_ = -1;
+  Jet rate_;
+};
+
+/// Of the momentary displacement.
+class PythonLaw final : public SampledLaw {
+ public:
+  explicit PythonLaw(Functions functions) : functions_(std::move(functions)) {}
+
+  void at(const Vector& x, int derivatives, LawSamples& out) const override {
+    functions_.call([&] { fill(x, derivatives, out); });
+  }
+
+ private:
   void fill(const Vector& x, int derivatives, LawSamples& out) const {
-    const auto given =
-        py::cast<py::list>(element_->attr("_sampled")(give(x), give(values_), varied_, derivatives));
+    const Jet& rate = functions_.rate();
+    const auto given = py::cast<py::list>(functions_.attribute("_sampled")(
+        give(x), give(functions_.values()), functions_.varied(), derivatives));
     auto next = [&, at = std::size_t{0}](Vector& values) mutable {
       values.resize(x.size());
       take(given[at++], "force", values);
@@ -78,24 +107,74 @@ class PythonLaw final : public SampledLaw {
     if (derivatives == 0) return;
     next(out.slope);
     if (derivatives > 1) next(out.curvature);
-    if (varied_ < 0) return;
+    if (functions_.varied() < 0) return;
     next(out.by_setting);
     if (derivatives > 1) {
       next(out.slope_by_setting);
       next(out.second_by_setting);
       out.second_by_setting =
-          out.second_by_setting * (rate_.first * rate_.first) + out.by_setting * rate_.second;
-      out.slope_by_setting *= rate_.first;
+          out.second_by_setting * (rate.first * rate.first) + out.by_setting * rate.second;
+      out.slope_by_setting *= rate.first;
     }
-    out.by_setting *= rate_.first;
+    out.by_setting *= rate.first;
   }
 
-  std::shared_ptr<const py::object> element_;
-  std::shared_ptr<Raised> raised_;
-  Vector values_;
-  int varied_ = -1;
-  Jet rate_;
+  Functions functions_;
 };
+
+/// Of the displacement over a period.
+class PythonCycle final : public CycleLaw {
+ public:
+  /// With the lock held.
+  explicit PythonCycle(Functions functions)
+      : functions_(std::move(functions)), samples_(functions_.attribute("samples").cast<Index>()) {}
+
+  Index samples() const override { return samples_; }
+
+  double setting_scale() const override {
+    constexpr double least = 1e-8;
+    if (functions_.varied() < 0) return 1;
+    const double value = std::abs(functions_.values()(functions_.varied()));
+    return std::max(value, least) / std::abs(functions_.rate().first);
+  }
+
+  void at(const Vector& x, const Matrix& ways, double setting, bool derivatives,
+          CycleSamples& out) const override {
+    functions_.call([&] { fill(x, ways, setting, derivatives, out); });
+  }
+
+ private:
+  void fill(const Vector& x, const Matrix& ways, double setting, bool derivatives, CycleSamples& out) const {
+    const int varied = functions_.varied();
+    const Jet& rate = functions_.rate();
+    Vector values = functions_.values();
+    if (varied >= 0) values(varied) += setting * (rate.first + setting * rate.second / 2);
+    const auto given = py::cast<py::list>(
+        functions_.attribute("_cycle")(give(x), give(ways), give(values), varied, derivatives));
+    out = {};
+    out.force.resize(x.size());
+    take(given[0], "force", out.force);
+    if (!derivatives) return;
+    out.changes.resize(x.size(), ways.cols());
+    take(given[1], "slope", out.changes);
+    if (varied < 0) return;
+    out.by_setting.resize(x.size());
+    take(given[2], "force", out.by_setting);
+    out.by_setting *= rate.first + setting * rate.second;
+  }
+
+  Functions functions_;
+  Index samples_;
+};
+
+std::shared_ptr<const Element> made(Functions functions, bool has_memory, double usual_stiffness) {
+  if (!has_memory)
+    return std::make_shared<SampledElement>(std::make_shared<PythonLaw>(std::move(functions)),
+                                            usual_stiffness);
+  const py::gil_scoped_acquire lock;
+  return std::make_shared<HystereticElement>(std::make_shared<PythonCycle>(std::move(functions)),
+                                             usual_stiffness);
+}
 
 }  // namespace
 
@@ -112,9 +191,10 @@ std::shared_ptr<const ElementKind> kind_of(const py::object& element, const std:
     kind->settings.push_back(
         {any_value(setting[0].cast<std::string>(), given, "of one's own"), setting[2].cast<bool>()});
   }
-  kind->make = [element = kept(element), raised](const ElementKind::Values& values) {
-    return std::make_shared<SampledElement>(std::make_shared<PythonLaw>(element, raised, values.settings),
-                                            values.usual_stiffness);
+  kind->has_memory = element.attr("memory").cast<bool>();
+  kind->make = [element = kept(element), raised,
+                has_memory = kind->has_memory](const ElementKind::Values& values) {
+    return made({element, raised, values.settings}, has_memory, values.usual_stiffness);
   };
   return kind;
 }

@@ -89,7 +89,7 @@ class HarmonicResponse : public HarmonicProblem {
                               double share, const continuation::Evaluation& out) const;
   continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
                               Index parameter, double to, const continuation::TraceOptions& limits) const;
-  double linear_share(const continuation::Guess& stuck, double share) const;
+  double take_small(continuation::Guess& stuck, double share) const;
 
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
