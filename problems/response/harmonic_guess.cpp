@@ -135,9 +135,9 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   return guess;
 }
 
-/// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under which
-/// what the elements beside the contacts do to it is nothing or, where they act on the smallest motions, does
-/// so after a step of Newton's.
+/// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under
+/// which what the elements beside the contacts do to it is nothing or, where they act on the smallest
+/// motions, does so after a step of Newton's.
 double HarmonicResponse::take_small(Guess& stuck, double share) const {
   constexpr double nothing = 1e-3;
   constexpr double smallest = 1e-100;

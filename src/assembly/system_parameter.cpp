@@ -135,10 +135,13 @@ std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
   using S = SystemParameters;
   std::vector<SystemParameter> all{
       system_number("F", &S::force, change_load, Kind::load, system),
-      system_number("zeta_B", &S::base_damping, change_base_damping, Kind::damping, system),
-      system_number("zeta_D", &S::damper_damping, change_damper_damping, Kind::damping, system),
       of_contacts("K_FD", system.interface_stiffness, false, -1, system),
       system_number("P_2", &S::preload_growth, change_growth, Kind::growth, system)};
+  if (structures_of(system).has_equations()) {
+    all.insert(all.begin() + 1,
+               {system_number("zeta_B", &S::base_damping, change_base_damping, Kind::damping, system),
+                system_number("zeta_D", &S::damper_damping, change_damper_damping, Kind::damping, system)});
+  }
   for (std::size_t i = 0; i < system.others.size(); ++i) {
     for (std::size_t k = 0; k < system.others[i].settings.size(); ++k)
       all.push_back(of_element(i, k, system));

@@ -32,7 +32,7 @@ using problems::LibraryModel;
 const LibraryModel* read_model(const TomlDocument& document) {
   const TomlSection section(document, "system");
   if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
-  return problems::find_model(section.text("model", model_names()));
+  return problems::find_model(section.text("model", model_names(document)));
 }
 
 /// What may differ from branch to branch.
@@ -132,6 +132,8 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   }
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
+  if (!structures_of(system).has_equations())
+    section.fail("stability", "not of a structure by its responses, which has no motion in time");
   try {
     static_cast<void>(structures_of(system).in_modes());
   } catch (const std::invalid_argument& error) {

@@ -78,10 +78,11 @@ bool resonates(const SystemParameters& system, const Range& range) {
 
 std::string about_window(const ProblemRequest& problem, const Ranges& ranges) {
   if (!ranges.eta || resonates(problem.system, *ranges.eta)) return "";
+  const std::vector<Resonance> all = meant_resonances(problem.system, build_wave(problem.system));
+  if (all.empty()) return "";  // not known
   std::string text = fmt::format("no resonance of the base or the damper lies from {} to {}",
                                  frequency_text(ranges.eta->first, problem.physical),
                                  frequency_text(ranges.eta->second, problem.physical));
-  const std::vector<Resonance> all = meant_resonances(problem.system, build_wave(problem.system));
   std::string others;
   for (const auto& [part, told] :
        {std::pair("base", "of the base alone"), std::pair("stuck", "of the stuck whole")}) {

@@ -10,6 +10,7 @@
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
 #include "cases/geometry_section.hpp"
+#include "cases/given_structure.hpp"
 
 namespace arcslip {
 namespace {
@@ -69,21 +70,25 @@ void check_waves(const TomlSection& section, const SystemParameters& system) {
   }
 }
 
-/// What all kinds of structures are called.
-std::vector<std::string> structure_names() {
+/// What all kinds of structures are called, with those that a program gives.
+std::vector<std::string> structure_names(const TomlDocument& document) {
   std::vector<std::string> names;
+  if (document.parts() != nullptr) {
+    for (const auto& given : document.parts()->structures) names.push_back(given.first);
+  }
   for (const StructureKind& kind : structure_kinds())
     names.insert(names.end(), kind.models.begin(), kind.models.end());
   return names;
 }
 
-const StructureKind& kind_of(const TomlSection& section) {
-  return *structure_of(section.text("model", structure_names()));
+const StructureKind& kind_of(const TomlDocument& document) {
+  const std::string model = TomlSection(document, "system").text("model", structure_names(document));
+  return find_given(document, model) ? given_structure() : *structure_of(model);
 }
 
 void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
                    const SystemUse& use, ProblemRequest& problem) {
-  const StructureKind& kind = kind_of(section);
+  const StructureKind& kind = kind_of(document);
   const bool has_sizes = std::any_of(kind.sections.begin(), kind.sections.end(),
                                      [](const auto& one) { return one.name == "geometry"; });
   if (has_geometry(document) && !has_sizes)
@@ -208,15 +213,15 @@ void take(FrictionSettings settings, ProblemRequest& problem) {
   problem.system = std::move(settings);
 }
 
-std::vector<std::string> model_names() {
-  std::vector<std::string> names = structure_names();
+std::vector<std::string> model_names(const TomlDocument& document) {
+  std::vector<std::string> names = structure_names(document);
   for (const LibraryModel& model : problems::library()) names.push_back(model.name);
   return names;
 }
 
 std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryModel* model) {
   if (model != nullptr) return listed_keys(library_keys(*model).words(), "system");
-  const StructureKind& kind = kind_of(TomlSection(document, "system"));
+  const StructureKind& kind = kind_of(document);
   std::vector<ListedKey> keys = listed_keys(kind.keys(), "system");
   for (const StructureKind::Section& section : kind.sections) {
     if (!section.is_listed || !document.root().contains(section.name)) continue;
@@ -229,8 +234,32 @@ std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryMo
 }
 
 std::shared_ptr<const Structures> load_structures(const TomlDocument& document) {
-  const StructureKind& kind = kind_of(TomlSection(document, "system"));
+  const StructureKind& kind = kind_of(document);
+  if (&kind == &given_structure())
+    return find_given(document, TomlSection(document, "system").text("model", structure_names(document)));
   return kind.load ? kind.load(document) : nullptr;
+}
+
+std::vector<double> numbers_of_contacts(const TomlSection& section, const std::string& name,
+                                        const NumberRule& rule, std::size_t count) {
+  const toml::table* table = section.table();
+  if (table == nullptr || !(*table)[name].is_array())
+    return std::vector<double>(count, section.number(name, rule));
+  std::vector<double> values = section.numbers(name, rule);
+  if (values.size() != count)
+    section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
+                                   values.size()));
+  return values;
+}
+
+std::vector<SectorContact> sector_contacts(const std::vector<double>& stiffness,
+                                           const std::vector<double>& limit_per_preload) {
+  std::vector<SectorContact> contacts;
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const double k = stiffness[i];
+    contacts.push_back(k > 0 ? SectorContact{k, limit_per_preload[i] / k} : SectorContact{0, never_slips});
+  }
+  return contacts;
 }
 
 NumberRule poisson_rule() {

@@ -24,7 +24,16 @@ const KeyTable<LibrarySettings>& library_keys(const problems::LibraryModel& mode
 /// What for_each may list in [system] and [geometry].
 std::vector<ListedKey> listed_keys(const TomlDocument& document, const problems::LibraryModel* model);
 
-std::vector<std::string> model_names();
+/// What `model` may be in a document.
+std::vector<std::string> model_names(const TomlDocument& document);
+
+/// A number for all contacts, or a list with one for each. Throws InputError.
+std::vector<double> numbers_of_contacts(const TomlSection& section, const std::string& name,
+                                        const NumberRule& rule, std::size_t count);
+
+/// Contacts of these k, which slip where their force is L P; nothing rubs where k is 0.
+std::vector<SectorContact> sector_contacts(const std::vector<double>& stiffness,
+                                           const std::vector<double>& limit_per_preload);
 
 /// What the kind of structure loads of a system with friction; null if nothing. Throws InputError.
 std::shared_ptr<const Structures> load_structures(const TomlDocument& document);

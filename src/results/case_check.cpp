@@ -126,17 +126,19 @@ std::string heading(const CaseFile& file, const std::string& title) {
 /// Of very many the first ones and the last one are shown.
 constexpr std::size_t most_shown = 100;
 
-std::string warned(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
-  return text;
+void add_warnings(const std::vector<std::string>& warnings, CaseCheck& check) {
+  for (const std::string& warning : warnings) {
+    check.text += "warning: " + warning + "\n";
+    check.warnings.push_back(warning);
+  }
 }
 
 /// Adds the branches and, if asked for, how exact their derivatives are; false if one is not.
-bool check_branches(const CaseFile& file, bool derivatives, std::string& text) {
+bool check_branches(const CaseFile& file, bool derivatives, CaseCheck& check) {
   const CasePlan plan = plan_case(file);
+  std::string& text = check.text;
   text += heading(file, plan.title);
-  file.named("system", [&] { text += warned(warnings_of(plan)); });
+  file.named("system", [&] { add_warnings(warnings_of(plan), check); });
   bool good = true;
   for (std::size_t i = 0; i < plan.count; ++i) {
     if (!derivatives && i == most_shown - 1 && plan.count > most_shown) {
@@ -177,15 +179,16 @@ std::string describe(const problems::Uncertainty& uncertainty) {
                      describe(uncertainty.force), uncertainty.samples, uncertainty.seed);
 }
 
-std::string check_study(const CaseFile& file) {
+void check_study(const CaseFile& file, CaseCheck& check) {
   const StudyCase study = read_study(file);
   const problems::PreloadRange& range = study.range;
-  std::string text = heading(file, study.title);
+  std::string& text = check.text;
+  text += heading(file, study.title);
   text += fmt::format("study of {} design{}: {} from {:g} to {:g}, peaks between {} = {:g} and {:g}{}\n",
                       study.count, study.count == 1 ? "" : "s", study.preload_as, range.from, range.to,
                       study.frequency_as, range.eta_low, range.eta_high, study.sweep ? "" : ", no sweep.csv");
   if (study.uncertain) text += fmt::format("  {}\n", describe(*study.uncertain));
-  file.named("system", [&] { text += warned(warnings_of(study)); });
+  file.named("system", [&] { add_warnings(warnings_of(study), check); });
   if (!study.keys.empty()) {
     const nlohmann::ordered_json& for_each = study.resolved["study"]["for_each"];
     for (const std::string& key : study.keys) {
@@ -204,7 +207,6 @@ std::string check_study(const CaseFile& file) {
     if (problem.geometry) text += fmt::format("  {}\n", describe_units(problem));
     if (study.count == 1) break;
   }
-  return text;
 }
 
 }  // namespace
@@ -213,10 +215,10 @@ CaseCheck check_case(const CaseFile& file, bool derivatives) {
   CaseCheck check;
   const bool study = file.has("study");
   const bool branches = file.has("branch");
-  if (study) check.text = check_study(file);
+  if (study) check_study(file, check);
   if (study && !branches && derivatives)
     throw InputError(file.path() + ": branch: missing; --derivatives compares those of branches");
-  check.good = (study && !branches) || check_branches(file, derivatives, check.text);
+  check.good = (study && !branches) || check_branches(file, derivatives, check);
   return check;
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "arcslip/assembly/structures.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -33,6 +35,7 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   if (problem.model != nullptr) return "a model of the library";
   if (!problem.response->in_time) return problem.response->title;
+  if (!structures_of(problem.system).has_equations()) return "structures by their responses alone";
   return branch.curve ? "curves" : "";
 }
 

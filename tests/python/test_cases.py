@@ -7,6 +7,7 @@ import pathlib
 import re
 import textwrap
 import tomllib
+import warnings
 
 import numpy as np
 import pytest
@@ -200,6 +201,32 @@ def test_wrong_input_that_is_in_no_file_names_the_key():
         arcslip.run("missing.toml")
     with pytest.raises(TypeError, match="^case: expected a path"):
         arcslip.run(3)
+
+
+def test_slips_are_warned_of_before_the_work_where_the_call_stands(cases):
+    case = {"case": cases / "rods.toml", "set": ["branch.from=1100", "branch.to=1200"]}
+    calls = [arcslip.check, lambda **case: arcslip.run(**case, progress=lambda *_: pytest.fail("the work has begun"))]
+    for call in calls:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with pytest.raises(arcslip.CaseWarning, match="no resonance of the base or the damper lies from eta = 1100"):
+                call(**case)
+    for call in (arcslip.check, arcslip.run):
+        with pytest.warns(arcslip.CaseWarning, match="no contact slips from P = 1e.09") as told:
+            call(cases / "rods.toml", set=["branch.for_each.preload=[1e9]"])
+        assert [pathlib.Path(one.filename).name for one in told] == ["test_cases.py"]
+
+
+def test_slips_of_studies_are_warned_of(cases):
+    text = (cases / "chart.toml").read_text()
+    study = text[: text.index("for_each")].replace("from = 0.1", "from = 1e6").replace("to = 100.0", "to = 1.1e6")
+    for call in (arcslip.check, arcslip.study):
+        with pytest.warns(arcslip.CaseWarning, match="no contact slips from P = 1e.06 to P = 1.1e.06") as told:
+            call(study)
+        assert {pathlib.Path(one.filename).name for one in told} == {"test_cases.py"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        arcslip.study(text[: text.index("for_each")])
 
 
 def test_what_cannot_be_written_is_an_oserror(cases):

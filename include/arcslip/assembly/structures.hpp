@@ -71,6 +71,10 @@ class Structures {
   /// where there are none.
   virtual std::shared_ptr<const Structures> in_modes() const { return nullptr; }
 
+  /// Whether equations of motion are behind it, which work, lag and motion in time are told by, and not its
+  /// response alone.
+  virtual bool has_equations() const { return true; }
+
   /// How its modes were found, part by part; nothing of what is exact.
   virtual std::vector<PartModes> modes(const SystemParameters& /*system*/) const { return {}; }
 };

@@ -34,6 +34,7 @@ struct CurveRequest {
   bool is_backbone() const { return name == "phase_resonance"; }
 };
 
+class Structures;
 struct StructureKind;
 
 /// The problem that a branch belongs to: one of the library's, or a system with friction.
@@ -94,7 +95,8 @@ class TomlDocument;
 /// What a case that a program gives may name beside files and the kinds that there are.
 struct CaseParts {
   std::map<std::string, std::string> files;  ///< their texts, by the names that stand for them
-  std::vector<std::shared_ptr<const ElementKind>> elements;  ///< for [[element]]
+  std::vector<std::shared_ptr<const ElementKind>> elements;             ///< for [[element]]
+  std::map<std::string, std::shared_ptr<const Structures>> structures;  ///< GivenStructures, for `model`
 };
 
 /// A case file, read once, with `--set` arguments "section.key=value" applied on top.

@@ -13,6 +13,7 @@
 #include "arcslip/results/results.hpp"
 #include "cases/sector_part.hpp"
 #include "cases/structure_kind.hpp"
+#include "cases/system_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -45,17 +46,8 @@ void read_reduction_window(SectorSettings& settings, const TomlSection& section)
 SectorKey::Reader for_contacts(const std::string& name, std::vector<double> SectorSettings::*member,
                                const NumberRule& rule = positive()) {
   return [=](SectorSettings& settings, const TomlSection& section) {
-    const std::size_t count = settings.sectors->base().sector.contacts.size();
-    std::vector<double>& values = settings.*member;
-    const toml::table* table = section.table();
-    if (table == nullptr || !(*table)[name].is_array()) {
-      values.assign(count, section.number(name, rule));
-      return;
-    }
-    values = section.numbers(name, rule);
-    if (values.size() != count)
-      section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
-                                     values.size()));
+    settings.*member =
+        numbers_of_contacts(section, name, rule, settings.sectors->base().sector.contacts.size());
   };
 }
 
@@ -183,9 +175,7 @@ void read_sector(const StructureKind::Source& source, ProblemRequest& problem) {
   sector_keys().read(settings, source.section);
   const std::vector<double>& k = settings.contact_stiffness;
   settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
-  for (std::size_t i = 0; i < count; ++i)
-    settings.contacts.push_back(k[i] > 0 ? SectorContact{k[i], settings.limit_per_preload[i] / k[i]}
-                                         : SectorContact{0, never_slips});
+  settings.contacts = sector_contacts(k, settings.limit_per_preload);
   check_use(source.section, settings);
   take(std::move(settings), problem);
 }

@@ -10,20 +10,23 @@ problems written in Python. Both give `Branch` objects, whose columns are numpy 
 """
 
 from ._branch import Branch, Sample
-from ._cases import Check, Run, Study, check, run, study
+from ._cases import CaseWarning, Check, Run, Study, check, run, study
 from ._core import version as __version__
 from ._cycle import marched
 from ._element import Element
 from ._problem import Problem
+from ._structure import Structure
 from ._trace import solve_all, trace, trace_all
 
 __all__ = [
     "Branch",
+    "CaseWarning",
     "Check",
     "Element",
     "Problem",
     "Run",
     "Sample",
+    "Structure",
     "Study",
     "__version__",
     "check",

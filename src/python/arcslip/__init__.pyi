@@ -124,6 +124,24 @@ class Element:
         samples: int = 512,
     ) -> None: ...
 
+class Structure:
+    name: str
+    base: Callable[[float, int], tuple[ArrayLike, ...]]
+    damper: Callable[[float, int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None
+    contacts: int
+    base_modes: Callable[[int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None
+    damper_modes: Callable[[int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None
+    def __init__(
+        self,
+        name: str,
+        base: Callable[[float, int], tuple[ArrayLike, ...]],
+        damper: Callable[[float, int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None = None,
+        *,
+        contacts: int = 1,
+        base_modes: Callable[[int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None = None,
+        damper_modes: Callable[[int], ArrayLike | tuple[ArrayLike, ArrayLike]] | None = None,
+    ) -> None: ...
+
 def marched(
     step: Callable[..., tuple[ArrayLike, ArrayLike]],
     state: float | Sequence[float] = 0.0,
@@ -212,6 +230,8 @@ class Run:
     def summary(self) -> dict[str, Any]: ...
     def to_csv(self, folder: _Path) -> None: ...
     def plot(self, ax: Any = None, x: str | None = None, y: str | None = None, **style: Any) -> Any: ...
+
+class CaseWarning(UserWarning): ...
 
 class Check:
     text: str

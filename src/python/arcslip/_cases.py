@@ -12,18 +12,26 @@ from ._stored import stored_branches, table_of
 from ._toml import to_toml
 
 
+class CaseWarning(UserWarning):
+    """What a case asks for holds nothing of what it is likely meant for: no resonance, or nothing that slips."""
+
+
+def _warn(text):
+    warnings.warn(text, CaseWarning, stacklevel=3)
+
+
 def _open(case, settings):
     if isinstance(settings, str):
         settings = [settings]
     settings = [str(setting) for setting in settings]
     if isinstance(case, dict):
         text, parts = to_toml(case)
-        return _core.open_case("<dict>", text, settings, parts.files, parts.elements)
+        return _core.open_case("<dict>", text, settings, parts.files, parts.elements, parts.structures)
     if isinstance(case, str) and "\n" in case:
-        return _core.open_case("<text>", case, settings, {}, [])
+        return _core.open_case("<text>", case, settings, {}, [], {})
     if not isinstance(case, (str, os.PathLike)):
         raise TypeError(f"case: expected a path, TOML text or a dict, got {case!r}")
-    return _core.open_case(os.fsdecode(case), None, settings, {}, [])
+    return _core.open_case(os.fsdecode(case), None, settings, {}, [], {})
 
 
 def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, progress=None):
@@ -33,7 +41,7 @@ def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, pro
     ----------
     case : str, path or dict
         A case file's path, its text (of two lines or more), or the same as a dict of sections. In a dict matrices
-        may be arrays of numpy or scipy.sparse, and a kind of element an `Element`.
+        may be arrays of numpy or scipy.sparse, a kind of element an `Element`, and the model a `Structure`.
     out : path, optional
         A folder for the files of `arcslip run`: branches.csv, curves.csv and summary.json, written as the
         branches come.
@@ -62,6 +70,11 @@ def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, pro
         The case is wrong: the line that the program says, which names file, line, column and key.
     OSError
         A file cannot be written.
+
+    Warns
+    -----
+    CaseWarning
+        Before the work, of a window without resonance and of preloads at which nothing slips.
     """
     file = _open(case, set)
     before, folder = None, ""
@@ -74,7 +87,7 @@ def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, pro
     if folder and out is not None and os.path.abspath(os.fsdecode(out)) != os.path.abspath(folder):
         raise ValueError(f"out: {os.fsdecode(out)}; a run that is resumed from {folder} goes on there")
     out = folder or (None if out is None else os.fsdecode(out))
-    core = _core.run(file, out, verify, certify, folder, before, progress)
+    core = _core.run(file, out, verify, certify, folder, before, progress, _warn)
     result = Run(core, out)
     for failure in core.failures:
         warnings.warn(failure, RuntimeWarning, stacklevel=2)
@@ -176,8 +189,16 @@ def check(case, set=(), *, derivatives=False):
     ------
     ValueError
         The case is wrong, in the words of the program.
+
+    Warns
+    -----
+    CaseWarning
+        As `run`; the text has the same.
     """
-    return Check(*_core.check(_open(case, set), derivatives))
+    text, good, slips = _core.check(_open(case, set), derivatives)
+    for slip in slips:
+        _warn(slip)
+    return Check(text, good)
 
 
 class Check:
@@ -228,11 +249,16 @@ def study(case, out=None, set=(), *, jobs=0, resume=False, progress=None):
     ------
     ValueError, OSError
         As `run`.
+
+    Warns
+    -----
+    CaseWarning
+        As `run`.
     """
     file = _open(case, set)
     folder = tempfile.mkdtemp(prefix="arcslip-") if out is None else os.fsdecode(out)
     try:
-        outcome = _core.study(file, folder, jobs, resume, progress)
+        outcome = _core.study(file, folder, jobs, resume, progress, _warn)
         result = Study(outcome, folder)
     finally:
         if out is None:

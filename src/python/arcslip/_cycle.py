@@ -11,15 +11,15 @@ _AGREE = 1e-4
 def marched(step, state=0.0, *, most_periods=200):
     """A force with memory, for `Element`, from a law with states.
 
-    The law is marched from rest to the motion's largest displacement and from there over as many periods as it takes
-    for the state to come back to within 1e-12.
+    The law is marched from rest to the motion's largest displacement and from there over half periods until the state
+    is what it was, with the other sign, to within 1e-12.
 
     Parameters
     ----------
     step : callable
         (x, before, state, **settings) -> (force, state): the displacements now and a sample before, arrays with one
-        entry for each motion that is marched, and the state. It takes numpy's functions of arrays, as np.clip and
-        np.where, in place of `if`.
+        entry for each motion that is marched, and the state. It takes numpy's functions of arrays, as np.minimum and
+        np.where, in place of `if`, and is odd: with the signs of all three turned it gives both with theirs turned.
     state : float or sequence of float
         At rest. Of one number the state has the shape of x, of k it is an array (k, motions).
     most_periods : int
@@ -36,7 +36,7 @@ def marched(step, state=0.0, *, most_periods=200):
 
     >>> import arcslip, numpy as np
     >>> def step(x, before, f, k, limit):
-    ...     f = np.clip(f + k * (x - before), -limit, limit)
+    ...     f = np.minimum(np.maximum(f + k * (x - before), -limit), limit)
     ...     return f, f
     >>> slider = arcslip.Element("slider", arcslip.marched(step), settings={"k": None, "limit": None}, memory=True)
     """
@@ -48,30 +48,58 @@ def marched(step, state=0.0, *, most_periods=200):
 
     def force(x, **settings):
         now = np.zeros((*at_rest.shape, x.shape[1]), x.dtype) + at_rest[..., None]
-        before, forces = np.zeros_like(x[0]), np.empty_like(x)
-        rise = np.linspace(0, 1, len(x) // 4 + 1)[1:, None] * x[0]
-        _require(step(rise[0], before, now, **settings), now.shape, x[0].shape)
-        for one in rise:
-            _, now = step(one, before, now, **settings)
-            before = one
+        half = len(x) // 2
+        rise = list(np.linspace(0, 1, half // 2 + 1)[:, None] * x[0])
+        _require(step, rise[1], now, settings)
+        now = _passed(step, rise, now, settings)[1]
+        there, back = list(x[: half + 1]), [*x[half:], x[0]]
         for _ in range(most_periods):
             begin = now
-            for i in range(1, len(x) + 1):
-                forces[i % len(x)], now = step(x[i % len(x)], before, now, **settings)
-                before = x[i % len(x)]
-            if _is_back(begin, now):
-                return forces
-        raise ValueError(f"marched: the state has not come back after {most_periods} periods, from {begin} to {now}")
+            first, middle = _passed(step, there, begin, settings)
+            second, end = _passed(step, back, middle, settings)
+            if _is_back(begin, -middle):
+                return np.array([second[-1], *first, *second[:-1]])
+            now = _extrapolated(begin, -middle, end)
+        raise ValueError(
+            f"marched: the state has not come back after {most_periods} periods, half a period from {begin} to {middle}"
+        )
 
     return force
 
 
-def _require(given, state, force):
+def _passed(step, way, state, settings):
+    """The forces on a way after its first place, and the state at its end."""
+    before, forces = way[0], []
+    for one in way[1:]:
+        force, state = step(one, before, state, **settings)
+        forces.append(force)
+        before = one
+    return forces, state
+
+
+def _require(step, x, state, settings):
+    """Refuses what a step returns that is no force and state, or that is not odd."""
+    given = step(x, 0 * x, state, **settings)
     if not isinstance(given, tuple) or len(given) != 2:
         raise ValueError(f"marched: step: expected a tuple (force, state), got {given!r}")
-    for name, one, shape in zip(("force", "state"), given, (force, state)):
+    mirrored = step(-x, 0 * x, -state, **settings)
+    for name, one, other, shape in zip(("force", "state"), given, mirrored, (x.shape, state.shape)):
         if np.shape(one) != shape:
             raise ValueError(f"marched: step: {name}: expected shape {shape}, got shape {np.shape(one)}")
+        if np.any(np.abs(one + other) > _ODD * np.abs(one)):
+            raise ValueError(
+                f"marched: step: {name}: expected {-np.ravel(one)[0]:.6g} for x = {-x[0]:.6g} and the state "
+                f"{-np.ravel(state)[0]:.6g}, as it is {np.ravel(one)[0]:.6g} for both without the sign, got "
+                f"{np.ravel(other)[0]:.6g}"
+            )
+
+
+def _extrapolated(state, after_one, after_two):
+    """By Aitken: over half periods, their sign turned, slow laws alternate round the state that comes back."""
+    first, second = after_one - state, after_two - after_one
+    change = second - first
+    is_good = np.abs(change) >= 0.5 * np.abs(first)
+    return np.where(is_good & (change != 0), state - first**2 / np.where(change == 0, 1, change), after_two)
 
 
 def _is_back(begin, now):

@@ -63,15 +63,15 @@ class Element:
             (name, None if value is None else float(value), name in scales_force)
             for name, value in self.settings.items()
         ]
-        self._is_checked = False
-        self._complex = False
+        self._checked_to = 0.0  # the largest displacement
+        self._complex = True
 
     def __repr__(self):
         return f"<arcslip.Element '{self.kind}' of {', '.join(['x', *self.settings])}>"
 
     def _sampled(self, x, values, varied, derivatives):
         """What the engine asks for: f; df/dx, (df/ds); with two derivatives f, f', f'', f_s, f'_s, f_ss."""
-        if not self._is_checked and derivatives:
+        if derivatives and self._is_new(x):
             self._check(x, values)
         force = self._call("force", self.force, x, values)
         if not derivatives:
@@ -94,9 +94,8 @@ class Element:
         """What the engine asks for: the force of a settled cycle; its changes along the rows of ways, (df/ds)."""
         if not derivatives:
             return [self._force_at(x[:, None], values)[:, 0]]
-        if not self._is_checked:
-            self._complex = check_cycle(self, x, ways.T, values)
-            self._is_checked = True
+        if self._is_new(x):
+            self._complex = check_cycle(self, x, ways.T, values) and self._complex
         force, changes = self._along(x, ways.T, values)
         if varied < 0:
             return [force, changes]
@@ -108,6 +107,14 @@ class Element:
             changes = self._call("slope", self.slope, at, values, ways)
             return self._force_at(x[:, None], values)[:, 0], changes
         return (complex_changes if self._complex else changes_by_differences)(self._force_at, x, ways, values)
+
+    def _is_new(self, x):
+        """Whether it was not checked at displacements as large, where what is not linear shows."""
+        largest = np.max(np.abs(x), initial=0)
+        if largest <= 2 * self._checked_to:
+            return False
+        self._checked_to = largest
+        return True
 
     def _call(self, name, function, x, values, *more):
         settings = dict(zip(self.settings, values.tolist()))
@@ -163,7 +170,7 @@ class Element:
                 f"and f({-x[worst]:.6g}) = {mirrored[worst]:.6g}"
             )
         differences = self._differences(x, values)
-        self._complex = self._takes_complex(x, values, differences)
+        self._complex = self._complex and self._takes_complex(x, values, differences)
         if self.slope is not None:
             slope = self._call("slope", self.slope, x, values)
             wrong = np.abs(slope - differences)
@@ -173,7 +180,6 @@ class Element:
                     f"element '{self.kind}': slope: {slope[worst]:.6g} at x = {x[worst]:.6g}, where differences of "
                     f"force give {differences[worst]:.6g}"
                 )
-        self._is_checked = True
 
     def _takes_complex(self, x, values, differences):
         tiny = np.max(np.abs(x)) * 1e-30

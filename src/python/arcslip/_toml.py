@@ -8,6 +8,7 @@ import re
 import numpy as np
 
 from ._element import Element
+from ._structure import Structure
 
 
 class Parts:
@@ -18,11 +19,13 @@ class Parts:
     files : dict
         Texts of matrices, as Matrix Market files have them.
     elements : list of Element
+    structures : dict of Structure
     """
 
     def __init__(self):
         self.files = {}
         self.elements = []
+        self.structures = {}
 
     def matrix(self, given, name):
         """The name under which a matrix goes."""
@@ -37,6 +40,13 @@ class Parts:
                 raise ValueError(f"element '{given.kind}': two different ones have this name")
             self.elements.append(given)
         return given.kind
+
+    def structure(self, given):
+        """The name of its model."""
+        if self.structures.get(given.name, given) is not given:
+            raise ValueError(f"structure '{given.name}': two different ones have this name")
+        self.structures[given.name] = given
+        return given.name
 
 
 def _matrix_market(given, name):
@@ -64,7 +74,7 @@ def to_toml(case):
     case : dict
         As a case file is read: strings, numbers, booleans, lists and dicts of these; numpy's as well. Matrices of
         numpy, in two dimensions, and of scipy.sparse stand where the name of a file would, an `Element` where the
-        name of a kind of element would.
+        name of a kind of element would, a `Structure` where that of a model would.
 
     Returns
     -------
@@ -107,6 +117,8 @@ def _text(text):
 def _value(value, name, parts):
     if isinstance(value, Element):
         return _text(parts.element(value))
+    if isinstance(value, Structure):
+        return _text(parts.structure(value))
     if hasattr(value, "tocoo") or np.ndim(value) == 2 and isinstance(value, np.ndarray):
         return _text(parts.matrix(value, name))
     if hasattr(value, "tolist"):  # of numpy

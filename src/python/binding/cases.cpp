@@ -8,7 +8,10 @@
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/certification.hpp"
 #include "arcslip/version.hpp"
+#include "cases/case_warnings.hpp"
+#include "cases/structure_kind.hpp"
 #include "python/binding/own_element.hpp"
+#include "python/binding/own_structure.hpp"
 #include "python/binding/run.hpp"
 #include "results/case_check.hpp"
 #include "results/output.hpp"
@@ -25,7 +28,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A case with what its elements raise.
+/// A case with what its functions raise.
 struct OpenCase {
   CaseFile file;
   std::shared_ptr<Raised> raised;
@@ -33,17 +36,23 @@ struct OpenCase {
 
 OpenCase open_case(const std::string& name, const std::optional<std::string>& text,
                    const std::vector<std::string>& settings, std::map<std::string, std::string> files,
-                   const py::list& elements) {
+                   const py::list& elements, const py::dict& structures) {
   auto raised = std::make_shared<Raised>();
   auto parts = std::make_shared<CaseParts>();
   parts->files = std::move(files);
   for (const py::handle element : elements)
     parts->elements.push_back(kind_of(py::reinterpret_borrow<py::object>(element), raised));
+  for (const auto& [model, structure] : structures) {
+    const auto taken = model.cast<std::string>();
+    if (structure_of(taken) != nullptr || problems::find_model(taken) != nullptr)
+      throw py::value_error(fmt::format("structure '{}': there is a model of this name", taken));
+    parts->structures[taken] = structures_of(py::reinterpret_borrow<py::object>(structure), raised);
+  }
   const py::gil_scoped_release unlocked;
   return {text ? CaseFile::of_text(name, *text, settings, parts) : CaseFile(name, settings), raised};
 }
 
-/// Work without the lock; what elements raise comes before what becomes of it.
+/// Work without the lock; what functions raise comes before what becomes of it.
 template <class Work>
 auto unlocked(const OpenCase& opened, const Work& work) {
   try {
@@ -59,6 +68,13 @@ auto unlocked(const OpenCase& opened, const Work& work) {
   }
 }
 
+/// Tells what a case is warned of; with the lock, without which it is called. What `warn` raises ends the
+/// work.
+void tell(const py::object& warn, const std::vector<std::string>& warnings) {
+  const py::gil_scoped_acquire lock;
+  for (const std::string& one : warnings) warn(one);
+}
+
 /// What a study leaves beside its files.
 struct StudyOutcome {
   bool interrupted = false;
@@ -72,12 +88,14 @@ struct StudyOptions {
   std::string folder;
   std::size_t jobs = 0;  ///< 0: one for each core
   bool resume = false;
+  const py::object* warn = nullptr;
 };
 
 /// Without the lock.
 StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Interruption& interruption) {
   const StudyCase study = read_study(file);
   file.named("system", [&] { build(study.design(0).problem()); });
+  tell(*options.warn, warnings_of(study));
   const Clock::time_point start = Clock::now();
   const OutputFolder held(options.folder);
   StudyStore store(options.folder, study, options.resume);
@@ -116,10 +134,10 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
 }
 
 StudyOutcome run_study(const OpenCase& opened, const std::string& folder, std::size_t jobs, bool resume,
-                       const py::object& progress) {
+                       const py::object& progress, const py::object& warn) {
   Interruption interruption(progress, opened.raised);
   StudyOutcome outcome = unlocked(opened, [&] {
-    return study_case(opened.file, {folder, jobs, resume}, interruption);
+    return study_case(opened.file, {folder, jobs, resume, &warn}, interruption);
   });
   interruption.rethrow();
   return outcome;
@@ -127,15 +145,17 @@ StudyOutcome run_study(const OpenCase& opened, const std::string& folder, std::s
 
 py::tuple check(const OpenCase& opened, bool derivatives) {
   const CaseCheck found = unlocked(opened, [&] { return check_case(opened.file, derivatives); });
-  return py::make_tuple(found.text, found.good);
+  return py::make_tuple(found.text, found.good, found.warnings);
 }
 
 std::shared_ptr<CaseRun> run_case(const OpenCase& opened, const std::optional<std::string>& folder,
                                   bool verify, bool certify, const std::string& resumed,
-                                  const std::shared_ptr<CaseRun>& before, const py::object& progress) {
+                                  const std::shared_ptr<CaseRun>& before, const py::object& progress,
+                                  const py::object& warn) {
   Interruption interruption(progress, opened.raised);
   auto run = unlocked(opened, [&] {
     auto begun = std::make_shared<CaseRun>(opened.file, RunWishes{verify, certify, resumed, before});
+    tell(warn, begun->warnings());
     begun->trace(folder, interruption);
     return begun;
   });

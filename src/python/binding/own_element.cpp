@@ -12,31 +12,7 @@
 
 namespace arcslip::python {
 
-void Raised::note(std::exception_ptr error) {
-  const std::scoped_lock lock(mutex_);
-  if (!error_) error_ = std::move(error);
-  any_ = true;
-}
-
-void Raised::rethrow() {
-  std::exception_ptr error;
-  {
-    const std::scoped_lock lock(mutex_);
-    error = std::exchange(error_, nullptr);
-    any_ = false;
-  }
-  if (error) std::rethrow_exception(error);
-}
-
 namespace {
-
-/// What may be dropped by threads without the interpreter's lock.
-std::shared_ptr<const py::object> kept(const py::object& object) {
-  return {new py::object(object), [](const py::object* last) {
-            const py::gil_scoped_acquire lock;
-            delete last;
-          }};
-}
 
 /// The functions of an element with values of its settings, one of which may be continued.
 class Functions {
@@ -58,22 +34,10 @@ class Functions {
   /// Of its attributes, with the lock held.
   py::object attribute(const char* name) const { return element_->attr(name); }
 
-  /// Runs `work` with the lock, anew where Ctrl-C ended it; what it raises is kept.
+  /// See Raised::watch.
   template <class Work>
   void call(const Work& work) const {
-    const py::gil_scoped_acquire lock;
-    try {
-      try {
-        work();
-      } catch (py::error_already_set& error) {
-        if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-        raised_->interrupted = true;  // the work ends at its next point
-        work();
-      }
-    } catch (...) {
-      raised_->note(std::current_exception());
-      throw;
-    }
+    raised_->watch(work);
   }
 
  private:
@@ -96,8 +60,8 @@ class PythonLaw final : public SampledLaw {
  private:
   void fill(const Vector& x, int derivatives, LawSamples& out) const {
     const Jet& rate = functions_.rate();
-    const auto given = py::cast<py::list>(functions_.attribute("_sampled")(
-        give(x), give(functions_.values()), functions_.varied(), derivatives));
+    const auto given = py::cast<py::list>(functions_.attribute("_sampled")(give(x), give(functions_.values()),
+                                                                           functions_.varied(), derivatives));
     auto next = [&, at = std::size_t{0}](Vector& values) mutable {
       values.resize(x.size());
       take(given[at++], "force", values);

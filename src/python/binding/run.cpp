@@ -7,6 +7,7 @@
 
 #include "arcslip/cases/certification.hpp"
 #include "arcslip/version.hpp"
+#include "cases/case_warnings.hpp"
 #include "results/output_folder.hpp"
 #include "results/summary_file.hpp"
 
@@ -73,6 +74,12 @@ void CaseRun::add(Entry entry) {
     failures_.push_back(entry.failure);
   }
   entries_.push_back(std::move(entry));
+}
+
+std::vector<std::string> CaseRun::warnings() const {
+  std::vector<std::string> all;
+  file_.named("system", [&] { all = warnings_of(plan_); });
+  return all;
 }
 
 void CaseRun::trace(const std::optional<std::string>& folder, Interruption& interruption) {

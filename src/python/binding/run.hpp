@@ -33,6 +33,9 @@ class CaseRun {
   /// Throws InputError, OutputError.
   void trace(const std::optional<std::string>& folder, Interruption& interruption);
 
+  /// What the case is warned of before the work.
+  std::vector<std::string> warnings() const;
+
   const std::vector<std::shared_ptr<BranchHandle>>& branches() const { return branches_; }
   /// verify.csv of those that were verified, by their number among `branches`.
   std::map<std::size_t, std::string> verifications() const;
