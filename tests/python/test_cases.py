@@ -212,8 +212,8 @@ def test_slips_are_warned_of_before_the_work_where_the_call_stands(cases):
             with pytest.raises(arcslip.CaseWarning, match="no resonance of the base or the damper lies from eta = 1100"):
                 call(**case)
     for call in (arcslip.check, arcslip.run):
-        with pytest.warns(arcslip.CaseWarning, match="no contact slips from P = 1e.09") as told:
-            call(cases / "rods.toml", set=["branch.for_each.preload=[1e9]"])
+        with pytest.warns(arcslip.CaseWarning, match="no contact slips from P = 1e.06") as told:
+            call(cases / "preload_response.toml", set=["branch.from=2e6", "branch.to=1e6"])
         assert [pathlib.Path(one.filename).name for one in told] == ["test_cases.py"]
 
 
