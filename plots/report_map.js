@@ -84,7 +84,7 @@ function scaleKey({ ends }, value) {
 function mapPicture(parent, model) {
   const table = model.study.optimum;
   const [across, up] = model.differs.map((key) => mapAxis(model, key));
-  const shown = known(table, model.isSI ? ["ratio_opt", "preload_N_per_m", "Y_m", "frequency_Hz"] : ["ratio_opt", "P_opt", "eta_opt", "Y_opt"]);
+  const shown = known(table, model.isSI ? ["ratio_opt", model.preload, "Y_m", "frequency_Hz"] : ["ratio_opt", "P_opt", "eta_opt", "Y_opt"]);
   const column = (name) => scaledColumn(table, name, model.system);
   const isLog = (name) => wantsLog(table.columns[name]);
   picture(parent, { name: "map", title: "Best preload over two keys",

@@ -41,7 +41,7 @@ function robustTraces(model, design, x, y, state) {
   if (i < 0 || columns.P_q95[i] === null) return [];
   const metres = state.y === "Y_m" ? columns.Y_q95_m[i] / columns.Y_q95[i] : 1;
   const height = (name) => (state.y === "ratio" ? columns[name.replace("Y", "ratio")][i] : columns[name][i] * metres) / y.size;
-  const scale = state.x === "preload_N_per_m" ? columns.preload_N_per_m[i] / columns.P_q95[i] : 1;
+  const scale = state.x === model.preload ? columns[model.preload][i] / columns.P_q95[i] : 1;
   const point = (type, preload, value) => ({ type: "scatter", mode: "markers", keys: [design.key, `type ${type}`], rows: [null],
     x: [preload * scale], y: [value], marker: { ...markerOf(type), size: 11 },
     hovertemplate: `<b>${types[type][0]}</b>, ${design.label}<br>95 % stay below %{y:.6~g} ${unitText(y.unit)}` +
@@ -69,7 +69,7 @@ function quantilesPicture(parent, model) {
   const lines = levels.map((level) => ({ key: `q ${level}`, label: `${level} % stay below`,
     sample: { width: level === middle ? 2.6 : 1.4, dash: dashOf(level, middle) } }));
   studyPicture(parent, model, { name: "quantiles", title: "The highest peak under scatter", table, panel,
-    xs: model.isSI ? ["preload_N_per_m", "P"] : ["P"], ys: known(table, model.isSI ? ["Y_m", "ratio"] : ["ratio", "Y"]),
+    xs: model.isSI ? [model.preload, "P"] : ["P"], ys: known(table, model.isSI ? ["Y_m", "ratio"] : ["ratio", "Y"]),
     hidden: designs.slice(mostBands).map((design) => design.key),
     note: "Of all that are made for a preload so many per cent stay below a line; the band lies between the lowest and the highest quantile.",
     key: () => [["Designs", designKey(designs)],

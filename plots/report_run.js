@@ -118,10 +118,9 @@ function runKey(model, panels) {
 function tellRow(model, row) {
   const { columns } = model.table;
   const branch = model.branches[columns.branch[row]];
-  const unit = (name) => (/_(m|J|Hz|N_per_m)$/.test(name) ? ` ${describe(name).unit}` : "");
   const numbers = Object.keys(columns)
     .filter((name) => !["branch", "point", "type", "regime", "arclength"].includes(name) && !/_h\d+$/.test(name))
-    .map((name) => `${symbolOf(name)} = ${short(columns[name][row], 6)}${unit(name)}`);
+    .map((name) => `${symbolOf(name)} = ${short(columns[name][row], 6)}${unitOfColumn(name)}`);
   const type = columns.type[row] === "regular" ? "" : `, ${columns.type[row].replaceAll("_", " ")}`;
   return `<b>${branch ? branch.label : ""}</b>, ${harmless(columns.regime[row] + type)}: ${numbers.join(", ")}`;
 }
@@ -145,7 +144,7 @@ function runPicture(parent, model, name, heading, { xs, ys, x, y, panelsOf, logX
 
 // ---- Which pictures there are ----
 
-const inUnits = { eta: "frequency_Hz", P: "preload_N_per_m", Y: "Y_m", U: "U_m", R: "R_m", dissipated: "dissipated_J" };
+const inUnits = { eta: "frequency_Hz", Y: "Y_m", U: "U_m", R: "R_m", dissipated: "dissipated_J" };
 
 function harmonicsPicture(parent, model, numeric, x) {
   const harmonics = numeric.filter((name) => /^[YUR](_\d+)?_h\d+$/.test(name));
@@ -187,9 +186,10 @@ function runPictures(parent, run) {
   const varies = (name) => { const [low, high] = extent(columns[name]); return high > low; };
   const told = ["branch", "point", "type", "regime", "unstable", "stable", "worst_wave", "growth_error"];
   const numeric = Object.keys(columns).filter((name) => !told.includes(name) && columns[name].some((value) => typeof value === "number"));
-  const best = (name) => (numeric.includes("frequency_Hz") && inUnits[name]) || name;
+  const preload = preloadIn(columns);
+  const best = (name) => (numeric.includes("frequency_Hz") && (name === "P" ? preload : inUnits[name])) || name;
   const across = branch.curve ? branch.parameters : [branch.parameter];
-  const common = [...across, ...across.map(best), "eta", "P", "R_over_S", "frequency_Hz", "preload_N_per_m", "arclength"];
+  const common = [...across, ...across.map(best), "eta", "P", "R_over_S", "frequency_Hz", preload, "arclength"];
   const xs = numeric.filter((name) => varies(name) && (!model.isFriction || common.includes(name)));
   const ys = numeric.filter((name) => name !== "arclength" && varies(name));
   for (const [name, heading, x, y] of chosenPictures(model, best, ys)) {

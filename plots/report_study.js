@@ -13,8 +13,9 @@ function studyModel(study) {
   // What is lowered is compared with the free base where that is known, as in the answer.
   const measure = columns.ratio_opt.some((ratio) => ratio !== null) ? columns.ratio_opt : columns.Y_opt;
   const best = measure.reduce((least, value, i) => (value !== null && (least < 0 || value < measure[least]) ? i : least), -1);
-  const isSI = (study.summary.case.study.objective ?? "Y") === "Y" && "preload_N_per_m" in columns;
-  return { study, system: study.summary.case.system, keys, differs, designs, isSI, best };
+  const preload = preloadIn(columns);
+  const isSI = (study.summary.case.study.objective ?? "Y") === "Y" && preload !== undefined;
+  return { study, system: study.summary.case.system, keys, differs, designs, isSI, preload, best };
 }
 
 function rowsBy(column) {
@@ -73,15 +74,14 @@ function peaksPicture(parent, model) {
   const panel = (x, y, state) => ({ title: y.title, traces: [
     ...designs.flatMap((design) => peakTraces(table, design, x, y, state, designs.length > 1)),
     ...specialTraces(table, designs.flatMap((design) => design.rows), x.values, y.values, hoverOf(y, x))] });
-  const told = known(table, ["P", "preload_N_per_m", "eta_peak", "frequency_Hz", "Y_max", "Y_m", "ratio", "R_over_S"]);
+  const told = known(table, ["P", model.preload, "eta_peak", "frequency_Hz", "Y_max", "Y_m", "ratio", "R_over_S"]);
   const tell = (row) => {
     const design = model.designs.find(({ curve }) => curve === columns.curve[row]);
-    const numbers = told.map((name) => `${title(describe(name, model.system), "")} ${short(columns[name][row], 6)}` +
-      `${/_(m|Hz|N_per_m)$/.test(name) ? ` ${describe(name).unit}` : ""}`);
+    const numbers = told.map((name) => `${title(describe(name, model.system), "")} ${short(columns[name][row], 6)}${unitOfColumn(name)}`);
     return `<b>${design.label}</b>, ${harmless(columns.type[row])}: ${numbers.join(", ")}`;
   };
   studyPicture(parent, model, { name: "peaks", title: "Peaks over the preload", table, panel, tell,
-    hidden: designs.length > mostAtOnce ? ["others"] : [], xs: model.isSI ? ["preload_N_per_m", "P"] : ["P"],
+    hidden: designs.length > mostAtOnce ? ["others"] : [], xs: model.isSI ? [model.preload, "P"] : ["P"],
     ys: known(table, [...heights, "eta_peak", "frequency_Hz", "R_over_S", "dissipated"]),
     note: designs.length < model.designs.length ? `The first ${designs.length} of ${model.designs.length} designs are drawn.` : "",
     key: () => [["Designs", designKey(designs)], ["Lines", peakLines], ["Points", specialKey(table)]] });
@@ -89,7 +89,8 @@ function peaksPicture(parent, model) {
 
 // ---- The best preload over a key ----
 
-const limits = { P_opt: ["P_low", "P_high"], preload_N_per_m: ["preload_low_N_per_m", "preload_high_N_per_m"] };
+const limits = { P_opt: ["P_low", "P_high"], preload_N: ["preload_low_N", "preload_high_N"],
+  preload_N_per_m: ["preload_low_N_per_m", "preload_high_N_per_m"] };
 
 function optimumPicture(parent, model) {
   const table = model.study.optimum;
@@ -107,7 +108,7 @@ function optimumPicture(parent, model) {
   };
   studyPicture(parent, model, { name: "optimum", title: `Best preload over ${plainText(describe(key, model.system).words || symbolOf(key))}`,
     table, panel, besides: (y) => limits[y] || [], xs: [key],
-    ys: known(table, model.isSI ? ["preload_N_per_m", "Y_m", "ratio_opt"] : ["P_opt", "ratio_opt", "Y_opt"]),
+    ys: known(table, model.isSI ? [model.preload, "Y_m", "ratio_opt"] : ["P_opt", "ratio_opt", "Y_opt"]),
     key: (state) => [["Lines", [{ key: "optimum", label: "each design", sample: keyOf(look) },
       ...(limits[state.y] ? [{ key: "band", label: "highest peak within a factor 2 of the lowest", sample: { fill: areaOf(look) } }] : [])]]] });
 }

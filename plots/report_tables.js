@@ -103,12 +103,12 @@ function verification(run) {
 // ---- A study ----
 
 const mainColumns = ["P_opt", "P_low", "P_high", "eta_opt", "Y_opt", "Y_nd_max", "ratio_opt", "R_over_S", "zeta_eq", "kind"];
-const mainColumnsSI = ["preload_N_per_m", "preload_low_N_per_m", "preload_high_N_per_m", "frequency_Hz", "Y_m", "Y_nd_max_m",
+const mainColumnsSI = (preload) => [preload, ...limits[preload], "frequency_Hz", "Y_m", "Y_nd_max_m",
   "ratio_opt", "P_opt", "eta_opt", "Y_opt", "R_over_S", "zeta_eq", "kind"];
 
 function studyTables(study, model) {
   const rows = rowsOf(study.optimum);
-  const main = filled([...model.keys, ...(model.isSI ? mainColumnsSI : mainColumns)], rows);
+  const main = filled([...model.keys, ...(model.isSI ? mainColumnsSI(model.preload) : mainColumns)], rows);
   const parts = [heading(3, "Best preloads"), ...tableOf("optimum", main, rows, { system: model.system, best: model.best }),
     element("details", {}, element("summary", {}, "All columns of optimum.csv"),
       ...tableOf("optimum-all", Object.keys(study.optimum.columns), rows))];

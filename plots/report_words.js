@@ -11,6 +11,7 @@ const quantities = {
   eta: ["frequency", "η", "Hz?"], frequency_Hz: ["frequency", "f", "Hz"],
   P: ["preload", "P", "?"], preload_N_per_m: ["preload", "p<sub>0</sub>", "N/m"],
   preload_low_N_per_m: ["lower end", "p<sub>0</sub>", "N/m"], preload_high_N_per_m: ["upper end", "p<sub>0</sub>", "N/m"],
+  preload_N: ["preload", "P", "N"], preload_low_N: ["lower end", "P", "N"], preload_high_N: ["upper end", "P", "N"],
   R: ["relative amplitude", "R", "m?"], R_m: ["relative amplitude", "R", "m"],
   S: ["slip threshold", "S", "m?"], S_m: ["slip threshold", "S", "m"],
   R_over_S: ["relative amplitude over slip threshold", "R/S", "1"],
@@ -51,9 +52,15 @@ const types = { switch: ["switch of stick and slip", "circle"], peak: ["peak", "
 
 // Heads of columns in tables, where a symbol alone would not tell them apart.
 const heads = { P_opt: "best P", P_low: "P from", P_high: "P to", preload_N_per_m: "p<sub>0</sub> [N/m]", preload_low_N_per_m: "from [N/m]",
-  preload_high_N_per_m: "to [N/m]", eta_opt: "at η", Y_opt: "highest peak Y", Y_nd_max: "free base Y", Y_m: "Y [m]", Y_nd_max_m: "free base [m]",
+  preload_high_N_per_m: "to [N/m]", preload_N: "P [N]", preload_low_N: "from [N]", preload_high_N: "to [N]", eta_opt: "at η", Y_opt: "highest peak Y", Y_nd_max: "free base Y", Y_m: "Y [m]", Y_nd_max_m: "free base [m]",
   eta_peak: "at η", curve: "design", P_q95: "best P", Y_q95: "95 % below Y", Y_q95_m: "95 % below [m]", ratio_q95: "ratio",
   Y_q95_opt: "Y at P<sub>opt</sub>", ratio_q95_opt: "ratio at P<sub>opt</sub>", power_error: "error of power", motion_error: "error of motion" };
+
+// The preload in SI units, of rings per length: its column among these, or undefined.
+const preloadIn = (columns) => ["preload_N_per_m", "preload_N"].find((name) => name in columns);
+
+// The unit of a column that is in one, after a space.
+const unitOfColumn = (name) => (/_(m|J|Hz|N_per_m|N)$/.test(name) ? ` ${describe(name).unit}` : "");
 
 function symbolOf(name) {
   if (quantities[name]) return quantities[name][1];

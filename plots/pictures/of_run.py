@@ -6,13 +6,13 @@ from . import words
 from .draw import Quantity, Sheet
 from .run import followed
 from .axes import is_wide, spread, with_room
-from .tables import unknown_column
+from .tables import PRELOADS, unknown_column
 
 LINES = {
     **{"fold": "folds", "branch_point": "branch points", "hopf": "Hopf points", "peak": "peaks", "trough": "troughs"},
     **{"switch": words.R_IS_S, "phase_resonance": "phase resonances"},
 }
-SI = {"eta": "frequency_Hz", "P": "preload_N_per_m", "Y": "Y_m", "U": "U_m", "R": "R_m"}
+SI = {"eta": ["frequency_Hz"], "P": PRELOADS, "Y": ["Y_m"], "U": ["U_m"], "R": ["R_m"]}
 
 
 class PicturesOfRun:
@@ -46,11 +46,11 @@ class PicturesOfRun:
 
     def x_column(self, parameter):
         """In SI units where the table has them."""
-        return SI[parameter] if parameter in SI and SI[parameter] in self.data.table.columns else parameter
+        return next((name for name in SI.get(parameter, []) if name in self.data.table.columns), parameter)
 
     def y_column(self, name):
-        column = SI.get(name, name)
-        if column not in self.data.table.columns:
+        column = self.x_column(name)
+        if column == name:
             return name
         (values,) = self.data.columns(column)
         return words.well_sized(column, np.nanmax(np.abs(values), initial=0))

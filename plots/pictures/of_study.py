@@ -85,10 +85,10 @@ class PicturesOfStudy:
         return Sheet(self.options, self.measure, x_title or words.axis_title(x), (low, high))
 
     def _preload(self):
-        return "preload_N_per_m" if "preload_N_per_m" in self.designs.table.columns else "P_opt"
+        return self.designs.table.preload("P_opt")
 
     def _best_title(self, column):
-        return "best preload  (N/m)" if column == "preload_N_per_m" else words.axis_title("P_opt")
+        return words.axis_title("P_opt") if column == "P_opt" else f"best preload  ({words.unit_of(column)[1]})"
 
     # ---- Peaks over the preload ----
 
@@ -115,7 +115,7 @@ class PicturesOfStudy:
 
     def _over_preload(self, name):
         table = self._sweep_table()
-        x = "preload_N_per_m" if "preload_N_per_m" in table.columns else "P"
+        x = table.preload()
         eta = "frequency_Hz" if "frequency_Hz" in table.columns else "eta_peak"
         mode = "envelope" if name == "ratio" else "peaks"
         rows = [("ratio", HIGHEST)] if name == "ratio" else [("ratio", words.axis_title("ratio")), (eta, words.axis_title(eta))]
@@ -165,7 +165,7 @@ class PicturesOfStudy:
         names = [name for name in table.columns if name.startswith("ratio_q")] or [
             name for name in table.columns if name.startswith("Y_q")]
         names.sort(key=lambda name: float(name.rpartition("q")[2]))
-        x = "preload_N_per_m" if "preload_N_per_m" in table.columns else "P"
+        x = table.preload()
         curve, xs, *levels = table.read(["curve", x, *names])
         chosen = list(dict.fromkeys(curve.tolist()))[:MOST_BANDS]
         middle = len(names) // 2

@@ -16,6 +16,9 @@ class Refused(Exception):
 PREFIXES = {"mm": ("m", 1e-3), "um": ("m", 1e-6), "nm": ("m", 1e-9), "kHz": ("Hz", 1e3), "mJ": ("J", 1e-3)}
 PREFIXES |= {"uJ": ("J", 1e-6), "nJ": ("J", 1e-9)}
 
+# The preload in SI units, of rings per length.
+PRELOADS = ["preload_N_per_m", "preload_N"]
+
 CHUNK = 50_000  # rows that are held as text
 
 
@@ -50,6 +53,10 @@ class Table:
             self.require(columns)
             if not file.readline():
                 raise Refused(f"{path}: holds no {holds}")
+
+    def preload(self, otherwise="P"):
+        """The column of the preload, in SI units where there are any."""
+        return next((name for name in PRELOADS if name in self.columns), otherwise)
 
     def _open(self):
         try:

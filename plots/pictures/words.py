@@ -6,7 +6,7 @@ GREEK = {
     **{name: f"\\{name}" for name in "alpha beta gamma delta epsilon zeta eta kappa lambda mu nu xi rho sigma tau".split()},
     **{"omega": r"\omega", "Omega": r"\Omega", "psi": r"\psi"},
 }
-UNITS = {"Hz": "Hz", "kHz": "kHz", "N_per_m": "N/m", "m": "m", "mm": "mm", "um": "µm", "nm": "nm", "J": "J", "mJ": "mJ"}
+UNITS = {"Hz": "Hz", "kHz": "kHz", "N_per_m": "N/m", "N": "N", "m": "m", "mm": "mm", "um": "µm", "nm": "nm", "J": "J", "mJ": "mJ"}
 UNITS |= {"uJ": "µJ", "nJ": "nJ", "rad_per_s": "rad/s"}
 R_IS_S = "$R = S$"
 

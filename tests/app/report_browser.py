@@ -320,6 +320,41 @@ class Scatter(Report):
         self.press("quantiles", "design 0")
 
 
+class MassesInUnits(Report):
+    """Masses on springs in SI units, of which preloads are forces: a study with scatter over a key, and its run."""
+
+    @classmethod
+    def setUpClass(cls):
+        units = ("--set", 'system.units="SI"', "--set", "system.force=10")
+        cls.make(("study", "spring_mass", *units, "--set", "study.from=1", "--set", "study.to=100", "--set", "study.for_each={ contact_stiffness = [0.4, 0.5, 0.6] }",
+                  "--set", "study.uncertain={ mu = { lognormal = 0.2 }, samples = 100 }"),
+                 ("run", "spring_mass", *units, "--set", "branch.for_each={ force = [10.0, 20.0] }", "--set", "branch.parameter=\"P\"", "--set", "branch.eta=1",
+                  "--set", "branch.from=1", "--set", "branch.to=30"))
+
+    def test_pictures_are_over_preloads_in_newtons(self):
+        self.assertHolds("peaks", self.table("sweep.csv"), "preload_N", "Y_m")
+        self.assertHolds("amplitude", self.table("curves.csv"), "preload_N", "Y_m")
+        for picture, name, axis in (("quantiles", "quantiles.csv", "x"), ("optimum", "optimum.csv", "y")):
+            table = self.table(name)
+            traces = [trace for trace in self.traces(picture) if trace["mode"].startswith("lines") and not trace["fill"]]
+            self.assertGreater(len(traces), 0)
+            for trace in traces:
+                self.assertEqual([float(table[row]["preload_N"]) for row in trace["rows"]], trace[axis])
+        for picture, axis in (("quantiles", "x"), ("peaks", "x"), ("optimum", "y"), ("amplitude", "x")):
+            title = self.page.evaluate(f"document.querySelector('#plot-{picture} .{axis}title').textContent")
+            self.assertEqual(title, "preload P [N]")
+        self.assertEqual(sum(bool(trace["fill"]) for trace in self.traces("optimum")), 1)
+
+    def test_tables_and_the_row_under_the_pointer_have_them(self):
+        self.assertTable("optimum", self.table("optimum.csv"))
+        self.assertEqual(self.columns("optimum")[1:4], ["preload_N", "preload_low_N", "preload_high_N"])
+        self.assertRegex(self.page.evaluate("document.getElementById('answer').textContent"), r"Best preload [0-9.]+ N: ")
+        for picture in ("peaks", "amplitude"):
+            self.page.evaluate(f"void document.getElementById('plot-{picture}').emit('plotly_hover', {{ points: [{{ customdata: 2 }}] }})")
+            told = self.page.evaluate(f"document.querySelector('#figure-{picture} .readout').textContent")
+            self.assertRegex(told, r"P (= )?[0-9.]+ N\b")
+
+
 class Verified(Report):
     """A run of several harmonics whose points were solved anew."""
 

@@ -151,6 +151,23 @@ def test_si_columns_are_drawn_with_their_units(results):
     assert top == pytest.approx(table["Y_m"].max() * 1e6, rel=1e-3)
 
 
+def test_preloads_that_are_forces_are_drawn_in_newtons(tmp_path):
+    units = ['system.units="SI"', "system.force=10"]
+    over = ['branch.parameter="P"', "branch.eta=1", "branch.from=1", "branch.to=30", "branch.for_each={ force = [10.0] }"]
+    keys = ["study.from=1", "study.to=100", "study.for_each={ contact_stiffness = [0.4, 0.5, 0.6] }"]
+    run("spring_mass", tmp_path, *units, *over)
+    amplitude = figures_of(tmp_path, only=["amplitude"])["amplitude"]
+    assert amplitude.axes[0].get_xlim()[1] > 25
+    assert "(N)" in " ".join(text for text, _ in texts_of(amplitude))
+    study = tmp_path / "study"
+    run("spring_mass", study, *units, *keys, command="study")
+    drawn = figures_of(study)
+    assert len(drawn) > 1
+    for figure in drawn.values():
+        assert "preload" in (told := " ".join(text for text, _ in texts_of(figure))) and "(N)" in told
+        check_layout(figure)
+
+
 def test_any_columns_are_drawn_over_one_another(results):
     options = dict(x="frequency_Hz", y=["Y_um", "R_over_S"], linear={"y"}, ranges={"x": (2200, 2400)}, size=(12, 9))
     ((name, figure),) = figures_of(results["rotor"], **options).items()
