@@ -26,6 +26,7 @@ class GivenStructures final : public Structures {
   GivenStructures(Index contacts, GivenPart base, std::optional<GivenPart> damper)
       : contacts_(contacts), base_(std::move(base)), damper_(std::move(damper)) {}
 
+  /// What it was made of.
   Index contacts() const { return contacts_; }
   bool has_damper() const { return damper_.has_value(); }
 
