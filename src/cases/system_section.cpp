@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "arcslip/elements/idle.hpp"
 #include "arcslip/motion/odd_motion.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
@@ -243,9 +244,12 @@ std::shared_ptr<const Structures> load_structures(const TomlDocument& document) 
 std::vector<double> numbers_of_contacts(const TomlSection& section, const std::string& name,
                                         const NumberRule& rule, std::size_t count) {
   const toml::table* table = section.table();
-  if (table == nullptr || !(*table)[name].is_array())
-    return std::vector<double>(count, section.number(name, rule));
-  std::vector<double> values = section.numbers(name, rule);
+  std::vector<double> values;
+  if (table == nullptr || !(*table)[name].is_array()) {
+    values.assign(count, section.number(name, rule));
+    return values;
+  }
+  values = section.numbers(name, rule);
   if (values.size() != count)
     section.fail(name, fmt::format("expected a number, or {} of them as there are contacts, got {}", count,
                                    values.size()));
@@ -255,10 +259,10 @@ std::vector<double> numbers_of_contacts(const TomlSection& section, const std::s
 std::vector<SectorContact> sector_contacts(const std::vector<double>& stiffness,
                                            const std::vector<double>& limit_per_preload) {
   std::vector<SectorContact> contacts;
-  for (std::size_t i = 0; i < stiffness.size(); ++i) {
-    const double k = stiffness[i];
-    contacts.push_back(k > 0 ? SectorContact{k, limit_per_preload[i] / k} : SectorContact{0, never_slips});
-  }
+  std::transform(stiffness.begin(), stiffness.end(), limit_per_preload.begin(), std::back_inserter(contacts),
+                 [](double k, double limit) {
+                   return k > 0 ? SectorContact{k, limit / k} : SectorContact{0, never_slips};
+                 });
   return contacts;
 }
 

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "arcslip/assembly/sector_pair.hpp"
-#include "arcslip/elements/idle.hpp"
 #include "arcslip/results/results.hpp"
 #include "cases/sector_part.hpp"
 #include "cases/structure_kind.hpp"
