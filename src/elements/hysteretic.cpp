@@ -8,7 +8,7 @@ namespace arcslip {
 namespace {
 
 constexpr Index samples_of_harmonic = 8;  // in its own period
-constexpr double difference_step = 0.02;  // of the motion, for second derivatives
+constexpr double difference_step = 0.05;  // of the motion, for second derivatives
 
 /// The samples of a period, the first where the motion is largest, which moves with the motion.
 class CycleTurn {
