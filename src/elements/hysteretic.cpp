@@ -16,7 +16,8 @@ class CycleTurn {
   CycleTurn(std::span<const int> orders, const HarmonicVector& motion, Index samples)
       : h_(Eigen::Map<const Eigen::VectorXi>(orders.data(), std::ssize(orders)).cast<double>()) {
     const OddMotion passes(orders, motion);
-    const double begin = passes.maximum().angle;
+    maximum_ = passes.maximum();
+    const double begin = maximum_.angle;
     const double step = two_pi / static_cast<double>(samples);
     const Vector theta =
         begin + step * Vector::LinSpaced(samples, 0, static_cast<double>(samples - 1)).array();
@@ -34,6 +35,7 @@ class CycleTurn {
   }
 
   const Vector& x() const { return x_; }
+  OddMotion::Maximum maximum() const { return maximum_; }
 
   /// How x changes at the samples with the real and the imaginary part of each coefficient.
   Matrix ways() const {
@@ -62,6 +64,7 @@ class CycleTurn {
  private:
   static constexpr double flat = 1e-3;
 
+  OddMotion::Maximum maximum_;
   Vector h_;
   ComplexMatrix e_;  // e^{jh theta}, samples x orders
   Vector x_;
@@ -72,13 +75,16 @@ class CycleTurn {
 }  // namespace
 
 HystereticElement::HystereticElement(std::shared_ptr<const CycleLaw> law, double reference)
-    : law_(std::move(law)), reference_(reference) {
+    : law_(std::move(law)), reference_(reference), stuck_(law_->stuck()) {
   if (!(reference > 0)) throw std::invalid_argument("HystereticElement: the reference must be positive");
 }
 
 void HystereticElement::force(std::span<const int> orders, const HarmonicVector& x, double /*load*/,
-                              bool /*beyond*/, bool derivatives, ElementForce& out) const {
-  at(orders, x, 0, derivatives, out);
+                              bool beyond, bool derivatives, ElementForce& out) const {
+  if (beyond || !stuck_) return at(orders, x, 0, derivatives, out);
+  const Jet& k = stuck_->stiffness;
+  out.set_linear(k.value, x, derivatives);
+  if (derivatives) out.by_setting = k.first * x;
 }
 
 void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x, double setting,
@@ -89,6 +95,7 @@ void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x,
   law_->at(turn.x(), derivatives ? turn.ways() : Matrix(), setting, derivatives, samples);
   out.harmonics = turn.harmonics(samples.force);
   out.energy = turn.energy(out.harmonics, x);
+  out.maximum = turn.maximum();
   out.by_setting.resize(0);
   if (!derivatives) return;
   out.by_log_load.setZero(x.size());
@@ -109,8 +116,14 @@ VaryingStiffness HystereticElement::stiffness_in_time(std::span<const int> /*ord
 }
 
 void HystereticElement::second(const ElementForce& /*at*/, std::span<const int> orders,
-                               const HarmonicVector& x, double /*load*/, bool /*beyond*/, const Way& way,
+                               const HarmonicVector& x, double /*load*/, bool beyond, const Way& way,
                                ElementForce& change) const {
+  if (!beyond && stuck_) {
+    const Jet& k = stuck_->stiffness;
+    change.linear.diagonal().array() += k.first * way.setting;
+    change.by_setting += k.first * way.motion + k.second * way.setting * x;
+    return;
+  }
   const double size = x.norm() > 0 ? x.norm() : 1;
   const double pace = std::max(way.motion.norm() / size, std::abs(way.setting) / law_->setting_scale());
   if (!(pace > 0)) return;

@@ -76,6 +76,29 @@ def test_a_slider_is_a_contact_of_the_program(element, harmonics, to):
     assert found[0].summary["power_error"] < 1e-9
 
 
+@pytest.mark.filterwarnings("ignore::arcslip.CaseWarning")
+def test_where_it_sticks_is_a_switch_as_that_of_a_contact():
+    own = slider(sticks=lambda k, limit: (k, limit / k), samples=1024)
+    switches, counts = [], []
+    over_k = {"parameter": "slider.k", "from": 0.2, "to": 2.0, "eta": 0.8}
+    for case, k in ((lambda branch, **_: built_in(branch), "K_FD"), (lambda branch: written(own, branch), "slider.k")):
+        for branch in (OVER_ETA, {**over_k, "parameter": k}):
+            (found,) = arcslip.run(case(branch)).branches
+            assert found.stop == "reached_end"
+            switches.append([[p["eta"], p["Y"]] for p in found.special if p["type"] == "switch"])
+            counts.append(len(found))
+    assert len(switches[0]) == 2 and len(switches[1]) == 1
+    for theirs, mine in zip(switches[:2], switches[2:]):
+        assert np.array(mine) == pytest.approx(np.array(theirs), rel=1e-9)
+    assert counts[2] < 2 * counts[0]
+    curve = {"curve": "switch", "parameters": ["eta", "P"], "window": [0.6, 0.9], "from": 0.3, "to": 0.7}
+    theirs = arcslip.run(built_in(curve)).branches[0]
+    curve["parameters"] = ["eta", "slider.limit"]
+    mine = arcslip.run(written(own, curve)).branches[0]
+    assert mine["slider.limit"][[0, -1]] == pytest.approx(theirs["P"][[0, -1]], rel=1e-9)
+    assert mine["eta"][[0, -1]] == pytest.approx(theirs["eta"][[0, -1]], rel=1e-9)
+
+
 def test_its_settings_are_continued_and_its_peaks_followed():
     over = {"from": 0.6, "to": 1.5, "eta": 1.0}
     ridge = {"curve": "peak", "window": [0.9, 1.3], "from": 2.0, "to": 4.0}
@@ -128,6 +151,8 @@ def drifting(x, before, f, k, limit):
         (slider(lambda x, k, limit: k * x**2), "^element 'slider': force: expected a settled cycle"),
         (slider(lambda x, k, limit: np.nan * x), "^element 'slider': force: nan at x = "),
         (slider(slope=lambda x, dx, k, limit: 2 * k * dx), "^element 'slider': slope: .* where differences of force"),
+        (slider(sticks=lambda k, limit: (2 * k, limit / k)), "^element 'slider': sticks: expected the force"),
+        (slider(sticks=lambda k, limit: (k, 0)), r"^element 'slider': sticks: expected \(stiffness, amplitude\)"),
         (slider(arcslip.marched(lambda x, b, f, k, limit: f)), "^marched: step: expected a tuple"),
         (slider(arcslip.marched(lambda x, b, f, k, limit: (f, 0 * x[:0]))), r"^marched: step: state: expected shape \(1,\)"),
         (slider(arcslip.marched(lambda x, b, f, k, limit: (k * x, f + x**2))), "^marched: step: state: expected -"),
@@ -142,6 +167,8 @@ def test_wrong_functions_are_named(element, said):
 def test_wrong_uses_are_refused():
     with pytest.raises(ValueError, match="^element 'slider': samples: expected an even number"):
         slider(samples=33)
+    with pytest.raises(ValueError, match="^element 'soft': sticks: only with memory"):
+        arcslip.Element("soft", lambda x: x, sticks=lambda: (1, 1))
     with pytest.raises(ValueError, match="^marched: state: expected a number or a row"):
         arcslip.marched(step, np.ones((2, 2)))
     with pytest.raises(TypeError, match="^marched: expected a function"):

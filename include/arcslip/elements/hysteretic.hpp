@@ -7,8 +7,10 @@
 // pi/n)^2 of it where it has kinks.
 
 #include <memory>
+#include <optional>
 
 #include "arcslip/elements/element.hpp"
+#include "arcslip/elements/jet.hpp"
 
 namespace arcslip {
 
@@ -17,6 +19,12 @@ struct CycleSamples {
   Vector force;       ///< f, n
   Matrix changes;     ///< of f along each way, n x ways
   Vector by_setting;  ///< df/ds by the setting that is continued, n; empty where none is
+};
+
+/// Where a law is a spring at first: up to this amplitude of the displacement.
+struct StuckRange {
+  Jet stiffness;  ///< k > 0
+  Jet amplitude;  ///< S > 0, where the force has a corner
 };
 
 /// Such a law, used from all threads.
@@ -29,6 +37,9 @@ class CycleLaw {
 
   /// A typical magnitude of the setting that is continued, > 0.
   virtual double setting_scale() const = 0;
+
+  /// Null where it has none, or no corner.
+  virtual std::optional<StuckRange> stuck() const { return {}; }
 
   /// Fills the force of the cycle with the displacements x (n) and, with `derivatives`, its changes along
   /// `ways` (n x any number) and by the setting that is continued, which is by `setting` larger than it is.
@@ -43,7 +54,15 @@ class HystereticElement final : public Element {
   HystereticElement(std::shared_ptr<const CycleLaw> law, double reference);
 
   double reference_stiffness() const override { return reference_; }
+  bool has_border() const override { return stuck_.has_value(); }
+  std::string beyond() const override { return stuck_ ? "slip" : ""; }
   bool is_linear(bool /*beyond*/) const override { return false; }
+  double threshold(double load) const override {
+    return stuck_ ? stuck_->amplitude.value : Element::threshold(load);
+  }
+  double log_threshold_by_setting() const override {
+    return stuck_ ? stuck_->amplitude.first / stuck_->amplitude.value : 0;
+  }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
   /// Throws std::logic_error: there is none.
@@ -58,6 +77,7 @@ class HystereticElement final : public Element {
 
   std::shared_ptr<const CycleLaw> law_;
   double reference_;
+  std::optional<StuckRange> stuck_;
 };
 
 }  // namespace arcslip

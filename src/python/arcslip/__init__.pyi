@@ -111,6 +111,7 @@ class Element:
     slope: _Function | None
     settings: dict[str, float | None]
     memory: bool
+    sticks: Callable[..., tuple[float, float]] | None
     samples: int
     def __init__(
         self,
@@ -121,6 +122,7 @@ class Element:
         scales_force: Sequence[str] = (),
         *,
         memory: bool = False,
+        sticks: Callable[..., tuple[float, float]] | None = None,
         samples: int = 512,
     ) -> None: ...
 

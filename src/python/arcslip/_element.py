@@ -37,17 +37,23 @@ class Element:
         same shape; `marched` makes such a function of a law with states. slope takes (x, dx, **settings), both of
         this shape, and returns the change of the force along dx. All motions are odd in half a period,
         x[i + samples/2] = -x[i], and so are the forces; the first sample is the largest one.
+    sticks : callable, optional
+        (**settings) -> (stiffness, amplitude), with memory: up to this amplitude of x the force is stiffness x, and
+        there it has a corner, which is found as a point "switch". Without it corners are passed in small steps.
     samples : int
         In a period, an even number, with memory; at least 8 in that of each harmonic are taken. Harmonics are right
         to some (2 pi/samples)^2 of the force where it has kinks, as of a slider: to 1e-5 with 512 or 1e-6 with 2048.
     """
 
-    def __init__(self, kind, force, slope=None, settings=None, scales_force=(), *, memory=False, samples=512):
+    def __init__(self, kind, force, slope=None, settings=None, scales_force=(), *, memory=False,
+                 sticks=None, samples=512):
         if not isinstance(kind, str) or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", kind):
             raise ValueError(f"kind: expected a name of letters, digits and _, got {kind!r}")
-        for name, function in (("force", force), ("slope", slope)):
-            if not callable(function) and not (name == "slope" and function is None):
-                raise TypeError(f"element '{kind}': {name}: expected a function of x, got {function!r}")
+        for name, function in (("force", force), ("slope", slope), ("sticks", sticks)):
+            if not callable(function) and (name == "force" or function is not None):
+                raise TypeError(f"element '{kind}': {name}: expected a function, got {function!r}")
+        if sticks is not None and not memory:
+            raise ValueError(f"element '{kind}': sticks: only with memory")
         self.kind = kind
         self.force = force
         self.slope = slope
@@ -58,6 +64,7 @@ class Element:
         if samples != int(samples) or samples % 2 or samples < 16:
             raise ValueError(f"element '{kind}': samples: expected an even number >= 16, got {samples!r}")
         self.memory = bool(memory)
+        self.sticks = sticks
         self.samples = int(samples)
         self._settings = [
             (name, None if value is None else float(value), name in scales_force)
@@ -96,10 +103,41 @@ class Element:
             return [self._force_at(x[:, None], values)[:, 0]]
         if self._is_new(x):
             self._complex = check_cycle(self, x, ways.T, values) and self._complex
+            if self.sticks is not None:
+                self._check_stuck(x, values)
         force, changes = self._along(x, ways.T, values)
         if varied < 0:
             return [force, changes]
         return [force, changes, self._by_setting(self._force_at, x[:, None], values, varied)[:, 0]]
+
+    def _stuck(self, values, varied):
+        """Stiffness and amplitude of the stuck range, each with two derivatives by the setting that is continued."""
+        if varied < 0:
+            return [one for value in self._range(None, values) for one in (value, 0.0, 0.0)]
+
+        def first(_, changed):
+            return self._by_setting(self._range, None, changed, varied)
+
+        parts = [self._range(None, values), first(None, values), self._by_setting(first, None, values, varied)]
+        return np.transpose(parts).ravel().tolist()
+
+    def _range(self, _, values):
+        given = self.sticks(**dict(zip(self.settings, values.tolist())))
+        numbers = np.asarray(given, dtype=float)
+        if numbers.shape != (2,) or not np.all(np.isfinite(numbers) & (numbers > 0)):
+            raise ValueError(f"element '{self.kind}': sticks: expected (stiffness, amplitude), both > 0, got {given!r}")
+        return numbers
+
+    def _check_stuck(self, x, values):
+        """Refuses a stiffness that is not that of a motion within the stuck range."""
+        stiffness, amplitude = self._range(None, values)
+        within = 0.5 * amplitude / max(np.max(np.abs(x)), _TINY) * x
+        force = self._force_at(within[:, None], values)[:, 0]
+        if np.max(np.abs(force - stiffness * within)) > 1e-6 * stiffness * amplitude:
+            raise ValueError(
+                f"element '{self.kind}': sticks: expected the force {stiffness * within[0]:.6g} at x = {within[0]:.6g}, "
+                f"within the amplitude {amplitude:.6g}, got {force[0]:.6g}"
+            )
 
     def _along(self, x, ways, values):
         if self.slope is not None:

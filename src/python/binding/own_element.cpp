@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "arcslip/elements/hysteretic.hpp"
 #include "arcslip/elements/sampled.hpp"
@@ -91,7 +92,11 @@ class PythonCycle final : public CycleLaw {
  public:
   /// With the lock held.
   explicit PythonCycle(Functions functions)
-      : functions_(std::move(functions)), samples_(functions_.attribute("samples").cast<Index>()) {}
+      : functions_(std::move(functions)), samples_(functions_.attribute("samples").cast<Index>()) {
+    if (!functions_.attribute("sticks").is_none()) functions_.call([&] { stuck_ = ask_stuck(); });
+  }
+
+  std::optional<StuckRange> stuck() const override { return stuck_; }
 
   Index samples() const override { return samples_; }
 
@@ -127,8 +132,20 @@ class PythonCycle final : public CycleLaw {
     out.by_setting *= rate.first + setting * rate.second;
   }
 
+  StuckRange ask_stuck() const {
+    const auto given =
+        py::cast<py::list>(functions_.attribute("_stuck")(give(functions_.values()), functions_.varied()));
+    const Jet& rate = functions_.rate();
+    const auto jet = [&](std::size_t i) {  // by what is continued, of which the setting is a function
+      const auto by = [&](std::size_t order) { return given[3 * i + order].cast<double>(); };
+      return Jet(by(0), by(1) * rate.first, by(2) * rate.first * rate.first + by(1) * rate.second);
+    };
+    return {jet(0), jet(1)};
+  }
+
   Functions functions_;
   Index samples_;
+  std::optional<StuckRange> stuck_;
 };
 
 std::shared_ptr<const Element> made(Functions functions, bool has_memory, double usual_stiffness) {
