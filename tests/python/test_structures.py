@@ -58,7 +58,7 @@ def with_own(structure, **sections):
 @pytest.mark.parametrize(
     ("functions", "to"),
     [
-        ({"base": base_with_slopes, "damper": damper_with_slope}, 1e-11),
+        ({"base": base_with_slopes, "damper": damper_with_slope}, 1e-12),
         ({}, 1e-9),
         ({"base_modes": None, "damper_modes": None}, 1e-9),
     ],
@@ -92,6 +92,18 @@ def test_curves_preloads_and_studies_take_them():
         found.append([*ends, *lows, optimum["P_opt"][0], optimum["Y_opt"][0]])
     assert len(found[0]) > 4 and found[0][0] != pytest.approx(found[0][1], rel=1e-2)
     assert found[1] == pytest.approx(found[0], rel=1e-8)
+
+
+def test_its_keys_may_be_listed_and_its_parameters_continued():
+    case = with_own(own(), branch={**BRANCH, "for_each": {"contact_stiffness": [0.2, 0.8]}})
+    soft, stiff = arcslip.run(case).branches
+    assert soft["Y"].max() != pytest.approx(stiff["Y"].max(), rel=1e-3)
+    over = {"parameter": "F", "from": 0.5, "to": 2.0, "eta": 0.8}
+    ends = [
+        arcslip.run({"system": system, "branch": over}).branches[0]["Y"][[0, -1]]
+        for system in (MASSES, {"model": own(), **SHARED})
+    ]
+    assert ends[1] == pytest.approx(ends[0], rel=1e-9)
 
 
 def test_waves_and_contacts_are_told():
