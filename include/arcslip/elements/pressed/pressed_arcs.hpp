@@ -1,0 +1,107 @@
+#pragma once
+
+// The settled course of a contact that is pressed together by a normal force which varies:
+//
+//   n(theta) = N_0 + k_n g(theta),   N = max(0, n),   f = k_t r - A,   |f| <= mu N,
+//
+// with r the sliding displacement, g the closing one, both periodic, and A = k_t times the slider's place.
+// While the parts touch, A lies between k_t r - mu n and k_t r + mu n, rests inside and is taken along by
+// these bounds: at the first in slip forwards, at the second in slip backwards. Both are monotone between the
+// zeros of
+//
+//   n,   k_t r' - mu n',   k_t r' + mu n',
+//
+// which cut the period into cells; in each there is at most one onset of slip. Apart, f = 0; where the parts
+// touch again A = k_t r.
+//
+// A period takes A to its value clipped between two bounds, so that one period settles it. Where it never
+// slips any A between them is settled: that one is taken that remains as the motion grows in proportion from
+// rest without friction, which is A nearest to zero.
+
+#include <vector>
+
+#include "arcslip/motion/periodic_motion.hpp"
+
+namespace arcslip {
+
+/// Numbers of such a contact.
+struct PressedSettings {
+  double friction = 0;              ///< mu >= 0
+  double tangential_stiffness = 1;  ///< k_t > 0
+  double normal_stiffness = 0;      ///< k_n >= 0
+  double normal_force = 0;          ///< N_0, where g = 0; of either sign
+};
+
+/// What a contact does over a period, arc by arc.
+class PressedArcs {
+ public:
+  /// State.
+  enum class Phase { stick, slip, apart };
+
+  /// An arc in theta.
+  struct Arc {
+    double begin;            ///< theta
+    double width;            ///< of theta
+    Phase phase;             ///< what it does
+    int direction = 0;       ///< of slip, the sign of f; else 0
+    double offset = 0;       ///< of stick: A
+    double anchor = 0;       ///< of stick: theta at which A was set
+    bool is_set = false;     ///< of stick: false where A = 0 from rest
+    double by_press = 0;     ///< of stick: dA/dn at the anchor, beside dA/d(k_t r) = 1
+    bool was_apart = false;  ///< of stick: whether A was set as the parts touched, else as slip ended
+  };
+
+  /// Sliding and closing displacement. Throws std::invalid_argument of settings out of their range.
+  PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding, const PeriodicMotion& closing);
+
+  /// Those of a period, one behind the other.
+  const std::vector<Arc>& arcs() const { return arcs_; }
+
+  /// n, that is N where it is not negative.
+  const PeriodicMotion& press() const { return press_; }
+
+  /// Part of the period in this phase.
+  double fraction(Phase phase) const;
+
+  /// Whether it sticks all the time.
+  bool is_stuck() const { return arcs_.size() == 1 && arcs_.front().phase == Phase::stick; }
+
+  /// min (k_t r + mu n) - max (k_t r - mu n), below which something slips at zero, and negative where there
+  /// is no stuck state; its sign says nothing where the parts come apart.
+  double room() const;
+
+ private:
+  struct Node {
+    double angle;
+    double low;   // k_t r - mu n
+    double high;  // k_t r + mu n
+  };
+  struct Cell {
+    Node begin;
+    Node end;
+    double width;
+    bool touches;
+    bool forwards;   // `low` rises
+    bool backwards;  // `high` falls
+  };
+  void cut();
+  void pass(bool record);
+  void touch(const Cell& cell);
+  void hold(const Node& node, int direction);
+  void stick(const Cell& cell);
+  double onset(const Cell& cell, int direction) const;
+  void add(double begin, double width);
+
+  PressedSettings settings_;
+  PeriodicMotion sliding_;
+  PeriodicMotion press_;
+  PeriodicMotion low_;
+  PeriodicMotion high_;
+  std::vector<Node> nodes_;
+  std::vector<Cell> cells_;
+  std::vector<Arc> arcs_;
+  Arc now_{0, 0, Phase::stick};
+  bool records_ = false;
+};
+
+}  // namespace arcslip

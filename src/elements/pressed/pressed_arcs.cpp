@@ -1,0 +1,185 @@
+#include "arcslip/elements/pressed/pressed_arcs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "motion/bracketed_newton.hpp"
+
+namespace arcslip {
+namespace {
+
+/// a x + b y + constant.
+PeriodicMotion combined(double a, const PeriodicMotion& x, double b, const PeriodicMotion& y,
+                        double constant = 0) {
+  ComplexVector sum = ComplexVector::Zero(std::max(x.highest(), y.highest()) + 1);
+  sum.head(x.highest() + 1) += a * x.coefficients();
+  sum.head(y.highest() + 1) += b * y.coefficients();
+  sum(0) += constant;
+  return PeriodicMotion(std::move(sum));
+}
+
+}  // namespace
+
+PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding,
+                         const PeriodicMotion& closing)
+    : settings_(settings),
+      sliding_(sliding),
+      press_(combined(settings.normal_stiffness, closing, 0, sliding, settings.normal_force)),
+      low_(combined(settings.tangential_stiffness, sliding, -settings.friction, press_)),
+      high_(combined(settings.tangential_stiffness, sliding, settings.friction, press_)) {
+  if (!(settings.tangential_stiffness > 0 && settings.friction >= 0 && settings.normal_stiffness >= 0))
+    throw std::invalid_argument(
+        "PressedArcs: the tangential stiffness must be positive, friction and normal stiffness not negative");
+  cut();
+  pass(false);
+  pass(true);
+  Arc& first = arcs_.front();
+  const Arc& last = arcs_.back();
+  if (arcs_.size() > 1 && first.phase == last.phase && first.direction == last.direction &&
+      first.anchor == last.anchor) {
+    first.begin = last.begin - two_pi;
+    first.width += last.width;
+    arcs_.pop_back();
+  }
+}
+
+/// At all zeros, or at 0 where nothing moves.
+void PressedArcs::cut() {
+  std::vector<double> angles = press_.zeros();
+  for (const PeriodicMotion& bound : {low_, high_}) {
+    const std::vector<double> turns = bound.derivative().zeros();
+    angles.insert(angles.end(), turns.begin(), turns.end());
+  }
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  if (angles.empty()) angles.push_back(0);
+  for (const double angle : angles) nodes_.push_back({angle, low_.value(angle), high_.value(angle)});
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const bool is_last = i + 1 == nodes_.size();
+    const Node& end = nodes_[is_last ? 0 : i + 1];
+    const double width = end.angle - nodes_[i].angle + (is_last ? two_pi : 0);
+    const double middle = nodes_[i].angle + 0.5 * width;
+    cells_.push_back({nodes_[i], end, width, press_.value(middle) > 0, low_.at(middle).first > 0,
+                      high_.at(middle).first < 0});
+  }
+}
+
+void PressedArcs::pass(bool record) {
+  records_ = record;
+  if (!record && cells_.front().touches) {
+    if (nodes_.front().low > 0)
+      hold(nodes_.front(), 1);
+    else if (nodes_.front().high < 0)
+      hold(nodes_.front(), -1);
+  }
+  for (const Cell& cell : cells_) {
+    if (!cell.touches) {
+      now_ = {0, 0, Phase::apart};
+      add(cell.begin.angle, cell.width);
+      continue;
+    }
+    const bool goes_on = now_.direction > 0 ? cell.forwards : cell.backwards;
+    if (now_.phase == Phase::apart) {
+      touch(cell);
+    } else if (now_.phase == Phase::slip && !goes_on) {
+      hold(cell.begin, now_.direction);
+    }
+    if (now_.phase == Phase::slip) {
+      add(cell.begin.angle, cell.width);
+    } else {
+      stick(cell);
+    }
+  }
+}
+
+/// After having been apart.
+void PressedArcs::touch(const Cell& cell) {
+  const double angle = cell.begin.angle;
+  if (cell.forwards || cell.backwards) {
+    now_ = {0, 0, Phase::slip, cell.forwards ? 1 : -1};
+    return;
+  }
+  const double stiffness = settings_.tangential_stiffness;
+  const PeriodicMotion::Local slid = sliding_.at(angle);
+  const double closes = press_.at(angle).first;
+  now_ = {0,
+          0,
+          Phase::stick,
+          0,
+          stiffness * slid.value,
+          angle,
+          true,
+          closes > 0 ? -stiffness * slid.first / closes : 0,
+          true};
+}
+
+/// At the end of slip.
+void PressedArcs::hold(const Node& node, int direction) {
+  now_ = {0,
+          0,
+          Phase::stick,
+          0,
+          direction > 0 ? node.low : node.high,
+          node.angle,
+          true,
+          -direction * settings_.friction};
+}
+
+/// Where the bound that slip in this direction begins at reaches A; behind the cell where it does not.
+double PressedArcs::onset(const Cell& cell, int direction) const {
+  const bool forwards = direction > 0;
+  const PeriodicMotion& bound = forwards ? low_ : high_;
+  const double excess = (forwards ? cell.end.low : cell.end.high) - now_.offset;
+  if (!((forwards ? cell.forwards : cell.backwards) && direction * excess > 0))
+    return std::numeric_limits<double>::infinity();
+  return bracketed_newton(
+      [&](double step) {
+        const PeriodicMotion::Local at = bound.at(cell.begin.angle + step);
+        return std::pair(at.value - now_.offset, at.first);
+      },
+      0.5 * cell.width, 0.0, cell.width, forwards);
+}
+
+void PressedArcs::stick(const Cell& cell) {
+  const double forwards = onset(cell, 1);
+  const double backwards = onset(cell, -1);
+  const double until = std::min({forwards, backwards, cell.width});
+  add(cell.begin.angle, until);
+  if (std::isinf(forwards) && std::isinf(backwards)) return;
+  now_ = {0, 0, Phase::slip, forwards <= backwards ? 1 : -1};
+  add(cell.begin.angle + until, cell.width - until);
+}
+
+/// What goes on in the same way is the same arc.
+void PressedArcs::add(double begin, double width) {
+  if (!records_ || !(width > 0)) return;
+  if (!arcs_.empty() && arcs_.back().phase == now_.phase && arcs_.back().direction == now_.direction &&
+      arcs_.back().anchor == now_.anchor) {
+    arcs_.back().width += width;
+    return;
+  }
+  arcs_.push_back(now_);
+  arcs_.back().begin = begin;
+  arcs_.back().width = width;
+}
+
+double PressedArcs::fraction(Phase phase) const {
+  double sum = 0;
+  for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
+  return sum / two_pi;
+}
+
+double PressedArcs::room() const {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  for (const Node& node : nodes_) {
+    low = std::max(low, node.low);
+    high = std::min(high, node.high);
+  }
+  return high - low;
+}
+
+}  // namespace arcslip

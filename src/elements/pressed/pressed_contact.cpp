@@ -1,0 +1,140 @@
+#include "arcslip/elements/pressed/pressed_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "elements/pressed/arc_sums.hpp"
+
+namespace arcslip {
+namespace {
+
+using Phase = PressedArcs::Phase;
+
+/// What integrals over the arcs are needed for.
+class PressedIntegrals {
+ public:
+  PressedIntegrals(const PressedSettings& settings, std::span<const int> orders,
+                   const PeriodicMotion& sliding, const PeriodicMotion& closing)
+      : settings_(settings),
+        orders_(orders),
+        sliding_(sliding),
+        closing_(closing),
+        course_(settings, sliding, closing),
+        stick_(2 * sliding.highest()),
+        slip_(2 * sliding.highest()),
+        touch_(2 * sliding.highest()) {
+    for (const PressedArcs::Arc& arc : course_.arcs()) {
+      if (arc.phase == Phase::stick) stick_.add(arc.begin, arc.width);
+      if (arc.phase == Phase::slip) slip_.add(arc.begin, arc.width, arc.direction);
+      if (arc.phase != Phase::apart) touch_.add(arc.begin, arc.width);
+    }
+  }
+
+  void forces(PressedForce& out) const {
+    out.tangential = settings_.tangential_stiffness * stick_.harmonics(sliding_, orders_) +
+                     settings_.friction * slip_.harmonics(course_.press(), orders_);
+    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
+      out.tangential -= arc.offset * constant;
+    });
+    out.normal = touch_.harmonics(course_.press(), orders_);
+    out.slip_fraction = course_.fraction(Phase::slip);
+    out.apart_fraction = course_.fraction(Phase::apart);
+    for (std::size_t a = 0; a < orders_.size(); ++a) {
+      const auto at = static_cast<Index>(a);
+      out.energy +=
+          pi * orders_[a] * std::imag(out.tangential(at) * std::conj(sliding_.coefficients()(orders_[a])));
+    }
+    normal_range(out);
+  }
+
+  void by_motions(PressedForce& out) const {
+    const double k = settings_.tangential_stiffness;
+    out.tangential_by_sliding = stick_.derivative(orders_, k);
+    out.tangential_by_closing = slip_.derivative(orders_, settings_.friction);
+    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
+      if (!arc.is_set) return;
+      ComplexVector turns(std::ssize(orders_));
+      for (std::size_t a = 0; a < orders_.size(); ++a)
+        turns(static_cast<Index>(a)) = std::polar(0.5, orders_[a] * arc.anchor);
+      add_product(out.tangential_by_sliding, -k, constant, turns);
+      add_product(out.tangential_by_closing, -arc.by_press, constant, turns);
+    });
+    out.normal_by_closing = touch_.derivative(orders_, settings_.normal_stiffness);
+    out.tangential_by_closing.linear *= settings_.normal_stiffness;
+    out.tangential_by_closing.conjugate *= settings_.normal_stiffness;
+  }
+
+  void by_settings(PressedForce& out) const {
+    const PeriodicMotion one(ComplexVector::Ones(1));
+    const double mu = settings_.friction;
+    auto& by = out.tangential_by;
+    by[PressedForce::friction] = slip_.harmonics(course_.press(), orders_);
+    by[PressedForce::tangential_stiffness] = stick_.harmonics(sliding_, orders_);
+    by[PressedForce::normal_stiffness] = mu * slip_.harmonics(closing_, orders_);
+    by[PressedForce::normal_force] = mu * slip_.harmonics(one, orders_);
+    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
+      if (!arc.is_set) return;
+      const double slid = sliding_.value(arc.anchor);
+      if (!arc.was_apart) {  // A = k_t r -+ mu n
+        const double press = course_.press().value(arc.anchor);
+        by[PressedForce::friction] -= (mu > 0 ? arc.by_press / mu * press : 0) * constant;
+      }
+      by[PressedForce::tangential_stiffness] -= slid * constant;
+      by[PressedForce::normal_stiffness] -= arc.by_press * closing_.value(arc.anchor) * constant;
+      by[PressedForce::normal_force] -= arc.by_press * constant;
+    });
+    out.normal_by.fill(ComplexVector::Zero(std::ssize(orders_)));
+    out.normal_by[PressedForce::normal_stiffness] = touch_.harmonics(closing_, orders_);
+    out.normal_by[PressedForce::normal_force] = touch_.harmonics(one, orders_);
+  }
+
+ private:
+  /// Calls `use` with each arc of stick and the harmonics of 1 over it.
+  template <class Use>
+  void each_stick(const Use& use) const {
+    for (const PressedArcs::Arc& arc : course_.arcs()) {
+      if (arc.phase == Phase::stick) use(arc, arc_harmonics(arc.begin, arc.width, orders_));
+    }
+  }
+
+  void normal_range(PressedForce& out) const {
+    const PeriodicMotion& press = course_.press();
+    double least = press.value(0);
+    double greatest = least;
+    for (const double angle : press.derivative().zeros()) {
+      least = std::min(least, press.value(angle));
+      greatest = std::max(greatest, press.value(angle));
+    }
+    out.least_normal = std::max(0.0, least);
+    out.greatest_normal = std::max(0.0, greatest);
+  }
+
+  const PressedSettings& settings_;
+  std::span<const int> orders_;
+  const PeriodicMotion& sliding_;
+  const PeriodicMotion& closing_;
+  PressedArcs course_;
+  ArcSums stick_;
+  ArcSums slip_;  // with the direction of slip as sign
+  ArcSums touch_;
+};
+
+}  // namespace
+
+PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
+                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives) {
+  if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
+  const PeriodicMotion slides(orders, sliding, orders.back());
+  const PeriodicMotion closes(orders, closing, orders.back());
+  const PressedIntegrals integrals(settings, orders, slides, closes);
+  PressedForce out;
+  integrals.forces(out);
+  if (!derivatives) return out;
+  integrals.by_motions(out);
+  integrals.by_settings(out);
+  return out;
+}
+
+}  // namespace arcslip
