@@ -1,5 +1,6 @@
 #include "arcslip/elements/pressed/pressed_contact.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -231,4 +232,54 @@ TEST_CASE("Friction under varying normal load stands what coincides", "[pressed]
   CHECK(std::abs(loaded.tangential(0) - 1.0) < 1e-14);  // its greatest force is at the limit
   CHECK(std::abs(loaded.tangential(1) - 1.0) < 1e-14);
   CHECK_THROWS_AS(force({.5, 0, 0, 4}, {5, 1, 0}, {0, 0, 0}), std::invalid_argument);
+}
+
+TEST_CASE("A mass between friction and its normal force moves as integrated in time", "[pressed]") {
+  // m = 1, sliding x, closing y, K = [1 .2; .2 1.5], C = .05 K, w = 1.1, load (1, .6 e^{.5j}), preload 1
+  const PressedSettings settings{.5, .6, .8, 1};
+  constexpr Index count = 17;
+  const std::vector<int> orders = all_up_to(count - 1);
+  const Eigen::Matrix2d K{{1, .2}, {.2, 1.5}};
+  ComplexVector d = ComplexVector::Zero(2 * count);  // x, then y
+  double error = 1;
+  for (int i = 0; i < 40 && error > 1e-12; ++i) {
+    const PressedForce force = pressed_force(settings, orders, d.head(count), d.tail(count), true);
+    ComplexVector residual(2 * count);
+    residual << force.tangential, force.normal;
+    residual(count) -= 1;
+    residual(1) -= 1;
+    residual(count + 1) -= std::polar(.6, .5);
+    ComplexMatrix linear = ComplexMatrix::Zero(2 * count, 2 * count);
+    ComplexMatrix conjugate = linear;
+    linear << force.tangential_by_sliding.linear, force.tangential_by_closing.linear,
+        ComplexMatrix::Zero(count, count), force.normal_by_closing.linear;
+    conjugate << force.tangential_by_sliding.conjugate, force.tangential_by_closing.conjugate,
+        ComplexMatrix::Zero(count, count), force.normal_by_closing.conjugate;
+    for (Index h = 0; h < count; ++h) {
+      const double w = 1.1 * double(h);
+      const Eigen::Matrix2cd Z = K * Complex(1, .05 * w) - w * w * Eigen::Matrix2d::Identity();
+      for (Index a : {0, 1}) {
+        for (Index b : {0, 1}) {
+          residual(h + a * count) += Z(a, b) * d(h + b * count);
+          linear(h + a * count, h + b * count) += Z(a, b);
+        }
+      }
+    }
+    Matrix jacobian(4 * count, 4 * count);
+    jacobian << (linear + conjugate).real(), -(linear - conjugate).imag(), (linear + conjugate).imag(),
+        (linear - conjugate).real();
+    Vector rest(4 * count);
+    rest << residual.real(), residual.imag();
+    const Vector step = jacobian.partialPivLu().solve(rest);
+    d.real() -= step.head(2 * count);
+    d.imag() -= step.tail(2 * count);
+    error = step.norm();
+  }
+  CHECK(error < 1e-12);
+  const double integrated[] = {.211893, 4.305776, .086827, -.021505, 1.335933, .004833};
+  for (Index h = 0; h < 3; ++h) {  // 16 harmonics are off by 5e-6
+    CAPTURE(h);
+    CHECK_THAT(h == 0 ? d(0).real() : std::abs(d(h)), WithinAbs(integrated[h], 1e-5));
+    CHECK_THAT(h == 0 ? d(count).real() : std::abs(d(count + h)), WithinAbs(integrated[h + 3], 1e-5));
+  }
 }
