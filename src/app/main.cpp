@@ -36,8 +36,11 @@ Examples
   arcslip sector plate -o rotor                   finite-element matrices of a brake rotor and its ring
 
 Exit status
-  0 done; 1 wrong input; 2 wrong command line; 3 a branch was not traced, or a study not made, to its end, or a branch not certified,
-  or an interrupt; 4 a file or standard output could not be written)";
+  0  done
+  1  wrong input
+  2  wrong command line
+  3  a branch was not traced, or a study not made, to its end, or a branch not certified, or an interrupt
+  4  a file or standard output could not be written)";
 
 /// Why a word in the place of a command is none; empty where it is one, or no word.
 std::string unknown_command(const std::string& word) {

@@ -94,6 +94,7 @@ SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, co
   const double spacing = two_pi * ring.radius / static_cast<double>(result.sectors * solid.contacts);
   result.contact_stiffness =
       solid.contact_stiffness.value_or(shear * ring.width * spacing / (0.5 * ring.height));
+  result.si = true;
   result.notes += fmt::format(
       "# {},\n# and its damper, {}: {} and {} dofs in one of {} sectors.\n# SI units: eta in Hz, force in N "
       "on a sector, preload P = mu p, the largest friction force of one contact, in N.\n",

@@ -72,18 +72,17 @@ std::string section(const std::string& name, const FiniteSector& sector, const S
 
 std::string case_text(const SectorCase& input) {
   std::string text = fmt::format(
-      "{}title = \"{}\"\n\n[system]\nmodel = \"sector\"\nwave_number = {}\nsectors = {}\n"
+      "{}title = \"{}\"\n\n[system]\nmodel = \"sector\"\n{}wave_number = {}\nsectors = {}\n"
       "contact_stiffness = {}\nlimit_per_preload = {}\nforce = {}\npreload = {}\n"
       "damping = {{ base = {}, damper = {} }}\n",
-      input.notes, input.title, input.wave_number, input.sectors, input.contact_stiffness,
-      input.limit_per_preload, input.force, input.preload, input.base_damping.zeta,
+      input.notes, input.title, input.si ? "units = \"SI\"\n" : "", input.wave_number, input.sectors,
+      input.contact_stiffness, input.limit_per_preload, input.force, input.preload, input.base_damping.zeta,
       input.damper_damping.zeta);
   text += section("base", input.base, input.base_damping) + "load = \"base_load.txt\"\n";
   text += section("damper", input.damper, input.damper_damping);
   text += fmt::format(
       "\n[branch]\nparameter = \"eta\"\nfrom = {}\nto = {}\nfor_each = {{ preload = [{}, {}, {}] }}\n",
       input.eta_from, input.eta_to, input.preload / 100, input.preload, input.preload * 100);
-  if (input.base.contacts.size() > 1) return text;  // a study takes one contact
   return text + fmt::format("\n[study]\nparameter = \"P\"\nfrom = {}\nto = {}\neta = [{}, {}]\n",
                             input.preload / 100, input.preload * 100, input.eta_from, input.eta_to);
 }

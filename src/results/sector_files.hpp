@@ -17,6 +17,7 @@ struct SectorDamping {
 struct SectorCase {
   std::string title;
   std::string notes;  ///< comment lines at the head of the case file, each begun with #
+  bool si = false;    ///< in kg, N and m, which the case file then says
   Index wave_number = 1;
   Index sectors = 1;
   FiniteSector base;    ///< with the load of unit force

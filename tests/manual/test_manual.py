@@ -45,6 +45,18 @@ def run_python(block, names):
     return printed.getvalue()
 
 
+def columns_not_told(folder):
+    """Columns of the tables of friction there that the page of results or that of studies does not name."""
+    text = "".join(PAGES[page].read_text() for page in ("results", "studies", "keys", "sectors", "commands"))
+    told = {re.sub(r"\d+", "k", word) for name in re.findall(r"`([^`\n]+)`", text) for word in re.split(r"[\s,=]+", name)}
+    columns = set()
+    for table in folder.glob("**/*.csv"):
+        header = table.read_text().partition("\n")[0].split(",")
+        if "eta" in header or "curve" in header:
+            columns.update(re.sub(r"\d+", "k", column) for column in header)
+    return columns - told
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_blocks_do_what_they_show(page, checkout):
     names, printed = {"__name__": "__manual__"}, None
@@ -60,6 +72,7 @@ def test_blocks_do_what_they_show(page, checkout):
         elif block.language == "text" and printed is not None:
             assert missing(block.code.splitlines(), printed) is None, f"line {block.line}: printed\n{printed}"
         printed = run_python(block, names) if block.language == "python" and not block.title else None
+    assert not columns_not_told(checkout)
 
 
 def test_what_is_not_run_is_what_cannot_be():

@@ -5,6 +5,7 @@
 #include "app/command.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/version.hpp"
 #include "keys/printable.hpp"
@@ -86,7 +87,7 @@ Command::Action add_modes(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   add_settings(command, options->settings);
   command->add_flag("--quiet", options->quiet, "Print no table");
-  command->footer(modes_notes);
+  command->footer(as_paragraphs(modes_notes));
   return [options] { return modes(*options); };
 }
 

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/report.hpp"
+#include "app/wrap.hpp"
 #include "results/atomic_file.hpp"
 #include "results/output.hpp"
 
@@ -44,7 +45,7 @@ Command::Action add_report(CLI::App& app) {
   const auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("report", "Write a folder of results as one page to be sent (HTML)");
   command->add_option("DIR", *folder, "Folder that `arcslip run` or `arcslip study` wrote")->required();
-  command->footer(report_notes);
+  command->footer(as_paragraphs(report_notes));
   return [folder] { return report(*folder); };
 }
 

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/sector_kinds.hpp"
+#include "app/wrap.hpp"
 #include "arcslip/keys/input_error.hpp"
 #include "results/output.hpp"
 
@@ -248,7 +249,7 @@ Command::Action add_sector(CLI::App& app) {
   options->beams = add_paper(sector, *options, "beams", "The paper's transverse beams");
   options->plates = add_plate(sector, *options);
   add_rings(sector, *options);
-  sector->footer(sector_notes);
+  sector->footer(as_paragraphs(sector_notes));
   return [options] { return write_sectors(*options); };
 }
 
