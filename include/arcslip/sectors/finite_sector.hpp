@@ -36,7 +36,7 @@ struct FiniteSector {
   std::vector<Index> outputs;  ///< anywhere
   ComplexVector load;          ///< n; amplitude of the force e^{j w t} on the sector of phase 0
 
-  static constexpr Index ground = -1;
+  static constexpr Index ground = -1;  ///< of `against`: nothing that moves
 
   /// What the i-th contact is against.
   Index against_of(std::size_t i) const { return against.empty() ? ground : against[i]; }
