@@ -10,7 +10,7 @@ namespace arcslip {
 /// I_m = int e^{jm theta} dtheta over an arc, to rounding however short the arc is.
 inline Complex arc_integral(double begin, double width, int m) {
   if (m == 0) return width;
-  return std::polar(2 * std::sin(0.5 * m * width) / m, m * (begin + 0.5 * width));
+  return std::polar(1.0, m * (begin + 0.5 * width)) * (2 * std::sin(0.5 * m * width) / m);
 }
 
 /// All of these.
