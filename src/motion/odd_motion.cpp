@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "motion/bracketed_newton.hpp"
+#include "motion/isolated_zeros.hpp"
 
 namespace arcslip {
 namespace {
@@ -66,51 +66,18 @@ double OddMotion::steepest() const {
   return angle;
 }
 
-/// The zero of dr/dtheta between two angles at which its signs differ, where dr/dtheta `rises` or falls.
-double OddMotion::turning_point(double low, double high, bool rises) const {
-  return bracketed_newton(
-      [&](double theta) {
-        const Slopes at = slopes(theta);
-        return std::pair(at.first, at.second);
-      },
-      0.5 * (low + high), low, high, rises);
-}
-
 Angles OddMotion::turning_points() const {
   double third = 0;  // bound of |d3r/dtheta3|
   for (std::size_t a = 0; a < orders_.size(); ++a)
     third += std::pow(orders_[a], 3) * std::abs(coefficients_(static_cast<Index>(a)));
   Angles found;
   if (!(third > 0)) return found;
-
-  struct Cell {
-    double low;
-    double high;
+  const auto slope = [&](double theta) {
+    const Slopes here = slopes(theta);
+    return std::pair(here.first, here.second);
   };
-  constexpr int parts = 4;
-  constexpr double narrow = 1e-8;
-  const double begin = steepest();  // no turning point is counted at both ends
-  std::array<Cell, 64> open;  // what is not searched, the leftmost last: halving 1 down to 1e-8 leaves 27
-  std::size_t count = 0;
-  for (int i = parts; i-- > 0;) open[count++] = {begin + i * pi / parts, begin + (i + 1) * pi / parts};
-  while (count > 0) {
-    const Cell cell = open[--count];
-    const double middle = 0.5 * (cell.low + cell.high);
-    const double width = 0.5 * (cell.high - cell.low);
-    const Slopes at = slopes(middle);
-    if (std::abs(at.first) > (std::abs(at.second) + 0.5 * third * width) * width) continue;
-    if (std::abs(at.second) > third * width || width < narrow) {  // one zero at most
-      const double low = slopes(cell.low).first;
-      if (low == 0) {
-        found.push(cell.low);
-      } else if (low * slopes(cell.high).first < 0) {
-        found.push(turning_point(cell.low, cell.high, low < 0));
-      }
-      continue;
-    }
-    open[count++] = {middle, cell.high};
-    open[count++] = {cell.low, middle};
-  }
+  // From where no turning point is counted at both ends.
+  isolate_zeros(slope, third, steepest(), pi, 4, [&](double theta) { found.push(theta); });
   return found;
 }
 

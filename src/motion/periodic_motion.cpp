@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "motion/bracketed_newton.hpp"
+#include "motion/isolated_zeros.hpp"
 
 namespace arcslip {
 
@@ -30,14 +30,12 @@ PeriodicMotion::PeriodicMotion(std::span<const int> orders, const ComplexVector&
 PeriodicMotion::Local PeriodicMotion::at(double theta) const {
   const Complex turn = std::polar(1.0, theta);
   Complex power = 1;
-  Local sum{coefficients_(0).real(), 0, 0};
+  Local sum{coefficients_(0).real(), 0};
   for (Index h = 1; h < coefficients_.size(); ++h) {
     power *= turn;
     const Complex part = coefficients_(h) * power;
-    const auto order = static_cast<double>(h);
     sum.value += part.real();
-    sum.first -= order * part.imag();
-    sum.second -= order * order * part.real();
+    sum.first -= static_cast<double>(h) * part.imag();
   }
   return sum;
 }
@@ -49,42 +47,16 @@ PeriodicMotion PeriodicMotion::derivative() const {
 }
 
 std::vector<double> PeriodicMotion::zeros() const {
-  double third = 0;  // bound of |d3x/dtheta3|
+  double second = 0;  // bound of |d2x/dtheta2|
   for (Index h = 1; h < coefficients_.size(); ++h)
-    third += std::pow(static_cast<double>(h), 3) * std::abs(coefficients_(h));
+    second += std::pow(static_cast<double>(h), 2) * std::abs(coefficients_(h));
   std::vector<double> found;
-  if (!(third > 0)) return found;
-
-  constexpr int parts = 8;
-  constexpr double narrow = 1e-7;
-  std::vector<std::pair<double, double>> open;  // what is not searched, the leftmost last
-  for (int i = parts; i-- > 0;) open.emplace_back(i * two_pi / parts, (i + 1) * two_pi / parts);
-  while (!open.empty()) {
-    const auto [low, high] = open.back();
-    open.pop_back();
-    const double middle = 0.5 * (low + high);
-    const double width = 0.5 * (high - low);
-    const Local here = at(middle);
-    const double bend = std::abs(here.second);
-    if (std::abs(here.value) > (std::abs(here.first) + (bend / 2 + third * width / 6) * width) * width)
-      continue;
-    if (std::abs(here.first) > (bend + third * width / 2) * width || width < narrow) {  // one zero at most
-      const double begin = value(low);
-      if (begin == 0) {
-        found.push_back(low);
-      } else if (begin * value(high) < 0) {
-        found.push_back(bracketed_newton(
-            [&](double theta) {
-              const Local local = at(theta);
-              return std::pair(local.value, local.first);
-            },
-            middle, low, high, begin < 0));
-      }
-      continue;
-    }
-    open.emplace_back(middle, high);
-    open.emplace_back(low, middle);
-  }
+  if (!(second > 0)) return found;
+  const auto both = [&](double theta) {
+    const Local here = at(theta);
+    return std::pair(here.value, here.first);
+  };
+  isolate_zeros(both, second, 0, two_pi, 8, [&](double theta) { found.push_back(theta); });
   return found;
 }
 

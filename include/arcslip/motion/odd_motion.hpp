@@ -69,7 +69,6 @@ class OddMotion {
 
  private:
   double steepest() const;
-  double turning_point(double low, double high, bool rises) const;
 
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;

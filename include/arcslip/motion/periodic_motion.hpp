@@ -26,11 +26,10 @@ class PeriodicMotion {
   /// x_0, ..., x_H.
   const ComplexVector& coefficients() const { return coefficients_; }
 
-  /// Value and derivatives at one theta.
+  /// Value and derivative at one theta.
   struct Local {
-    double value;   ///< x
-    double first;   ///< dx/dtheta
-    double second;  ///< d2x/dtheta2
+    double value;  ///< x
+    double first;  ///< dx/dtheta
   };
   Local at(double theta) const;  ///< theta
 
@@ -41,7 +40,7 @@ class PeriodicMotion {
   PeriodicMotion derivative() const;
 
   /// All theta of [0, 2 pi) at which the sign of x changes, in ascending order, but pairs of them closer than
-  /// 1e-7; beside them there may be points at which x is zero to rounding. Bounds on derivatives, not
+  /// 1e-8; beside them there may be points at which x is zero to rounding. Bounds on derivatives, not
   /// samples, tell that none is left. None of a constant.
   std::vector<double> zeros() const;
 
