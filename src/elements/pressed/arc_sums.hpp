@@ -11,14 +11,6 @@
 
 namespace arcslip {
 
-/// The harmonics of 1 on an arc: int e^{-jh theta} dtheta/pi, half of it for h = 0.
-inline ComplexVector arc_harmonics(double begin, double width, std::span<const int> orders) {
-  ComplexVector sums(std::ssize(orders));
-  for (std::size_t a = 0; a < orders.size(); ++a)
-    sums(static_cast<Index>(a)) = arc_integral(begin, width, -orders[a]) / (orders[a] == 0 ? two_pi : pi);
-  return sums;
-}
-
 /// Adds factor times value over the harmonics of a change at one angle, e^{jm theta}/2 for each.
 inline void add_product(HarmonicDerivative& sum, double factor, const ComplexVector& value,
                         const ComplexVector& turns) {
@@ -29,13 +21,16 @@ inline void add_product(HarmonicDerivative& sum, double factor, const ComplexVec
 /// Sums over arcs of int e^{jm theta} dtheta with a sign each.
 class ArcSums {
  public:
-  /// For |m| <= highest.
+  /// For |m| <= highest, of no arc.
   explicit ArcSums(int highest) : sums_(static_cast<std::size_t>(highest) + 1) {}
 
-  /// An arc in theta.
-  void add(double begin, double width, int sign = 1) {
-    for (std::size_t m = 0; m < sums_.size(); ++m)
-      sums_[m] += static_cast<double>(sign) * arc_integral(begin, width, static_cast<int>(m));
+  /// Of one arc in theta.
+  ArcSums(int highest, double begin, double width) : ArcSums(highest) {
+    for (std::size_t m = 0; m < sums_.size(); ++m) sums_[m] = arc_integral(begin, width, static_cast<int>(m));
+  }
+
+  void add(const ArcSums& other, int sign = 1) {
+    for (std::size_t m = 0; m < sums_.size(); ++m) sums_[m] += static_cast<double>(sign) * other.sums_[m];
   }
 
   /// Those of x on the arcs and 0 elsewhere, in these orders.

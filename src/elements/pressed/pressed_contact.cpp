@@ -26,18 +26,23 @@ class PressedIntegrals {
         slip_(2 * sliding.highest()),
         touch_(2 * sliding.highest()) {
     for (const PressedArcs::Arc& arc : course_.arcs()) {
-      if (arc.phase == Phase::stick) stick_.add(arc.begin, arc.width);
-      if (arc.phase == Phase::slip) slip_.add(arc.begin, arc.width, arc.direction);
-      if (arc.phase != Phase::apart) touch_.add(arc.begin, arc.width);
+      if (arc.phase == Phase::apart) continue;
+      const ArcSums own(2 * sliding.highest(), arc.begin, arc.width);
+      touch_.add(own);
+      if (arc.phase == Phase::slip) {
+        slip_.add(own, arc.direction);
+      } else {
+        stick_.add(own);
+        held_.push_back({arc, own.harmonics(one_, orders)});
+      }
     }
+    stuck_ = stick_.harmonics(sliding, orders);
+    slipped_ = slip_.harmonics(course_.press(), orders);
   }
 
   void forces(PressedForce& out) const {
-    out.tangential = settings_.tangential_stiffness * stick_.harmonics(sliding_, orders_) +
-                     settings_.friction * slip_.harmonics(course_.press(), orders_);
-    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
-      out.tangential -= arc.offset * constant;
-    });
+    out.tangential = settings_.tangential_stiffness * stuck_ + settings_.friction * slipped_;
+    for (const auto& [arc, constant] : held_) out.tangential -= arc.offset * constant;
     out.normal = touch_.harmonics(course_.press(), orders_);
     out.slip_fraction = course_.fraction(Phase::slip);
     out.apart_fraction = course_.fraction(Phase::apart);
@@ -53,29 +58,28 @@ class PressedIntegrals {
     const double k = settings_.tangential_stiffness;
     out.tangential_by_sliding = stick_.derivative(orders_, k);
     out.tangential_by_closing = slip_.derivative(orders_, settings_.friction);
-    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
-      if (!arc.is_set) return;
+    for (const auto& [arc, constant] : held_) {
+      if (!arc.is_set) continue;
       ComplexVector turns(std::ssize(orders_));
       for (std::size_t a = 0; a < orders_.size(); ++a)
         turns(static_cast<Index>(a)) = std::polar(0.5, orders_[a] * arc.anchor);
       add_product(out.tangential_by_sliding, -k, constant, turns);
       add_product(out.tangential_by_closing, -arc.by_press, constant, turns);
-    });
+    }
     out.normal_by_closing = touch_.derivative(orders_, settings_.normal_stiffness);
     out.tangential_by_closing.linear *= settings_.normal_stiffness;
     out.tangential_by_closing.conjugate *= settings_.normal_stiffness;
   }
 
   void by_settings(PressedForce& out) const {
-    const PeriodicMotion one(ComplexVector::Ones(1));
     const double mu = settings_.friction;
     auto& by = out.tangential_by;
-    by[PressedForce::friction] = slip_.harmonics(course_.press(), orders_);
-    by[PressedForce::tangential_stiffness] = stick_.harmonics(sliding_, orders_);
+    by[PressedForce::friction] = slipped_;
+    by[PressedForce::tangential_stiffness] = stuck_;
     by[PressedForce::normal_stiffness] = mu * slip_.harmonics(closing_, orders_);
-    by[PressedForce::normal_force] = mu * slip_.harmonics(one, orders_);
-    each_stick([&](const PressedArcs::Arc& arc, const ComplexVector& constant) {
-      if (!arc.is_set) return;
+    by[PressedForce::normal_force] = mu * slip_.harmonics(one_, orders_);
+    for (const auto& [arc, constant] : held_) {
+      if (!arc.is_set) continue;
       const double slid = sliding_.value(arc.anchor);
       if (!arc.was_apart) {  // A = k_t r -+ mu n
         const double press = course_.press().value(arc.anchor);
@@ -84,20 +88,18 @@ class PressedIntegrals {
       by[PressedForce::tangential_stiffness] -= slid * constant;
       by[PressedForce::normal_stiffness] -= arc.by_press * closing_.value(arc.anchor) * constant;
       by[PressedForce::normal_force] -= arc.by_press * constant;
-    });
+    }
     out.normal_by.fill(ComplexVector::Zero(std::ssize(orders_)));
     out.normal_by[PressedForce::normal_stiffness] = touch_.harmonics(closing_, orders_);
-    out.normal_by[PressedForce::normal_force] = touch_.harmonics(one, orders_);
+    out.normal_by[PressedForce::normal_force] = touch_.harmonics(one_, orders_);
   }
 
  private:
-  /// Calls `use` with each arc of stick and the harmonics of 1 over it.
-  template <class Use>
-  void each_stick(const Use& use) const {
-    for (const PressedArcs::Arc& arc : course_.arcs()) {
-      if (arc.phase == Phase::stick) use(arc, arc_harmonics(arc.begin, arc.width, orders_));
-    }
-  }
+  /// An arc of stick and the harmonics of 1 over it.
+  struct Held {
+    PressedArcs::Arc arc;
+    ComplexVector constant;
+  };
 
   void normal_range(PressedForce& out) const {
     const PeriodicMotion& press = course_.press();
@@ -115,10 +117,14 @@ class PressedIntegrals {
   std::span<const int> orders_;
   const PeriodicMotion& sliding_;
   const PeriodicMotion& closing_;
+  PeriodicMotion one_{ComplexVector::Ones(1)};
   PressedArcs course_;
   ArcSums stick_;
   ArcSums slip_;  // with the direction of slip as sign
   ArcSums touch_;
+  std::vector<Held> held_;
+  ComplexVector stuck_;    // of r where it sticks
+  ComplexVector slipped_;  // of N where it slips, with that sign
 };
 
 }  // namespace
