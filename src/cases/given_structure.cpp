@@ -1,7 +1,6 @@
 #include "cases/given_structure.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -63,6 +62,11 @@ const KeyTable<GivenSettings>& given_keys() {
   return keys;
 }
 
+/// The one that is named, as `model` was found to be.
+std::shared_ptr<const Structures> load_given(const TomlDocument& document) {
+  return find_given(document, *document.root().at_path("system.model").value<std::string>());
+}
+
 void read_given(const StructureKind::Source& source, ProblemRequest& problem) {
   const auto given = std::static_pointer_cast<const GivenStructures>(source.use.structures);
   if (source.use.is_free)
@@ -89,15 +93,8 @@ ordered_json given_resolved(const ProblemRequest& problem, const ordered_json& /
 
 std::string given_in_words(const ProblemRequest& problem) {
   const SystemParameters& system = problem.system;
-  std::vector<double> k;
-  std::vector<double> limits;
-  for (const SectorContact& contact : system.contacts) {
-    k.push_back(contact.stiffness);
-    limits.push_back(contact.slip_per_preload * contact.stiffness);
-  }
-  return fmt::format("structure by its responses, n = {}, N = {}, k = {:g}, L = {:g}, F = {:g}",
-                     system.wave_number, system.elements, fmt::join(k, ", "), fmt::join(limits, ", "),
-                     system.force);
+  return fmt::format("structure by its responses, n = {}, N = {}, {}", system.wave_number, system.elements,
+                     contacts_in_words(system));
 }
 
 }  // namespace
@@ -107,6 +104,7 @@ const StructureKind& given_structure() {
                                   .title = "structures by their responses",
                                   .models = {},
                                   .keys = [] { return given_keys().words(); },
+                                  .load = load_given,
                                   .read = read_given,
                                   .resolved = given_resolved,
                                   .describe = given_in_words};

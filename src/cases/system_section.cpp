@@ -1,6 +1,7 @@
 #include "cases/system_section.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -236,8 +237,6 @@ std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryMo
 
 std::shared_ptr<const Structures> load_structures(const TomlDocument& document) {
   const StructureKind& kind = kind_of(document);
-  if (&kind == &given_structure())
-    return find_given(document, TomlSection(document, "system").text("model", structure_names(document)));
   return kind.load ? kind.load(document) : nullptr;
 }
 
@@ -264,6 +263,17 @@ std::vector<SectorContact> sector_contacts(const std::vector<double>& stiffness,
                    return k > 0 ? SectorContact{k, limit / k} : SectorContact{0, never_slips};
                  });
   return contacts;
+}
+
+std::string contacts_in_words(const SystemParameters& system) {
+  std::vector<double> k;
+  std::vector<double> limits;
+  for (const SectorContact& contact : system.contacts) {
+    k.push_back(contact.stiffness);
+    limits.push_back(contact.slip_per_preload * contact.stiffness);
+  }
+  return fmt::format("k = {:g}, L = {:g}, F = {:g}", fmt::join(k, ", "), fmt::join(limits, ", "),
+                     system.force);
 }
 
 NumberRule poisson_rule() {

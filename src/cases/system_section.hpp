@@ -35,6 +35,9 @@ std::vector<double> numbers_of_contacts(const TomlSection& section, const std::s
 std::vector<SectorContact> sector_contacts(const std::vector<double>& stiffness,
                                            const std::vector<double>& limit_per_preload);
 
+/// Stiffness and limits of the contacts, and the load.
+std::string contacts_in_words(const SystemParameters& system);
+
 /// What the kind of structure loads of a system with friction; null if nothing. Throws InputError.
 std::shared_ptr<const Structures> load_structures(const TomlDocument& document);
 

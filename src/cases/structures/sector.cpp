@@ -2,7 +2,6 @@
 // each.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,18 +190,11 @@ ordered_json sector_resolved(const ProblemRequest& problem, const ordered_json& 
 
 std::string sector_in_words(const ProblemRequest& problem) {
   const SystemParameters& system = problem.system;
-  std::vector<double> k;
-  std::vector<double> limits;
-  for (const SectorContact& contact : system.contacts) {
-    k.push_back(contact.stiffness);
-    limits.push_back(contact.slip_per_preload * contact.stiffness);
-  }
   const auto& sectors = static_cast<const SectorPair&>(*system.structures);
   const bool is_cyclic = system.elements > 1 || sectors.base().sector.has_boundaries();
   std::string text = is_cyclic ? fmt::format("sector, n = {}, N = {}", system.wave_number, system.elements)
                                : std::string("structure without symmetry");
-  text += fmt::format(", k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base, {})", fmt::join(k, ", "),
-                      fmt::join(limits, ", "), system.force, system.base_damping,
+  text += fmt::format(", {}, zeta = {:g} (base, {})", contacts_in_words(system), system.base_damping,
                       to_string(sectors.base().damping_kind));
   if (sectors.damper() != nullptr)
     text +=

@@ -206,9 +206,7 @@ std::string spring_mass_in_words(const ProblemRequest& problem) {
   };
   std::string text = fmt::format("masses on springs, natural frequencies {} (base)", frequencies(wave.base));
   if (!system.fixed_damper) text += fmt::format(", {} (damper)", frequencies(wave.damper));
-  const SectorContact& contact = system.contacts.front();
-  return text + fmt::format(", k = {:g}, L = {:g}, F = {:g}, zeta = {:g} (base)", contact.stiffness,
-                            contact.slip_per_preload * contact.stiffness, system.force, system.base_damping);
+  return text + fmt::format(", {}, zeta = {:g} (base)", contacts_in_words(system), system.base_damping);
 }
 
 }  // namespace
