@@ -140,7 +140,7 @@ def check_cycle(element, x, ways, values):
         )
     size = max(np.max(np.abs(differences), initial=0), 1e-200)
     if element.slope is not None:
-        slope = element._call("slope", element.slope, np.repeat(x[:, None], ways.shape[1], axis=1), values, ways)
+        slope = element._slopes_along(x, ways, values)
         wrong = np.abs(slope - differences)
         worst = np.unravel_index(np.argsort(wrong, axis=None)[wrong.size * 3 // 4], wrong.shape)  # kinks may differ
         if wrong[worst] > _AGREE * size:

@@ -141,10 +141,11 @@ class Element:
 
     def _along(self, x, ways, values):
         if self.slope is not None:
-            at = np.repeat(x[:, None], ways.shape[1], axis=1)
-            changes = self._call("slope", self.slope, at, values, ways)
-            return self._force_at(x[:, None], values)[:, 0], changes
+            return self._force_at(x[:, None], values)[:, 0], self._slopes_along(x, ways, values)
         return (complex_changes if self._complex else changes_by_differences)(self._force_at, x, ways, values)
+
+    def _slopes_along(self, x, ways, values):
+        return self._call("slope", self.slope, np.repeat(x[:, None], ways.shape[1], axis=1), values, ways)
 
     def _is_new(self, x):
         """Whether it was not checked at displacements as large, where what is not linear shows."""
