@@ -56,8 +56,9 @@ bool ExtremumTracer::enter(Side side) {
   const auto [inside, from] = next_inside(corner, side);
   const auto outer = slopes_.extremum_inside(corner, side, from);
   const bool turns = outer && distance(*outer) < narrow;
-  const auto next =
+  auto next =
       turns ? first_inside(corner, side, -inside, distance(*outer)) : first_inside(corner, side, inside, 0);
+  if (!next && !turns) next = straight_on(corner, side);
   if (!next) {
     stop(Stop::grazing_border,
          fmt::format("the extremum leaves a border and no smooth one goes on from there, at {}", place()));
@@ -82,6 +83,27 @@ bool ExtremumTracer::enter(Side side) {
   passes_ = true;
   smooth(guess_at(*next, direction), true, 0);
   return true;
+}
+
+/// The extremum in the regime of a side a little farther in the parameter than a corner. Where the observable
+/// is what the border is told by, its extremum comes to the border from the middle of one side and goes on in
+/// the middle of the other, and no point of the border beside it leads there.
+std::optional<BasePoint> ExtremumTracer::straight_on(const BasePoint& corner, Side side) {
+  const BranchPoint& here = curve_.points.back();
+  const double arrival = here.arrival(here.arrival.size() - 1);
+  BasePoint beyond = corner;
+  beyond.regime = slopes_.regime(side);
+  for (double way = shortest_way; way <= longest_way; way *= 10) {
+    if (!problem_.adapt(beyond)) return std::nullopt;
+    Guess guess = guess_at(beyond);
+    guess.parameters(parameter_) += std::copysign(way * parameter_scale(here), arrival);
+    const Branch found = trace_one_way(problem_, guess, true, freely(way));
+    if (found.points.empty()) continue;
+    const BasePoint next = split(found.points.front());
+    const double inside = distance(next);
+    if (inside > 0 && inside < narrow + way) return next;
+  }
+  return std::nullopt;
 }
 
 /// An extremum inside the regime of a side, beside a corner: of those along the border where the slope on it

@@ -28,11 +28,21 @@ NumberRule damping_rule() {
   return {[](double zeta) { return std::abs(zeta) < 1 && zeta != 0; }, " > -1 and < 1 that is not 0"};
 }
 
-/// What a damping ratio may be: 0, too, of what is damped otherwise.
-NumberRule ratio_rule(bool may_be_negative, bool is_damped) {
-  if (!is_damped) return may_be_negative ? damping_rule() : inside(0, 1);
+/// What a damping ratio may be.
+NumberRule ratio_rule(bool may_be_negative) {
   if (may_be_negative) return {[](double zeta) { return std::abs(zeta) < 1; }, " > -1 and < 1"};
   return {[](double zeta) { return zeta >= 0 && zeta < 1; }, " >= 0 and < 1"};
+}
+
+/// What 0 is calculated as where a structure has no other damping: responses at its undamped resonances
+/// stay finite, and those that friction bounds keep their first nine digits.
+constexpr double undamped = 1e-12;
+
+/// Does so.
+auto not_undamped(double S::*ratio, bool S::*is_damped) {
+  return then([=](S& settings, const TomlSection&) {
+    if (settings.*ratio == 0 && !(settings.*is_damped)) settings.*ratio = undamped;
+  });
 }
 
 /// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
@@ -144,7 +154,7 @@ K units_key() {
 std::vector<K> shared_keys() {
   const auto base = [](const S& settings) {
     const bool in_study = settings.use->linear_passive;
-    NumberRule rule = ratio_rule(!in_study, settings.is_base_damped);
+    NumberRule rule = ratio_rule(!in_study);
     if (in_study) {
       rule.text +=
           ", as a base that its own motion excites grows without bound wherever friction does not hold it: "
@@ -152,17 +162,17 @@ std::vector<K> shared_keys() {
     }
     return rule;
   };
-  const auto damper = [](const S& settings) { return ratio_rule(false, settings.is_damper_damped); };
   const auto has_kind = [](const S& settings, const TomlSection&) { return settings.has_damping_kind; };
   const auto kind = [](const S& settings) {
     return settings.has_damping_kind ? ordered_json(to_string(settings.base_damping_kind)) : ordered_json();
   };
   static const KeyTable<S> damping{
-      {K("base", &S::base_damping, {damping_rule().text, base},
-         "zeta of the base; negative where its own motion excites it, which a study does not take",
-         parameter("zeta_B")),
-       K("damper", &S::damper_damping, {inside(0, 1).text, damper}, "zeta of the damper",
-         parameter("zeta_D")),
+      {K("base", &S::base_damping, {ratio_rule(true).text, base},
+         "zeta of the base; negative where its own motion excites it, which a study does not take; 0 is "
+         "calculated as 1e-12",
+         parameter("zeta_B"), not_undamped(&S::base_damping, &S::is_base_damped)),
+       K("damper", &S::damper_damping, ratio_rule(false), "zeta of the damper; 0 is calculated as 1e-12",
+         parameter("zeta_D"), not_undamped(&S::damper_damping, &S::is_damper_damped)),
        K::choice("kind", &S::base_damping_kind,
                  {{"viscous", DampingKind::viscous}, {"structural", DampingKind::structural}},
                  "of the base: C proportional to K, or K (1 + 2j zeta_B)", ", for the base", resolved(kind),

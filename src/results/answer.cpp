@@ -79,7 +79,8 @@ struct Units {
 /// How a height compares with that of the base alone.
 std::string reduction(double ratio) {
   if (!std::isfinite(ratio)) return "";
-  if (ratio > 0 && ratio < 0.02) {
+  if (ratio < 1e-8) return "while that of the free base, which nothing damps, has no bound";
+  if (ratio < 0.02) {
     const double digits = std::pow(10, std::floor(std::log10(1 / ratio)) - 2);  // three of them
     return fmt::format("{:.0f} times lower than that of the free base",
                        digits * std::round(1 / ratio / digits));

@@ -390,6 +390,9 @@ TEST_CASE("All tasks compose with a sector of three contacts", "[composition][nu
 TEST_CASE("All tasks compose with a sector of three contacts in five harmonics", "[composition][numbers]") {
   check_kind("three contacts, five harmonics");
 }
+TEST_CASE("All tasks compose with a structure without symmetry", "[composition][numbers]") {
+  check_kind("without symmetry");
+}
 TEST_CASE("All tasks compose with the full path of a sector", "[composition][numbers]") {
   check_kind("`path = \"full\"`");
 }

@@ -99,3 +99,32 @@ TEST_CASE("A peak of three harmonics vanishes on a corner within slip and goes b
   REQUIRE(folds.size() == 1);
   CHECK_THAT(folds[0], WithinRel(0.1300119914, 1e-8));  // where bisection on responses loses the peak
 }
+
+TEST_CASE("A peak passes the border of stick where its own amplitude tells it", "[cases]") {
+  // To ground Y is R: the peak comes to R = S from the middle of slip, and nothing beside it on the border.
+  const std::string settings = GENERATE("system.harmonics=1", "system.harmonics=5");
+  const bool from_stick = GENERATE(false, true);
+  const std::string ends = from_stick ? "branch.from=300" : "branch.from=0.2";
+  const std::string other = from_stick ? "branch.to=0.2" : "branch.to=300";
+  const Case input = case_texts::read_text(rods_peaks, {"system.fixed_damper=true", settings, ends, other,
+                                                        "system.preload=1", "continuation.stop_at=[2, 60]"});
+  const std::vector<TracedBranch> curves = trace(input.branches.front());
+  std::size_t passing = 0;
+  for (const TracedBranch& curve : curves) {
+    CHECK(curve.branch.complete());
+    const auto users = of_type(curve.branch, PointType::user);
+    const auto switches = of_type(curve.branch, PointType::regime_switch);
+    if (switches.empty()) continue;
+    ++passing;
+    // In stick neither eta nor height change with the preload, and S there is the height on the border.
+    const BranchPoint& border = switches.back();
+    const BranchPoint& stuck = from_stick ? curve.branch.points.front() : curve.branch.points.back();
+    const BasePoint at_border = curve.curve->split(border.unknowns, border.parameters, border.regime);
+    const BasePoint in_stick = curve.curve->split(stuck.unknowns, stuck.parameters, stuck.regime);
+    CHECK_THAT(in_stick.parameters(0), WithinRel(at_border.parameters(0), 1e-8));
+    CHECK_THAT(value(curve, stuck, "Y"), WithinRel(value(curve, border, "Y"), 1e-9));
+    CHECK_THAT(value(curve, border, "R_over_S"), WithinRel(1, 1e-9));
+    REQUIRE(users.size() == 2);
+  }
+  CHECK(passing >= 1);
+}

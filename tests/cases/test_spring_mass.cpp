@@ -60,6 +60,29 @@ TEST_CASE("A mass on a spring and a slider to ground has the response of Caughey
   }
 }
 
+TEST_CASE("Friction alone bounds a mass without damping", "[structures]") {
+  // From 4 L P/pi > F on; the undamped resonance is a point of its own.
+  const double share = GENERATE(1.3, 2.0, 5.0);
+  const double resonance = std::sqrt(3 / 2.0);
+  const auto branches =
+      traced_masses(replaced(replaced(one_mass, "preload = 0.5", fmt::format("preload = {}", share)),
+                             "base = 0.02", "base = 0") +
+                    mass_over_eta + fmt::format("[continuation]\nstop_at = [{:.17g}]\n", resonance));
+  REQUIRE(branches.size() == 1);
+  const TracedBranch& branch = branches.front();
+  CHECK(branch.branch.complete());
+  bool is_met = false;
+  for (const continuation::BranchPoint& point : branch.branch.points) {
+    const double eta = value(branch, point, "eta");
+    const double R = value(branch, point, "R");
+    const Complex force = (3 - 2 * eta * eta + caughey(1.5, share * 0.8 / 1.5, R)) * R;
+    INFO("eta = " << eta << ", R = " << R);
+    CHECK_THAT(std::abs(force), WithinRel(1.2, 1e-9));
+    is_met = is_met || eta == resonance;
+  }
+  CHECK(is_met);
+}
+
 TEST_CASE("Chains of masses that stick to one another are one linear system", "[structures]") {
   const std::string kind = GENERATE("viscous", "structural");
   const auto branches = traced_masses(

@@ -158,7 +158,7 @@ TEST_CASE("Wrong studies are refused in one line with place, key, what was expec
       {"eta = [0.5, 6.0]", "eta = [0.5, 6.0]\nobjective = 1", ":16:13", "study.objective", "a string",
        "got 1"},
       {"force = 1.0", "force = 1.0\ndamping = { base = -1e-4 }", ":10:20", "system.damping.base",
-       "> 0 and < 1, as a base that its own motion excites grows without bound", "got -0.0001"},
+       ">= 0 and < 1, as a base that its own motion excites grows without bound", "got -0.0001"},
       {"eta = [0.5, 6.0]", "eta = [0.5, 6.0]\n[continuation]\nstop_at = [1, 200]",
        ":17:", "continuation.stop_at[1]", ">= 0.1 and <= 100", "got 200"},
   };
@@ -191,7 +191,7 @@ TEST_CASE("What for_each may not hold is refused before anything runs", "[study]
       for_each("{ elements = [41, 30], wave_number = [1, 20, 3] }", "study.for_each.elements[1]",
                "> 2 wave_number = 40", "got 30"),
       for_each("{ damping = [{ base = 0.1 }, { base = -0.1 }] }", "study.for_each.damping[1].base",
-               "> 0 and < 1", "got -0.1"),
+               ">= 0 and < 1", "got -0.1"),
       for_each("{ cubic_stiffness = [0, true] }", "study.for_each.cubic_stiffness[1]", "a finite number",
                "got true"),
       for_each("{ slenderness = [8], interface_stiffness = [1] }", "study.for_each.interface_stiffness[0]",

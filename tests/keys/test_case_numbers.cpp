@@ -32,7 +32,7 @@ TEST_CASE("An integer beyond those that a double counts is read to the last digi
       {"force = 1.0", "force = 1.0\ncubic_stiffness = -9007199254740993", ":10:19", "system.cubic_stiffness",
        "a finite number", "got -9007199254740993" + no_double},
       {"force = 1.0", "force = 1.0\ndamping = { base = 9007199254740993 }", ":10:20", "system.damping.base",
-       "> -1 and < 1 that is not 0", "got 9007199254740993" + no_double},
+       "> -1 and < 1", "got 9007199254740993" + no_double},
       {"force = 1.0", "force = 1.0\nharmonics = [1, 9007199254740993]", ":10:17", "system.harmonics[1]",
        "is odd", "got 9007199254740993" + no_double},
       {"force = 1.0", "force = 1.0\nharmonics = -9223372036854775808", ":10:13", "system.harmonics",

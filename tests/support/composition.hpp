@@ -88,6 +88,14 @@ inline const std::string masses =
     "base = { mass = [3.0, 2.0], stiffness = [5.0, 4.0] }\ndamper = { mass = [1.0], stiffness = [0.5] }\n"
     "damping_kind = \"viscous\"\ncontact_stiffness = 2.0\nforce = 1.0\npreload = 0.3\n";
 
+/// Three masses in a row without symmetry, which rub between the first two and to ground.
+inline const std::string no_symmetry =
+    "[system]\nmodel = \"sector\"\ncontact_stiffness = 2.0\nforce = 1.0\npreload = 0.3\n"
+    "damping = { base = 1e-2, damper = 2e-2 }\nreduction_window = [0.05, 3.0]\n[system.base]\nmass = "
+    "\"row_m.mtx\"\nstiffness = \"row_k.mtx\"\n"
+    "contact = [[2, 1], 3]\nload = { dof = [2], value = [1.0] }\ndamping_kind = \"viscous\"\n"
+    "reference_frequency = 0.3\n";
+
 inline std::vector<Kind> kinds() {
   return {{"plain", rods(""), 0.5, 5, 1.6, -5e-2},
           {"five harmonics", rods("harmonics = 9"), 0.5, 5, 1.6, -5e-2},
@@ -104,6 +112,7 @@ inline std::vector<Kind> kinds() {
           {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
+          {"without symmetry", no_symmetry, 0.1, 0.6, 0.25, -5e-2},
           {"`path = \"full\"`", sector("[1, 2, 3]", "path = \"full\""), 0.1, 0.6, 0.25, -5e-2}};
 }
 
@@ -128,6 +137,9 @@ class Cells {
  public:
   explicit Cells(const Kind& kind) : kind_(kind) {
     write_row(folder_, "base", {3, 2.5, 2}, {4, 3, 5}, {5, 4, 6});
+    const std::string head = "%%MatrixMarket matrix array real symmetric\n3 3\n";
+    folder_.write("row_m.mtx", head + "3\n0\n0\n2.5\n0\n2\n");
+    folder_.write("row_k.mtx", head + "9\n-4\n0\n11\n-3\n9\n");
     write_row(folder_, "damper", {1, 0.8, 0.9}, {2, 1.5, 2.5}, {0.1, 0.2, 0.1});
   }
 
