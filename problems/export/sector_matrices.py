@@ -12,8 +12,8 @@ Every displacement is turned into the cylindrical directions r, t, z of the axis
 move alike but for the phase; held dofs are left out; the nodes of both boundaries are paired by r and z. The
 matrices go through node by node: time grows as their entries do, memory as the nodes.
 
-Writes NAME_mass.mtx, NAME_stiffness.mtx, NAME_left.txt, NAME_right.txt, NAME_contact.txt, NAME_load.txt and
-NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where --name is base. With
+Writes NAME_mass.mtx, NAME_stiffness.mtx, NAME_left.txt, NAME_right.txt, NAME_contact.txt, NAME_load.txt,
+NAME_coordinates.txt and NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where --name is base. With
 --name damper its table is added to the case.
 
   sector_matrices.py rotor --deck rotor.inp --sectors 24 --left LEFT --right RIGHT --hold HUB \\
@@ -290,7 +290,7 @@ def lists(arguments, sector, sets):
 def table(name, loaded):
     """The part of a case file that names the files of base or damper."""
     text = f'\n[system.{name}]\nmass = "{name}_mass.mtx"\nstiffness = "{name}_stiffness.mtx"\n'
-    text += "".join(f'{key} = "{name}_{key}.txt"\n' for key in ("left", "right", "contact"))
+    text += "".join(f'{key} = "{name}_{key}.txt"\n' for key in ("left", "right", "contact", "coordinates"))
     return text + (f'load = "{name}_load.txt"\n' if loaded else "") + 'damping_kind = "structural"\n'
 
 
@@ -322,6 +322,13 @@ def case_file(arguments, loaded):
     return case + table("damper", False)
 
 
+def where(place, direction):
+    """x, y, z of a place given as r, theta, z, and one of the cylindrical directions there."""
+    r, theta, z = place
+    c, s = math.cos(theta), math.sin(theta)
+    return (r * c, r * s, z) + ((c, s, 0), (-s, c, 0), (0, 0, 1))[direction]
+
+
 def convert(arguments):
     nodes, sets = {}, {}
     for deck in arguments.deck:
@@ -338,6 +345,9 @@ def convert(arguments):
             "{:.9g} {:.9g} {:.9g}\n".format(*sector.place[order[row // 3]])
             for row, dof in enumerate(number) if dof),
     }
+    files["coordinates.txt"] = "# dof, x, y, z with the axis along z, direction of its motion\n" + "".join(
+        f"{dof} " + " ".join(f"{value:.9g}" for value in where(sector.place[order[row // 3]], row % 3)) + "\n"
+        for row, dof in enumerate(number) if dof)
     if load:
         files["load.txt"] = "# dof, force, imaginary part\n" + "".join(
             f"{dof} {force.real!r} {force.imag!r}\n" for dof, force in sorted(load.items()))

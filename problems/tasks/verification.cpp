@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "arcslip/continuation/path/newton.hpp"
-#include "arcslip/problems/response/forced_response.hpp"
+#include "arcslip/problems/response/balanced_points.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
 #include "arcslip/time/ring_record.hpp"
@@ -34,37 +34,6 @@ std::vector<std::size_t> chosen(const continuation::Branch& branch, const Verify
   }
   return points;
 }
-
-HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) {
-  parameters.harmonics = std::move(orders);
-  return HarmonicResponse(build_harmonic_system(parameters));
-}
-
-/// The points of a branch of HarmonicResponse or ForcedResponse as those of the first.
-class BalancedPoints {
- public:
-  BalancedPoints(const SystemParameters& parameters, const std::vector<int>& orders,
-                 const continuation::Branch& branch)
-      : problem_(balanced(parameters, orders)) {
-    if (!branch.points.empty() && branch.points.front().unknowns.size() != problem_.size())
-      scalar_ = std::make_unique<ForcedResponse>(build_system(parameters));
-  }
-
-  const HarmonicResponse& problem() const { return problem_; }
-
-  Guess at(const BranchPoint& point) const {
-    Guess at{point.unknowns, point.parameters, point.regime};
-    if (!scalar_) return at;
-    const ComplexVector x = scalar_->motions(point.unknowns, point.parameters, point.regime);
-    at.unknowns.resize(2 * x.size());
-    for (Index i = 0; i < x.size(); ++i) at.unknowns.segment<2>(2 * i) << x(i).real(), x(i).imag();
-    return at;
-  }
-
- private:
-  HarmonicResponse problem_;
-  std::unique_ptr<ForcedResponse> scalar_;
-};
 
 PowerBalance power(const HarmonicResponse& problem, const Guess& at) {
   return power_balance(problem, at.unknowns, at.parameters, at.regime);

@@ -82,20 +82,25 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value) {
   return other;
 }
 
+SystemParameters in_order(const SystemParameters& parameters, int h) {
+  SystemParameters wave = parameters;
+  if (h == 1) return wave;
+  wave.wave_number = h * parameters.wave_number % parameters.elements;
+  wave.eta_low = h * parameters.eta_low;
+  wave.eta_high = std::max(h, 1) * parameters.eta_high;
+  wave.force = parameters.force * parameters.excitation.share(h);
+  wave.tells_lag = false;
+  return wave;
+}
+
 HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   HarmonicSystem system;
   for (const int h : parameters.harmonics) {
-    SystemParameters wave = parameters;
-    wave.wave_number = h * parameters.wave_number % parameters.elements;
-    wave.eta_low = h * parameters.eta_low;
-    wave.eta_high = std::max(h, 1) * parameters.eta_high;
     if (h == 1) {
       system = one_harmonic(build_wave(parameters));
       continue;
     }
-    wave.force = parameters.force * parameters.excitation.share(h);
-    wave.tells_lag = false;
-    ContactSystem of_order = build_wave(wave);
+    ContactSystem of_order = build_wave(in_order(parameters, h));
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));

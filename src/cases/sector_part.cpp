@@ -96,6 +96,13 @@ void read_load(PartSettings& part, const TomlSection& section) {
   if (load.isZero(0)) section.fail("load", "expected a force that is not 0");
 }
 
+void read_coordinates(PartSettings& part, const TomlSection& section) {
+  part.places = parsed(part, section, "coordinates", largest_list,
+                       [&](const std::string& text, const std::string& path) {
+                         return read_places(text, path, part.sector.mass.rows());
+                       });
+}
+
 using PartKey = Key<PartSettings>;
 
 PartKey matrix(const char* name, SparseMatrix FiniteSector::*member, const std::string& meaning,
@@ -220,7 +227,12 @@ KeyTable<PartSettings> keys_of_part(bool loaded) {
               "alpha of a part alpha M of C; beside it or a C zeta adds to them and is 0 by default"),
       dofs("output", &F::outputs,
            "whose amplitudes follow in `branches.csv`: `Y_40` of the base, `U_40` of the damper",
-           otherwise("none"))};
+           otherwise("none")),
+      PartKey::special(
+          "coordinates", "file",
+          "where the dofs are, for `--shapes`: a line `dof x y z dx dy dz` for each, its place and "
+          "the direction of its motion, z being the axis",
+          read_coordinates, otherwise("none"))};
   if (!loaded) return keys;
   return {keys,
           {PartKey::special("load", "file or table",

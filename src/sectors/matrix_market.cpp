@@ -333,6 +333,34 @@ ComplexVector read_load(std::string_view text, const std::string& file, Index si
   return load;
 }
 
+std::vector<DofPlace> read_places(std::string_view text, const std::string& file, Index size) {
+  Lines lines(text, file, "%#");
+  std::vector<DofPlace> places(static_cast<std::size_t>(size));
+  std::vector<char> known(places.size());
+  while (lines.advance_to_words()) {
+    const auto dof = static_cast<std::size_t>(
+        integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); }) - 1);
+    DofPlace& place = places[dof];
+    for (double* value : {&place.at[0], &place.at[1], &place.at[2], &place.direction[0], &place.direction[1],
+                          &place.direction[2]}) {
+      const std::string_view word = lines.word();
+      const std::optional<double> number = finite_number(word);
+      if (!number) lines.fail("a finite number", lines.given(word));
+      *value = *number;
+    }
+    const double length = std::hypot(place.direction[0], place.direction[1], place.direction[2]);
+    if (!(length > 0)) lines.fail("a direction that is not 0 0 0", "0 0 0");
+    for (double& part : place.direction) part /= length;
+    end_of_line(lines, "the direction");
+    known[dof] = 1;
+  }
+  const auto missing = std::find(known.begin(), known.end(), char{0});
+  if (missing != known.end())
+    throw MatrixTextError(fmt::format("{}: expected a line for each of {} dofs, dof {} has none", file, size,
+                                      missing - known.begin() + 1));
+  return places;
+}
+
 std::string write_matrix_market(const SparseMatrix& matrix, MatrixSymmetry symmetry) {
   const bool lower_only = symmetry == MatrixSymmetry::symmetric;
   if (lower_only && (SparseMatrix(matrix.transpose()) - matrix).norm() != 0) {

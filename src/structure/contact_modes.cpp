@@ -175,11 +175,11 @@ Vector contact_springs(const std::vector<SectorContact>& contacts) {
 
 ContactOutput driven_motion(ContactModes base) { return {"lag", std::move(base), true, true}; }
 
-double ContactOutput::amplitude(double eta, const ContactVector& forces) const {
+Complex ContactOutput::motion(double eta, const ContactVector& forces) const {
   const Index m = forces.size();
   const ContactReceptance at = modes.at(eta);
   const Complex by_contacts = (at.compliance.row(m).head(m) * forces).value();
-  return std::abs(at.free(m) + by_contacts);
+  return at.free(m) + by_contacts;
 }
 
 std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
@@ -211,7 +211,8 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
       for (const ContactMode& mode : structure->modes())
         losses += std::norm(motion(row++)) * structure->loss().part(frequency, mode.frequency);
     }
-    modes.push_back({frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion});
+    modes.push_back(
+        {frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion, motion});
   }
   return modes;
 }

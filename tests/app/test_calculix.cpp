@@ -136,6 +136,9 @@ TEST_CASE("The guide's commands lead from a mesh to a case whose modes are those
   CHECK_THAT(rotor, ContainsSubstring(shown[1]));
   CHECK_THAT(read(exports + "/ring.inp"), ContainsSubstring(shown[2]));
   check_frequencies(workshop, rotor, 0, 3);
+  // The places of its dofs, each face turned into the other.
+  CHECK(workshop.run("arcslip modes study/case.toml --shapes -o modes --quiet\n").status == 0);
+  CHECK_THAT(read(workshop.path("modes/shapes/n3_base_1.vtu")), ContainsSubstring("mode_imaginary"));
 
   // The ring has the stiffness of no support: fourteen digits tell which motions are free.
   const Case input = read_case(workshop.path("study/case.toml"));

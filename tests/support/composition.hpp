@@ -149,6 +149,7 @@ class Cells {
     return arcslip_program(
         fmt::format("{} '{}' -o '{}' --quiet {}", command, path, folder_.path("out"), options));
   }
+  const TemporaryFolder& folder() const { return folder_; }
   Table results(const std::string& name = "branches.csv") const { return Table(folder_.path("out/" + name)); }
   nlohmann::json summary() const {
     return nlohmann::json::parse(testing::read(folder_.path("out/summary.json")));

@@ -46,6 +46,9 @@ double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinat
 /// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
 ContactSystem build_wave(const SystemParameters& parameters);
 
+/// The system whose first harmonic is the harmonic h of another: its wave, load and window of eta.
+SystemParameters in_order(const SystemParameters& parameters, int h);
+
 /// A system in the first harmonic alone.
 HarmonicSystem one_harmonic(ContactSystem system);
 

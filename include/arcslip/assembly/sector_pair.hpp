@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/sectors/matrix_market.hpp"
 #include "arcslip/sectors/sector_modes.hpp"
 
 namespace arcslip {
@@ -33,6 +34,7 @@ struct SectorPart {
   double reference_frequency = 1;                      ///< eta at which viscous damping has the loss 2 zeta
   Loss fixed;                                          ///< what is there besides
   std::uint64_t fingerprint = 0;                       ///< of the files it was read from
+  std::vector<DofPlace> places = {};                   ///< of the dofs, or none
 
   /// Whether it is damped where zeta is 0.
   bool is_damped() const { return sector.damping.size() != 0 || fixed.viscous != 0 || fixed.mass != 0; }

@@ -13,6 +13,7 @@
 // A text can be hostile: what is allocated is bounded by its length, at most 16 bytes for each of its own and
 // 16 MiB besides.
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,6 +50,17 @@ std::vector<Index> read_dofs(std::string_view text, const std::string& file, Ind
 /// The force on each of `size` dofs that `text` gives in lines "dof value [imaginary part]", dofs and
 /// comments as above; forces on one dof are summed. Throws MatrixTextError.
 ComplexVector read_load(std::string_view text, const std::string& file, Index size);
+
+/// Where a dof is in the sector of phase 0, with the z axis as that of the turning, and the direction in
+/// which it moves.
+struct DofPlace {
+  std::array<double, 3> at;         ///< x, y, z
+  std::array<double, 3> direction;  ///< of unit length
+};
+
+/// The places of all `size` dofs that `text` gives in lines "dof x y z dx dy dz", dofs and comments as above,
+/// directions of any length but 0. Throws MatrixTextError.
+std::vector<DofPlace> read_places(std::string_view text, const std::string& file, Index size);
 
 enum class MatrixSymmetry { general, symmetric };
 

@@ -143,7 +143,9 @@ struct ContactOutput {
   bool is_lag = false;  ///< its lag behind the load is wanted in place of its amplitude
 
   /// Under the load and the forces on the contact dofs of its structure.
-  double amplitude(double eta, const ContactVector& forces) const;
+  Complex motion(double eta, const ContactVector& forces) const;
+  /// Of the motion.
+  double amplitude(double eta, const ContactVector& forces) const { return std::abs(motion(eta, forces)); }
 };
 
 /// That of the motion that the load does work on, of a base with it: its lag behind the load.
@@ -162,6 +164,7 @@ struct JoinedMode {
   double frequency;        ///< eta_k
   double damping;          ///< damping ratio, to the first order in the losses
   ContactVector relative;  ///< relative displacements of the contacts, of any size
+  ComplexVector motion;    ///< of the modes of the structures, one structure after the other
 };
 
 /// The undamped modes of `structures` joined at their contacts through springs, of stiffness `springs` (m);

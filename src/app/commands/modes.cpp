@@ -13,6 +13,7 @@
 #include "results/mode_table.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
+#include "results/shapes.hpp"
 
 namespace arcslip {
 namespace {
@@ -24,6 +25,7 @@ struct ModesOptions {
   Index highest = 50;                 ///< number of waves
   double speed = 0;                   ///< revolutions a minute, of engine-order lines; 0: none
   bool quiet = false;
+  bool shapes = false;  ///< write those of the system's own wave
 };
 
 /// The first system that the case is about.
@@ -45,7 +47,11 @@ int modes(const ModesOptions& options) {
     throw InputError(file.path() +
                      ": --speed is in revolutions a minute: for systems in SI units, by [geometry] or "
                      "units = \"SI\"");
+  if (const std::string why = options.shapes ? why_no_shapes(problem.system) : ""; !why.empty())
+    throw InputError(fmt::format("{}: --shapes needs places of the dofs: {}", file.path(), why));
   std::vector<WaveModes> waves;
+  std::vector<ShapeFile> shapes;
+  if (options.shapes) file.named("system", [&] { shapes = RingShapes(problem.system).modes(); });
   file.named("system", [&] { waves = modes_of(problem, options.highest); });
   const OutputFolder folder(results_folder(options.folder, options.case_path));
   const nlohmann::ordered_json about = {
@@ -61,7 +67,10 @@ int modes(const ModesOptions& options) {
     written.sync();
     written.commit();
   }
-  if (!options.quiet) print(modes_text(problem, waves) + fmt::format("\n{}/modes.csv\n", folder.path()));
+  if (options.shapes) write_shapes(folder.path(), shapes);
+  if (options.quiet) return status::done;
+  print(modes_text(problem, waves) + fmt::format("\n{0}/modes.csv", folder.path()) +
+        (options.shapes ? fmt::format(", {} shapes in {}/shapes\n", shapes.size(), folder.path()) : "\n"));
   return status::done;
 }
 
@@ -86,6 +95,9 @@ Command::Action add_modes(CLI::App& app) {
       ->type_name("RPM")
       ->check(CLI::PositiveNumber);
   add_settings(command, options->settings);
+  command->add_flag("--shapes", options->shapes,
+                    "Write the shapes of the modes with the wave number of the case, of sectors whose dofs "
+                    "have `coordinates`: DIR/shapes/*.vtu, for ParaView");
   command->add_flag("--quiet", options->quiet, "Print no table");
   command->footer(as_paragraphs(modes_notes));
   return [options] { return modes(*options); };

@@ -22,6 +22,7 @@
 #include "results/output_folder.hpp"
 #include "results/run_files.hpp"
 #include "results/run_progress.hpp"
+#include "results/shapes.hpp"
 #include "results/stability_results.hpp"
 #include "results/verification_results.hpp"
 
@@ -35,6 +36,7 @@ struct RunOptions {
   bool quiet = false;
   bool verify = false;   ///< solve points of each branch anew, by other means
   bool certify = false;  ///< prove each branch by interval arithmetic
+  bool shapes = false;   ///< write those of special points
   std::string resume;    ///< folder of the interrupted run to go on with; empty: none
 };
 
@@ -47,9 +49,14 @@ std::string complaint(const continuation::Branch& branch) {
   return "";
 }
 
-/// Refuses what cannot be verified or what no certificate covers.
+/// Refuses what cannot be verified, what no certificate covers, and what has no shapes.
 void require_provable(const CaseBranch& branch, const RunOptions& options) {
-  std::string why = options.verify ? why_not_verifiable(branch) : "";
+  std::string why = options.shapes ? why_no_shapes(branch) : "";
+  if (!why.empty())
+    throw InputError(
+        fmt::format("{}: --shapes needs a forced response of sectors and the places of their dofs: {}",
+                    options.case_path, why));
+  why = options.verify ? why_not_verifiable(branch) : "";
   if (!why.empty())
     throw InputError(fmt::format("{}: --verify is for forced responses, not for {}", options.case_path, why));
   if (options.certify) why = why_not_certifiable(branch);
@@ -63,7 +70,7 @@ void require_provable(const CaseBranch& branch, const RunOptions& options) {
 /// The same before anything runs, of as many branches as are looked at in no time.
 void require_provable(const CasePlan& plan, const RunOptions& options) {
   constexpr std::size_t some = 10'000;
-  if (!options.verify && !options.certify) return;
+  if (!options.verify && !options.certify && !options.shapes) return;
   for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
 }
 
@@ -79,7 +86,7 @@ class Run {
   int execute();
 
  private:
-  void trace_request(std::size_t i, RunFiles& files);
+  void trace_request(std::size_t i, RunFiles& files, const std::string& folder);
   void report(const TracedBranch& traced, std::size_t number);
   std::string described(const TracedBranch& traced, std::size_t number);
   void certify_branch(TracedBranch& traced, RunFiles& files);
@@ -104,6 +111,7 @@ int Run::execute() {
   require_provable(plan_, options_);
   file_.named("system", [&] {
     build(plan_.branch(0).problem);
+    if (options_.shapes) RingShapes(plan_.branch(0).problem.system);
     if (!options_.quiet) warn(warnings_of(plan_));
   });
   const bool resumes = !options_.resume.empty();
@@ -123,7 +131,8 @@ int Run::execute() {
       say_interrupted();
     });
     try {
-      for (std::size_t i = reached.requests; i < plan_.count && !interrupted(); ++i) trace_request(i, files);
+      for (std::size_t i = reached.requests; i < plan_.count && !interrupted(); ++i)
+        trace_request(i, files, folder.path());
     } catch (const InputError&) {
       files.finish(seconds_since(start_), true);
       throw;
@@ -139,7 +148,7 @@ int Run::execute() {
   return complete_ && ended_ == plan_.count ? status::done : status::incomplete_branch;
 }
 
-void Run::trace_request(std::size_t i, RunFiles& files) {
+void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folder) {
   CaseBranch request = plan_.branch(i);
   require_provable(request, options_);
   request.options.journal = &progress_.begin(request, options_.verify || options_.certify,
@@ -174,6 +183,12 @@ void Run::trace_request(std::size_t i, RunFiles& files) {
       files.add(one);
     }
     report(one, files.count() - 1);
+    if (options_.shapes) {
+      file_.named("system", [&] {
+        const RingShapes shapes(request.problem.system);
+        write_shapes(folder, shapes_of(shapes, files.count() - 1, one));
+      });
+    }
     if (options_.certify) certify_branch(one, files);
     if (options_.verify) verify_branch(one, files);
   }
@@ -295,6 +310,9 @@ Command::Action add_run(CLI::App& app) {
       "--certify", options->certify,
       "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "
       "jumped; forced responses with one contact; status 3 where a segment is not proven");
+  command->add_flag("--shapes", options->shapes,
+                    "Write the shape of the ring at each special point of forced responses, of sectors whose "
+                    "dofs have `coordinates`: DIR/shapes/*.vtu, for ParaView");
   command->footer([] {
     return as_paragraphs(run_notes) +
            list_keys({"system", "geometry", "element", "excitation", "branch", "continuation"});
