@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/command.hpp"
@@ -177,6 +178,7 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
     complain(fmt::format("{} (branch {}{}{})", error.what(), files.count() - 1,
                          request.values.empty() ? "" : ": ", arcslip::describe(request.values)));
   }
+  std::optional<RingShapes> shapes;
   for (TracedBranch& one : traced) {
     {
       const Undisturbed writing;
@@ -185,8 +187,8 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
     report(one, files.count() - 1);
     if (options_.shapes) {
       file_.named("system", [&] {
-        const RingShapes shapes(request.problem.system);
-        write_shapes(folder, shapes_of(shapes, files.count() - 1, one));
+        if (!shapes) shapes.emplace(request.problem.system);
+        write_shapes(folder, shapes_of(*shapes, files.count() - 1, one));
       });
     }
     if (options_.certify) certify_branch(one, files);
