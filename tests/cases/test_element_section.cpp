@@ -1,8 +1,13 @@
 // The tables [[element]] of a case file, and parameters of the system that are continued.
 
+#include <fmt/format.h>
+
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "arcslip/assembly/coordinates.hpp"
+#include "arcslip/cases/runs.hpp"
+#include "branches.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
 
@@ -119,4 +124,38 @@ TEST_CASE("Modes are continued over parameters of the system at an amplitude, cy
   CHECK(case_texts::read_text(system_text + cycle).branches[0].problem.system.varied == "zeta_D");
   CHECK_THAT(case_texts::error_of(system_text + replaced(cycle, "zeta_D", "F")),
              ContainsSubstring("branch.parameter: expected \"zeta_B\" or \"P\""));
+}
+
+TEST_CASE("A linear spring of an element is one of the structure", "[cases]") {
+  const std::string mass =
+      "[system]\nmodel = \"spring_mass\"\nbase = { mass = [2.0], stiffness = [3.0] }\n"
+      "contact_stiffness = 1.5\nlimit_per_preload = 0.8\npreload = 0.5\nforce = 1.2\nharmonics = 5\n"
+      "damping_kind = \"structural\"\ndamping = { base = 0.02 }\n";
+  const double spring = GENERATE(-1.0, 4.0, 300.0);
+  const std::string element =
+      fmt::format("[[element]]\nkind = \"polynomial\"\nat = \"base\"\nlinear = {}\n", spring);
+  std::string stiffer = replaced(mass, "[3.0]", fmt::format("[{}]", 3 + spring));
+  stiffer = replaced(stiffer, "0.02", fmt::format("{:.17g}", 0.02 * 3 / (3 + spring)));  // the same loss
+  const std::string ends = fmt::format("from = {}\nto = {}\n", 0.2, 20);
+  const std::string branch =
+      "[branch]\nparameter = \"eta\"\n" + ends + "[continuation]\nstop_at = [0.4, 1.2, 1.9, 12.3]\n";
+  std::array<std::vector<double>, 2> heights;
+  for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
+    const Case input = case_texts::read_text((which == 0 ? mass + element : stiffer) + branch);
+    for (const TracedBranch& one : trace(input.branches[0])) {
+      CHECK(one.branch.complete());
+      for (const continuation::BranchPoint& point : one.branch.points) {
+        if (point.type == continuation::PointType::regular) continue;
+        heights[which].push_back(value(one, point, "eta"));
+        heights[which].push_back(value(one, point, "Y"));
+        heights[which].push_back(value(one, point, "dissipated"));
+      }
+    }
+  }
+  REQUIRE(heights[0].size() >= 21);
+  REQUIRE(heights[0].size() == heights[1].size());
+  for (std::size_t i = 0; i < heights[0].size(); ++i) {
+    INFO(i);
+    CHECK_THAT(heights[0][i], WithinRel(heights[1][i], 1e-8));
+  }
 }
