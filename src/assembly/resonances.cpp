@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "arcslip/assembly/system.hpp"
+
 namespace arcslip {
 std::vector<Resonance> resonances(const ContactSystem& wave) {
   std::vector<Resonance> all;

@@ -8,6 +8,7 @@
 #include "cases/excitation_section.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/study_section.hpp"
+#include "cases/system_section.hpp"
 
 namespace arcslip {
 namespace {
