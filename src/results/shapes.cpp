@@ -106,7 +106,11 @@ void RingShapes::find_turn(const FiniteSector& sector, const Part& part) {
     return most;
   };
   constexpr double close = 1e-3;
-  turn_ = error(1) <= error(-1) ? 1 : -1;
+  const double sense = error(1) <= error(-1) ? 1 : -1;
+  if (turn_ != 0 && sense != turn_)
+    throw std::invalid_argument(
+        "the sectors of base and damper follow one another about z in opposite senses");
+  turn_ = sense;
   if (!(error(turn_) < close))
     throw std::invalid_argument(
         fmt::format("the coordinates of `right` are not those of `left` turned by 360/{} degrees about z",

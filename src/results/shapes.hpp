@@ -64,7 +64,7 @@ class RingShapes {
 
   SystemParameters system_;  ///< with all dofs as outputs
   std::array<Part, 2> parts_;
-  double turn_ = 1;  ///< sense in which sector follows sector about z
+  double turn_ = 0;  ///< sense in which sector follows sector about z; 0 of one without boundaries
 };
 
 /// The special points of a branch that has shapes, as branch_0_point_12.vtu.

@@ -155,6 +155,10 @@ TEST_CASE("Shapes without places of the dofs are refused before anything is done
     twelve.replace(twelve.find("sectors = 12"), 12, "sectors = 11");
     refused(twelve, command, "turned by 360/11 degrees");
   }
+  cells.folder().write("opposite.txt", places(-1));
+  std::string opposite = placed;
+  opposite.replace(opposite.rfind("places.txt"), 10, "opposite.txt");
+  refused(opposite, "modes", "opposite senses");
   cells.folder().write("places.txt", "1 0 0 0 0 0 0\n");
   refused(placed, "run", "direction");
   cells.folder().write("places.txt", "1 0 0 0 0 0 1\n");
