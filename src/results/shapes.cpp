@@ -67,6 +67,15 @@ RingShapes::RingShapes(const SystemParameters& system) : system_(system) {
   if (pair.damper() != nullptr) damper = all_told(*pair.damper());
   add_part(pair.base(), 0);
   if (damper) add_part(*damper, 1);
+  const auto all_fit = [&](double sense) {
+    return fits(pair.base().sector, parts_[0], sense) && (!damper || fits(damper->sector, parts_[1], sense));
+  };
+  turn_ = all_fit(1) ? 1 : -1;
+  if (!all_fit(turn_))
+    throw std::invalid_argument(
+        fmt::format("the coordinates of `right` are not those of `left` turned by 360/{} degrees about z, or "
+                    "base and damper are turned in opposite senses",
+                    system.elements));
   system_.structures = std::make_shared<const SectorPair>(all_told(pair.base()), std::move(damper),
                                                           std::max(tolerance, pair.tolerance()), pair.path());
   system_.tells_lag = false;
@@ -87,34 +96,22 @@ void RingShapes::add_part(const SectorPart& part, std::size_t which) {
     if (is_new) own.points.push_back(place.at);
     own.point_of.push_back(at->second);
   }
-  if (part.sector.has_boundaries()) find_turn(part.sector, own);
 }
 
-/// The right boundary is the left one of the next sector.
-void RingShapes::find_turn(const FiniteSector& sector, const Part& part) {
-  const double angle = two_pi / static_cast<double>(system_.elements);
+/// Whether the right boundary is the left one of the next sector, which follows in this sense about z.
+bool RingShapes::fits(const FiniteSector& sector, const Part& part, double sense) const {
+  constexpr double close = 1e-3;
+  const double angle = sense * two_pi / static_cast<double>(system_.elements);
   double size = 0;
   for (const Place& point : part.points) size = std::max(size, std::hypot(point[0], point[1], point[2]));
-  const auto error = [&](double sense) {
-    double most = 0;
-    for (std::size_t i = 0; i < sector.left.size(); ++i) {
-      const DofPlace& left = part.places[static_cast<std::size_t>(sector.left[i])];
-      const DofPlace& right = part.places[static_cast<std::size_t>(sector.right[i])];
-      most = std::max({most, apart(turned(left.at, sense * angle), right.at) / size,
-                       apart(turned(left.direction, sense * angle), right.direction)});
-    }
-    return most;
-  };
-  constexpr double close = 1e-3;
-  const double sense = error(1) <= error(-1) ? 1 : -1;
-  if (turn_ != 0 && sense != turn_)
-    throw std::invalid_argument(
-        "the sectors of base and damper follow one another about z in opposite senses");
-  turn_ = sense;
-  if (!(error(turn_) < close))
-    throw std::invalid_argument(
-        fmt::format("the coordinates of `right` are not those of `left` turned by 360/{} degrees about z",
-                    system_.elements));
+  for (std::size_t i = 0; i < sector.left.size(); ++i) {
+    const DofPlace& left = part.places[static_cast<std::size_t>(sector.left[i])];
+    const DofPlace& right = part.places[static_cast<std::size_t>(sector.right[i])];
+    const double error = std::max(apart(turned(left.at, angle), right.at) / size,
+                                  apart(turned(left.direction, angle), right.direction));
+    if (!(error < close)) return false;
+  }
+  return true;
 }
 
 std::vector<ShapeFile> RingShapes::modes() const {
@@ -143,14 +140,10 @@ std::vector<ShapeFile> RingShapes::modes() const {
   };
   const auto alone = [&](std::size_t part, const char* name, const ContactModes& structure) {
     const Index count = std::ssize(structure.modes());
-    std::vector<Index> order(static_cast<std::size_t>(count));
-    std::iota(order.begin(), order.end(), Index{0});
-    const auto eta = [&](Index k) { return structure.modes()[static_cast<std::size_t>(k)].frequency; };
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) { return eta(a) < eta(b); });
-    for (const Index k : order) {
+    for (Index k = 0; k < count; ++k) {
       std::array<ComplexVector, 2> motion;
       motion[part] = shape_of(part, structure, ComplexVector::Unit(count, k));
-      add(name, eta(k), std::move(motion));
+      add(name, structure.modes()[static_cast<std::size_t>(k)].frequency, std::move(motion));
     }
   };
   alone(0, "base", wave.base);
@@ -166,30 +159,50 @@ std::vector<ShapeFile> RingShapes::modes() const {
   return files;
 }
 
-ShapeFile RingShapes::response(const std::string& name, const problems::HarmonicResponse& problem,
-                               const continuation::Guess& at) const {
-  using problems::HarmonicResponse;
-  const auto forces = problem.element_forces(at.unknowns, at.parameters, at.regime);
+std::vector<ShapeFile> RingShapes::responses(std::size_t number, const TracedBranch& traced) const {
+  const problems::BalancedPoints points(traced.request->problem.system, traced.base.harmonics, traced.branch);
+  const std::vector<int>& orders = points.problem().system().orders;
+  std::vector<ContactSystem> waves;  // of each harmonic
+  std::vector<ShapeFile> files;
+  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
+    const continuation::BranchPoint& point = traced.branch.points[i];
+    if (point.type == continuation::PointType::regular) continue;
+    if (waves.empty() || !system_.varied.empty()) waves = waves_at(orders, point.parameters);
+    files.push_back({fmt::format("branch_{}_point_{}.vtu", number, i),
+                     text(response(waves, points.problem(), points.at(point)))});
+  }
+  return files;
+}
+
+/// Those of the harmonics, at the value of what varies beside eta and the preload.
+std::vector<ContactSystem> RingShapes::waves_at(const std::vector<int>& orders,
+                                                const Vector& parameters) const {
   const SystemParameters system =
       system_.varied.empty()
           ? system_
-          : with_parameter(system_, system_.varied, at.parameters(HarmonicResponse::further));
+          : with_parameter(system_, system_.varied, parameters(problems::HarmonicResponse::further));
+  std::vector<ContactSystem> waves;
+  for (const int h : orders) waves.push_back(system_.structures->wave(in_order(system, h)));
+  return waves;
+}
+
+std::vector<RingShapes::Shape> RingShapes::response(const std::vector<ContactSystem>& waves,
+                                                    const problems::HarmonicResponse& problem,
+                                                    const continuation::Guess& at) const {
+  const auto forces = problem.element_forces(at.unknowns, at.parameters, at.regime);
+  const double eta = at.parameters(problems::HarmonicResponse::eta);
   std::vector<Shape> shapes;
-  for (Index a = 0; a < problem.harmonics(); ++a) {
-    const auto which = static_cast<std::size_t>(a);
-    const int h = problem.system().orders[which];
-    const ContactSystem wave = system_.structures->wave(in_order(system, h));
+  for (std::size_t a = 0; a < waves.size(); ++a) {
+    const int h = problem.system().orders[a];
     Shape& shape = shapes.emplace_back(Shape{fmt::format("harmonic_{}", h), h, {}});
-    auto output = wave.outputs.begin();
+    auto output = waves[a].outputs.begin();
     for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
       shape.motion[part].resize(parts_[part].dofs);
-      for (Index dof = 0; dof < parts_[part].dofs; ++dof, ++output) {
-        shape.motion[part](dof) = output->motion(h * at.parameters(HarmonicResponse::eta),
-                                                 (part == 0 ? forces.base : forces.damper)[which]);
-      }
+      for (Complex& motion : shape.motion[part])
+        motion = (output++)->motion(h * eta, (part == 0 ? forces.base : forces.damper)[a]);
     }
   }
-  return {name, text(shapes)};
+  return shapes;
 }
 
 /// The points of the parts that the shapes concern, sector by sector.
@@ -279,18 +292,6 @@ std::string RingShapes::text(const std::vector<Shape>& shapes) const {
       count, array("UInt8", "part", part_numbers), arrays, points(shapes),
       array("Int64", "connectivity", numbers), array("Int64", "offsets", ends),
       array("UInt8", "types", types));
-}
-
-std::vector<ShapeFile> shapes_of(const RingShapes& shapes, std::size_t number, const TracedBranch& traced) {
-  const problems::BalancedPoints points(traced.request->problem.system, traced.base.harmonics, traced.branch);
-  std::vector<ShapeFile> files;
-  for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
-    const continuation::BranchPoint& point = traced.branch.points[i];
-    if (point.type == continuation::PointType::regular) continue;
-    files.push_back(shapes.response(fmt::format("branch_{}_point_{}.vtu", number, i), points.problem(),
-                                    points.at(point)));
-  }
-  return files;
 }
 
 void write_shapes(const std::string& folder, const std::vector<ShapeFile>& files) {

@@ -37,9 +37,8 @@ class RingShapes {
   /// with 1 as the greatest motion of a dof.
   std::vector<ShapeFile> modes() const;
 
-  /// The response at a solution, in each of its harmonics.
-  ShapeFile response(const std::string& name, const problems::HarmonicResponse& problem,
-                     const continuation::Guess& at) const;
+  /// The special points of a branch that has shapes, in each harmonic, as branch_0_point_12.vtu.
+  std::vector<ShapeFile> responses(std::size_t number, const TracedBranch& traced) const;
 
  private:
   /// Base or damper.
@@ -57,18 +56,18 @@ class RingShapes {
   };
 
   void add_part(const SectorPart& part, std::size_t which);
-  void find_turn(const FiniteSector& sector, const Part& part);
+  bool fits(const FiniteSector& sector, const Part& part, double sense) const;
+  std::vector<ContactSystem> waves_at(const std::vector<int>& orders, const Vector& parameters) const;
+  std::vector<Shape> response(const std::vector<ContactSystem>& waves,
+                              const problems::HarmonicResponse& problem, const continuation::Guess& at) const;
   std::string text(const std::vector<Shape>& shapes) const;
   std::string points(const std::vector<Shape>& shapes) const;
   std::string vectors(const Shape& shape) const;
 
   SystemParameters system_;  ///< with all dofs as outputs
   std::array<Part, 2> parts_;
-  double turn_ = 0;  ///< sense in which sector follows sector about z; 0 of one without boundaries
+  double turn_ = 1;  ///< sense in which sector follows sector about z
 };
-
-/// The special points of a branch that has shapes, as branch_0_point_12.vtu.
-std::vector<ShapeFile> shapes_of(const RingShapes& shapes, std::size_t number, const TracedBranch& traced);
 
 /// Writes them into DIR/shapes. Throws OutputError.
 void write_shapes(const std::string& folder, const std::vector<ShapeFile>& files);

@@ -31,12 +31,12 @@ std::vector<Place> array_of(const std::string& text, const std::string& name) {
 double length(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
 Place difference(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Four dofs of a sector of twelve: three along an arc about z, the first of which is radial, and the first
-/// of the next sector.
-std::string places(double sense) {
+/// Four dofs of a sector, one of twelve: three along an arc about z, the first of which is radial, and the
+/// first of the next sector.
+std::string places(double sense, int sectors = 12) {
   std::string text;
   for (int dof = 1; dof <= 4; ++dof) {
-    const double angle = sense * 2 * pi / 12 * (dof - 1) / 3;
+    const double angle = sense * 2 * pi / sectors * (dof - 1) / 3;
     const bool radial = dof == 1 || dof == 4;
     text += fmt::format("{} {:.17g} {:.17g} 0.5 {:.17g} {:.17g} {}\n", dof, 2 * std::cos(angle),
                         2 * std::sin(angle), radial ? 3 * std::cos(angle) : 0,
@@ -134,6 +134,22 @@ TEST_CASE("Shapes of responses have the amplitudes of the tables", "[shapes]") {
     ++shapes;
   }
   CHECK(shapes >= 4);
+}
+
+TEST_CASE("Of two sectors both senses of turning are one", "[shapes]") {
+  const composition::Cells cells(composition::kinds().front());
+  std::string text = placed_sector(cells, 1);
+  text.replace(text.find("sectors = 12"), 12, "sectors = 2");
+  text.replace(text.find("wave_number = 3"), 15, "wave_number = 1");
+  cells.folder().write("places.txt", places(1, 2));
+  cells.folder().write("opposite.txt", places(-1, 2));
+  text.replace(text.rfind("places.txt"), 10, "opposite.txt");
+  const std::string path =
+      cells.folder().write("case.toml", text + "[branch]\nparameter = \"eta\"\nfrom = 0.1\nto = 0.6\n");
+  const Outcome outcome =
+      arcslip_program(fmt::format("run '{}' -o '{}' --shapes --quiet", path, cells.folder().path("out")));
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
 }
 
 TEST_CASE("Shapes without places of the dofs are refused before anything is done", "[shapes]") {

@@ -51,7 +51,7 @@ std::string complaint(const continuation::Branch& branch) {
 }
 
 /// Refuses what cannot be verified, what no certificate covers, and what has no shapes.
-void require_provable(const CaseBranch& branch, const RunOptions& options) {
+void require_possible(const CaseBranch& branch, const RunOptions& options) {
   std::string why = options.shapes ? why_no_shapes(branch) : "";
   if (!why.empty())
     throw InputError(
@@ -69,10 +69,10 @@ void require_provable(const CaseBranch& branch, const RunOptions& options) {
 }
 
 /// The same before anything runs, of as many branches as are looked at in no time.
-void require_provable(const CasePlan& plan, const RunOptions& options) {
+void require_possible(const CasePlan& plan, const RunOptions& options) {
   constexpr std::size_t some = 10'000;
   if (!options.verify && !options.certify && !options.shapes) return;
-  for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_provable(plan.branch(i), options);
+  for (std::size_t i = 0; i < std::min(plan.count, some); ++i) require_possible(plan.branch(i), options);
 }
 
 /// One run of the program.
@@ -109,7 +109,7 @@ class Run {
 };
 
 int Run::execute() {
-  require_provable(plan_, options_);
+  require_possible(plan_, options_);
   file_.named("system", [&] {
     build(plan_.branch(0).problem);
     if (options_.shapes) RingShapes(plan_.branch(0).problem.system);
@@ -151,7 +151,7 @@ int Run::execute() {
 
 void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folder) {
   CaseBranch request = plan_.branch(i);
-  require_provable(request, options_);
+  require_possible(request, options_);
   request.options.journal = &progress_.begin(request, options_.verify || options_.certify,
                                              {i, files.count(), points_, complete_, files.header()});
   request.options.go_on = [] { return !interrupted(); };
@@ -188,7 +188,7 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
     if (options_.shapes) {
       file_.named("system", [&] {
         if (!shapes) shapes.emplace(request.problem.system);
-        write_shapes(folder, shapes_of(*shapes, files.count() - 1, one));
+        write_shapes(folder, shapes->responses(files.count() - 1, one));
       });
     }
     if (options_.certify) certify_branch(one, files);
