@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "arcslip/zero_between.hpp"
 
@@ -97,9 +98,9 @@ std::optional<BasePoint> ExtremumTracer::straight_on(const BasePoint& corner, Si
     if (!problem_.adapt(beyond)) return std::nullopt;
     Guess guess = guess_at(beyond);
     guess.parameters(parameter_) += std::copysign(way * parameter_scale(here), arrival);
-    const Branch found = trace_one_way(problem_, guess, true, freely(way));
-    if (found.points.empty()) continue;
-    const BasePoint next = split(found.points.front());
+    const Solution found = solve(problem_, guess);
+    if (found.outcome != Correction::converged) continue;
+    const BasePoint next = problem_.split(found.unknowns, guess.parameters, guess.regime);
     const double inside = distance(next);
     if (inside > 0 && inside < narrow + way) return next;
   }

@@ -13,8 +13,8 @@ move alike but for the phase; held dofs are left out; the nodes of both boundari
 matrices go through node by node: time grows as their entries do, memory as the nodes.
 
 Writes NAME_mass.mtx, NAME_stiffness.mtx, NAME_left.txt, NAME_right.txt, NAME_contact.txt, NAME_load.txt,
-NAME_coordinates.txt and NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where --name is base. With
---name damper its table is added to the case.
+NAME_coordinates.txt and NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where
+--name is base. With --name damper its table is added to the case.
 
   sector_matrices.py rotor --deck rotor.inp --sectors 24 --left LEFT --right RIGHT --hold HUB \\
       --contact GROOVE:z --load RIM:z:1.0 --wave-number 3 --name base -o study

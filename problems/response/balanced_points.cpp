@@ -3,6 +3,7 @@
 #include <utility>
 
 namespace arcslip::problems {
+
 HarmonicResponse balanced(SystemParameters parameters, std::vector<int> orders) {
   parameters.harmonics = std::move(orders);
   return HarmonicResponse(build_harmonic_system(parameters));

@@ -7,6 +7,7 @@
 #include "arcslip/assembly/system.hpp"
 
 namespace arcslip {
+
 std::vector<Resonance> resonances(const ContactSystem& wave) {
   std::vector<Resonance> all;
   const auto add = [&](const char* part, const ContactModes& structure) {

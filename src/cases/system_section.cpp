@@ -38,7 +38,7 @@ NumberRule ratio_rule(bool may_be_negative) {
 /// stay finite, and those that friction bounds keep their first nine digits.
 constexpr double undamped = 1e-12;
 
-/// Does so.
+/// Takes a ratio 0 so.
 auto not_undamped(double S::*ratio, bool S::*is_damped) {
   return then([=](S& settings, const TomlSection&) {
     if (settings.*ratio == 0 && !(settings.*is_damped)) settings.*ratio = undamped;

@@ -315,19 +315,24 @@ std::vector<Index> read_dofs(std::string_view text, const std::string& file, Ind
   return dofs;
 }
 
+namespace {
+
+double number(const Lines& lines, std::string_view word) {
+  const std::optional<double> value = finite_number(word);
+  if (!value) lines.fail("a finite number", lines.given(word));
+  return *value;
+}
+
+}  // namespace
+
 ComplexVector read_load(std::string_view text, const std::string& file, Index size) {
   Lines lines(text, file, "%#");
   ComplexVector load = ComplexVector::Zero(size);
   while (lines.advance_to_words()) {
     const std::int64_t dof = integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); });
-    const auto number = [&](std::string_view word) {
-      const std::optional<double> value = finite_number(word);
-      if (!value) lines.fail("a finite number", lines.given(word));
-      return *value;
-    };
-    const double real = number(lines.word());
+    const double real = number(lines, lines.word());
     const std::string_view more = lines.word();
-    load(dof - 1) += Complex(real, more.empty() ? 0 : number(more));
+    load(dof - 1) += Complex(real, more.empty() ? 0 : number(lines, more));
     end_of_line(lines, "the force");
   }
   return load;
@@ -342,12 +347,8 @@ std::vector<DofPlace> read_places(std::string_view text, const std::string& file
         integer(lines, 1, size, [&] { return fmt::format("a dof from 1 to {}", size); }) - 1);
     DofPlace& place = places[dof];
     for (double* value : {&place.at[0], &place.at[1], &place.at[2], &place.direction[0], &place.direction[1],
-                          &place.direction[2]}) {
-      const std::string_view word = lines.word();
-      const std::optional<double> number = finite_number(word);
-      if (!number) lines.fail("a finite number", lines.given(word));
-      *value = *number;
-    }
+                          &place.direction[2]})
+      *value = number(lines, lines.word());
     const double length = std::hypot(place.direction[0], place.direction[1], place.direction[2]);
     if (!(length > 0)) lines.fail("a direction that is not 0 0 0", "0 0 0");
     for (double& part : place.direction) part /= length;

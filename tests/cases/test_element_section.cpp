@@ -136,9 +136,8 @@ TEST_CASE("A linear spring of an element is one of the structure", "[cases]") {
       fmt::format("[[element]]\nkind = \"polynomial\"\nat = \"base\"\nlinear = {}\n", spring);
   std::string stiffer = replaced(mass, "[3.0]", fmt::format("[{}]", 3 + spring));
   stiffer = replaced(stiffer, "0.02", fmt::format("{:.17g}", 0.02 * 3 / (3 + spring)));  // the same loss
-  const std::string ends = fmt::format("from = {}\nto = {}\n", 0.2, 20);
   const std::string branch =
-      "[branch]\nparameter = \"eta\"\n" + ends + "[continuation]\nstop_at = [0.4, 1.2, 1.9, 12.3]\n";
+      "[branch]\nparameter = \"eta\"\nfrom = 0.2\nto = 20\n[continuation]\nstop_at = [0.4, 1.2, 1.9, 12.3]\n";
   std::array<std::vector<double>, 2> heights;
   for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
     const Case input = case_texts::read_text((which == 0 ? mass + element : stiffer) + branch);
