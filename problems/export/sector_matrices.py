@@ -96,8 +96,7 @@ def read_dofs(path):
 
 
 def node_columns(path, count):
-    """For each node k, from 0: k and {i: its block with node i <= k}, nine values row by row. The file is read
-    once."""
+    """For each node k, from 0: k and {i: its block with node i <= k}, nine values row by row, in one reading."""
     last, blocks = 0, {}
     with open(path, encoding="utf-8", errors="replace") as text:
         for number, line in enumerate(text, 1):
@@ -298,14 +297,13 @@ def case_text(arguments, loaded):
     def line(key, value, means):
         return (f"# {key} = ?" if value is None else f"{key} = {value:.12g}").ljust(31) + f" # {means}\n"
 
-    low, high = arguments.eta or (None, None)
     text = "# Written once by sector_matrices.py, to be edited.\n\n[system]\n" 'model = "sector"\n'
     text += line("wave_number", arguments.wave_number, "that of the phases in the load")
     text += line("sectors", arguments.sectors, "N")
     text += line("contact_stiffness", arguments.contact_stiffness, "of each contact; with kg, N and m in N/m")
     text += line("preload", arguments.preload, "mu p, the largest friction force of one contact; N")
     text += "damping = { base = 1e-3, damper = 1e-3 }\n\n[branch]\n" 'parameter = "eta"\n'
-    text += line("from", low, "Hz") + line("to", high, "Hz")
+    text += "".join(line(key, eta, "Hz") for key, eta in zip(("from", "to"), arguments.eta or (None, None)))
     text += table("base", loaded)
     return text + (table("damper", False) if os.path.exists(f"{arguments.output}/damper_mass.mtx") else "")
 
@@ -317,14 +315,12 @@ def case_file(arguments, loaded):
         return case_text(arguments, loaded) if arguments.name == "base" else None
     with open(path, encoding="utf-8") as text:
         case = text.read()
-    if arguments.name != "damper" or "[system.damper]" in case:
-        return None
-    return case + table("damper", False)
+    adds = arguments.name == "damper" and "[system.damper]" not in case
+    return case + table("damper", False) if adds else None
 
 
-def where(place, direction):
-    """x, y, z of a place given as r, theta, z, and one of the cylindrical directions there."""
-    r, theta, z = place
+def where(r, theta, z, direction):
+    """x, y, z of a place, and one of the cylindrical directions there."""
     c, s = math.cos(theta), math.sin(theta)
     return (r * c, r * s, z) + ((c, s, 0), (-s, c, 0), (0, 0, 1))[direction]
 
@@ -336,25 +332,23 @@ def convert(arguments):
     order = read_dofs(arguments.job + ".dof")
     sector = Sector(nodes, order, arguments.axis)
     number, pairs, contacts, load = lists(arguments, sector, sets)
+    dofs = [(dof, order[row // 3], row % 3) for row, dof in enumerate(number) if dof]
+    told = lambda values: " ".join(f"{value:.9g}" for value in values) + "\n"
     files = {
         "left.txt": "".join(f"{a}\n" for a, _ in pairs),
         "right.txt": "".join(f"{b}\n" for _, b in pairs),
         "contact.txt": "".join(f"{dof}\n" for dof in contacts),
         "dofs.txt": "# dof, node, direction, r, theta, z\n" + "".join(
-            f"{dof} {order[row // 3]} {DIRECTIONS[row % 3]} "
-            "{:.9g} {:.9g} {:.9g}\n".format(*sector.place[order[row // 3]])
-            for row, dof in enumerate(number) if dof),
+            f"{dof} {node} {DIRECTIONS[d]} {told(sector.place[node])}" for dof, node, d in dofs),
+        "coordinates.txt": "# dof, x, y, z with the axis along z, direction of its motion\n" + "".join(
+            f"{dof} {told(where(*sector.place[node], d))}" for dof, node, d in dofs),
     }
-    files["coordinates.txt"] = "# dof, x, y, z with the axis along z, direction of its motion\n" + "".join(
-        f"{dof} " + " ".join(f"{value:.9g}" for value in where(sector.place[order[row // 3]], row % 3)) + "\n"
-        for row, dof in enumerate(number) if dof)
     if load:
         files["load.txt"] = "# dof, force, imaginary part\n" + "".join(
             f"{dof} {force.real!r} {force.imag!r}\n" for dof, force in sorted(load.items()))
     files = {f"{arguments.name}_{name}": text for name, text in files.items()}
     case = case_file(arguments, bool(load))
-    if case:
-        files["case.toml"] = case
+    files.update({"case.toml": case} if case else {})
     made = os.path.isdir(arguments.output)
     os.makedirs(arguments.output, exist_ok=True)
     matrices = {f"{arguments.name}_{name}.mtx": arguments.job + end

@@ -72,6 +72,12 @@ void check_use(const TomlSection& section, const SectorSettings& settings) {
   }
 }
 
+bool is_cyclic(const SectorSettings& settings, const TomlSection& /*section*/) {
+  const SectorPair* pair = settings.sectors.get();
+  return pair != nullptr && (pair->base().sector.has_boundaries() ||
+                             (pair->damper() != nullptr && pair->damper()->sector.has_boundaries()));
+}
+
 const KeyTable<SectorSettings>& sector_keys() {
   const auto of = [](const SectorPart* part) -> ordered_json {
     if (part == nullptr) return nullptr;
@@ -89,11 +95,6 @@ const KeyTable<SectorSettings>& sector_keys() {
   };
   const auto has_no_range = [](const SectorSettings& settings, const TomlSection&) {
     return !(settings.eta_low > 0);
-  };
-  const auto is_cyclic = [](const SectorSettings& settings, const TomlSection&) {
-    const SectorPair* pair = settings.sectors.get();
-    return pair != nullptr && (pair->base().sector.has_boundaries() ||
-                               (pair->damper() != nullptr && pair->damper()->sector.has_boundaries()));
   };
   static const KeyTable<SectorSettings> keys{
       {SectorKey::special("model", "\"sector\"", "any structure, or one of N equal sectors", {},
