@@ -31,7 +31,7 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
                  {"dissipated", Measure::dissipated}};
   if (system_.varied) layout_.varied = {Place::parameters, further};
   add_further_contacts();
-  add_higher_harmonics();
+  add_other_harmonics();
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
   for (const ContactMode& mode : system_.base[0].modes()) {
     if (!(mode.frequency > 0)) continue;

@@ -99,15 +99,16 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   if (!has_value(parameters))
     throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
   const double preload_value = parameters(preload);
+  guess.regime = at_rest(parameters);
   Order order;
   bool is_sine = true;
   for (Index a = 0; a < harmonics(); ++a) {
-    set_order(a, parameters, 0, order);
+    set_order(a, parameters, guess.regime, order);
     if (order.joint.free.isZero(0)) continue;
     is_sine = a == 0;
     ContactMatrix stuck = order.joint.compliance;  // but for elements beside the contacts
     for (Index j = 0; j < coordinates_.size(); ++j) {
-      if (is_linear(0, j)) continue;
+      if (is_linear(guess.regime, j)) continue;
       stuck.col(j).setZero();
       stuck(j, j) = 1;
     }
@@ -118,7 +119,7 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   double holding = 0;  // load over that which lets nothing slip
   for (Index i = 0; i < contacts(); ++i) {
     const HarmonicVector x = motion(guess.unknowns, i);
-    const double largest = is_sine ? std::abs(x(0)) : OddMotion(system_.orders, x).maximum().value;
+    const double largest = is_sine ? std::abs(x(0)) : Swing::of(system_.orders, x).peak();
     holding = std::max(holding, largest / slip_threshold(i, guess.parameters));
   }
   if (!coordinates_.has_others()) {
@@ -135,17 +136,26 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   return guess;
 }
 
+continuation::Regime HarmonicResponse::at_rest(const Vector& p) const {
+  continuation::Regime regime;
+  for (Index e = 0; e < switch_count(); ++e) {
+    if (coordinates_.element(e).rests_beyond(load(e, {}, p))) regime = regime.with(static_cast<int>(e), 1);
+  }
+  return regime;
+}
+
 /// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under
 /// which what the elements beside the contacts do to it is nothing or, where they act on the smallest
-/// motions, does so after a step of Newton's.
+/// motions, does so after steps of Newton's.
 double HarmonicResponse::take_small(Guess& stuck, double share) const {
   constexpr double nothing = 1e-3;
   constexpr double smallest = 1e-100;
   constexpr double smallest_stiff = 1e-12;
+  constexpr int most_steps = 20;
   Vector residual(size());
   Matrix jacobian(size(), size());
   const auto is_solved = [&](const Vector& u, double part, Matrix* by_unknowns) {
-    return evaluate(u, stuck.parameters, 0, part, {&residual, by_unknowns}) &&
+    return evaluate(u, stuck.parameters, stuck.regime, part, {&residual, by_unknowns}) &&
            residual.lpNorm<Eigen::Infinity>() < nothing;
   };
   const auto found = [&](Vector u, double part) {
@@ -157,9 +167,11 @@ double HarmonicResponse::take_small(Guess& stuck, double share) const {
   }
   for (double part = share; part > smallest_stiff; part *= 0.1) {
     Vector u = part * stuck.unknowns;
-    if (is_solved(u, part, &jacobian)) return found(std::move(u), part);
-    jacobian += residual * u.transpose() / u.squaredNorm();  // as F is relative to |u|
-    u -= jacobian.partialPivLu().solve(residual);
+    for (int step = 0; step < most_steps && u.allFinite(); ++step) {
+      if (is_solved(u, part, &jacobian)) return found(std::move(u), part);
+      jacobian += residual * u.transpose() / u.squaredNorm();  // as F is relative to |u|
+      u -= jacobian.partialPivLu().solve(residual);
+    }
     if (is_solved(u, part, nullptr)) return found(std::move(u), part);
   }
   throw std::invalid_argument("HarmonicResponse: the response to a small force is not linear");

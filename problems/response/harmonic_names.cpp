@@ -9,10 +9,10 @@ namespace arcslip::problems {
 /// What the contacts do, then what each further element does that is beyond its border, of several by number.
 std::string HarmonicProblem::describe(const continuation::Regime& regime) const {
   std::string name = slip_name(regime, contacts());
-  for (Index i = contacts(); i < switch_count(); ++i) {
-    if (regime[i] == 0) continue;
-    name += " " + coordinates_.element(i).beyond();
-    if (switch_count() > contacts() + 1) name += fmt::format(" {}", i - contacts() + 1);
+  for (Index e = contacts(); e < switch_count(); ++e) {
+    if (regime[e] == 0) continue;
+    name += " " + coordinates_.element(e).beyond();
+    if (switch_count() > contacts() + 1) name += fmt::format(" {}", e - contacts() + 1);
   }
   return name;
 }
@@ -25,17 +25,32 @@ void HarmonicProblem::add_further_contacts() {
     quantities_.push_back({name("Y"), Measure::amplitude, Body::base, i});
     quantities_.push_back({name("U"), Measure::amplitude, Body::damper, i});
     quantities_.push_back({name("dissipated"), Measure::dissipated, Body::contact, i});
+    for (Index a = 0; a < harmonics(); ++a) {
+      if (system_.orders[at(a)] != 0) continue;
+      quantities_.push_back({name("R_h0"), Measure::mean, Body::contact, i, a});
+      quantities_.push_back({name("Y_h0"), Measure::mean, Body::base, i, a});
+      quantities_.push_back({name("U_h0"), Measure::mean, Body::damper, i, a});
+    }
   }
 }
 
-void HarmonicProblem::add_higher_harmonics() {
+void HarmonicProblem::add_other_harmonics() {
   for (Index a = 1; a < harmonics(); ++a) {
-    const auto name = [&](const char* quantity) {
-      return fmt::format("{}_h{}", quantity, system_.orders[at(a)]);
-    };
-    quantities_.push_back({name("R"), Measure::amplitude, Body::contact, 0, a});
-    quantities_.push_back({name("Y"), Measure::amplitude, Body::base, 0, a});
-    quantities_.push_back({name("U"), Measure::amplitude, Body::damper, 0, a});
+    const int h = system_.orders[at(a)];
+    const auto name = [&](const char* quantity) { return fmt::format("{}_h{}", quantity, h); };
+    const Measure measure = h == 0 ? Measure::mean : Measure::amplitude;
+    quantities_.push_back({name("R"), measure, Body::contact, 0, a});
+    quantities_.push_back({name("Y"), measure, Body::base, 0, a});
+    quantities_.push_back({name("U"), measure, Body::damper, 0, a});
+  }
+}
+
+void HarmonicProblem::add_readings() {
+  for (Index e = contacts(); e < coordinates_.elements(); ++e) {
+    const std::vector<std::string> told = coordinates_.element(e).readings();
+    for (std::size_t i = 0; i < told.size(); ++i)
+      quantities_.push_back({fmt::format("{}_{}", told[i], first(e).name), Measure::reading, Body::contact, e,
+                             static_cast<Index>(i)});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "arcslip/problems/response/harmonic_problem.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "arcslip/problems/response/contact_problem.hpp"
 
@@ -18,6 +19,7 @@ struct HarmonicProblem::Forces {
 HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
     : system_(std::move(system)), coordinates_(system_), layout_(layout) {
   check(system_);
+  if (system_.orders.front() != 1) throw std::invalid_argument("HarmonicProblem: the first harmonic is 1");
 }
 
 bool HarmonicProblem::contacts_stick(const continuation::Regime& regime) const {
@@ -42,6 +44,15 @@ HarmonicVector HarmonicProblem::motion(const Vector& u, const Vector& p, Index c
   return x;
 }
 
+HarmonicVector HarmonicProblem::element_motion(const Vector& u, const Vector& p, Index element) const {
+  const Index first = coordinates_.first(element);
+  const Index count = coordinates_.element(element).coordinates();
+  if (count == 1) return motion(u, p, first);
+  HarmonicVector x(count * harmonics());
+  for (Index i = 0; i < count; ++i) x.segment(i * harmonics(), harmonics()) = motion(u, p, first + i);
+  return x;
+}
+
 const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const Vector& p,
                                                          const continuation::Regime& regime,
                                                          bool derivatives) const {
@@ -50,25 +61,25 @@ const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const 
   last.unknowns = u;
   last.parameters = p;
   last.regime = regime;
-  last.of_elements.resize(at(coordinates_.size()));
-  for (Index i = 0; i < coordinates_.size(); ++i) {
-    ElementForce& force = last.of_elements[at(i)];
-    with_element(i, u, p, [&](const Element& element) {
-      element.force(system_.orders, motion(u, p, i), load(i, u, p), slips(regime, i), derivatives, force);
+  last.of_elements.resize(at(coordinates_.elements()));
+  for (Index e = 0; e < coordinates_.elements(); ++e) {
+    ElementForce& force = last.of_elements[at(e)];
+    with_element(e, u, p, [&](const Element& element) {
+      element.force(system_.orders, element_motion(u, p, e), load(e, u, p), slips(regime, e), derivatives,
+                    force);
     });
-    if (const double factor = force_factor(i, u, p); factor != 1) force.scale(factor, derivatives);
+    if (const double factor = force_factor(e, u, p); factor != 1) force.scale(factor, derivatives);
   }
   return last.of_elements;
 }
 
-/// max |x| of a contact: known where the forces were last found, as at each point that a corrector ends on.
-OddMotion::Maximum HarmonicProblem::maximum(const Vector& u, const Vector& p, Index contact) const {
+/// Known where the forces were last found, as at each point that a corrector ends on; else null.
+const Swing* HarmonicProblem::known_swing(const Vector& u, const Vector& p, Index element) const {
   const Forces& last = last_forces();
-  if (slips(last.regime, contact) && last.orders == system_.orders && last.unknowns == u &&
-      last.parameters == p)
-    return last.of_elements[at(contact)].maximum;
-  const HarmonicVector x = motion(u, p, contact);
-  return OddMotion(system_.orders, x).maximum();
+  return slips(last.regime, element) && last.orders == system_.orders && last.unknowns == u &&
+                 last.parameters == p
+             ? &last.of_elements[at(element)].swing
+             : nullptr;
 }
 
 /// What the damping of the layout makes of a structure, and the rates by it and, of what varies it, through
@@ -139,12 +150,12 @@ void HarmonicProblem::add(const Place& place, double value, continuation::Gradie
   (place.of == Place::unknowns ? gradient.unknowns : gradient.parameters)(place.index) += value;
 }
 
-void HarmonicProblem::add_log_load(double value, Index coordinate, const Vector& u, const Vector& p,
+void HarmonicProblem::add_log_load(double value, Index element, const Vector& u, const Vector& p,
                                    continuation::Gradient& gradient) const {
   const double by_load = value / pressing(u, p);
   add(layout_.preload, by_load, gradient);
   add(layout_.eta, 2 * growth(u, p) * frequency(u, p) * by_load, gradient);
-  if (is_varied()) add(layout_.varied, value * log_load_rate(coordinate, u, p), gradient);
+  if (is_varied()) add(layout_.varied, value * log_load_rate(element, u, p), gradient);
 }
 
 int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
@@ -173,10 +184,12 @@ class HarmonicProblem::Observation {
       case Measure::threshold: return threshold(quantity.which, 1);
       case Measure::ratio: return ratio(quantity.which);
       case Measure::amplitude: return amplitude(quantity, 1);
+      case Measure::mean: return mean(quantity);
       case Measure::lag: return lag_of(quantity);
       case Measure::dissipated: return dissipated(quantity.which);
       case Measure::greatest: return greatest(quantity.of);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
+      case Measure::reading: return elements_[at(quantity.which)].readings[at(quantity.order)];
     }
     return 0;
   }
@@ -204,11 +217,18 @@ class HarmonicProblem::Observation {
     return R / S;
   }
 
+  /// Of what is zero but for rounding the gradient is zero, the mean of those all around.
   double amplitude(const Quantity& quantity, double part) {
+    constexpr double rounding = 1e-15;
     const Complex z = phasor(quantity.of, quantity.which, quantity.order);
     const double size = std::abs(z);
-    if (size > 0) add(quantity.of, quantity.which, quantity.order, part / size * z);
+    if (size > rounding * u_.norm()) add(quantity.of, quantity.which, quantity.order, part / size * z);
     return size;
+  }
+
+  double mean(const Quantity& quantity) {
+    add(quantity.of, quantity.which, quantity.order, 1);
+    return phasor(quantity.of, quantity.which, quantity.order).real();
   }
 
   double lag_of(const Quantity& quantity) {
@@ -239,10 +259,10 @@ class HarmonicProblem::Observation {
   double greatest(Body of) {
     HarmonicVector motion(problem_.harmonics());
     for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, 0, a);
-    const OddMotion::Maximum top = OddMotion(system_.orders, motion).maximum();
+    const Swing swing = Swing::of(system_.orders, motion);
     for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a)
-      add(of, 0, a, std::polar(1.0, -system_.orders[at(a)] * top.angle));
-    return top.value;
+      add(of, 0, a, swing.peak_by(system_.orders[at(a)]));
+    return swing.peak();
   }
 
   /// One harmonic of a motion: of the base y = u - x.
@@ -286,26 +306,30 @@ class HarmonicProblem::Observation {
   }
 
   void add_force(Index coordinate, Index order, Complex weight) {
-    const ElementForce& element = elements_[at(coordinate)];
+    const Index of = problem_.coordinates_.element_of(coordinate);
+    const Index first = problem_.coordinates_.first(of);
+    const Index row = problem_.place(coordinate, order);
+    const ElementForce& element = elements_[at(of)];
     const Complex w = std::conj(weight);
-    for (Index b = 0; b < problem_.harmonics(); ++b) {
-      const Complex linear = w * element.linear(order, b);
-      const Complex conjugate = w * element.conjugate(order, b);
-      add_motion(coordinate, b, {std::real(linear + conjugate), -std::imag(linear - conjugate)});
+    for (Index b = 0; b < element.linear.cols(); ++b) {
+      const Complex linear = w * element.linear(row, b);
+      const Complex conjugate = w * element.conjugate(row, b);
+      add_motion(first + b / problem_.harmonics(), b % problem_.harmonics(),
+                 {std::real(linear + conjugate), -std::imag(linear - conjugate)});
     }
-    add_log_load(std::real(w * element.by_log_load(order)), coordinate);
-    add_log_force(coordinate, std::real(w * element.harmonics(order)));
-    if (element.by_setting.size() > 0) add(problem_.layout_.varied, std::real(w * element.by_setting(order)));
+    add_log_load(std::real(w * element.by_log_load(row)), of);
+    add_log_force(of, std::real(w * element.harmonics(row)));
+    if (element.by_setting.size() > 0) add(problem_.layout_.varied, std::real(w * element.by_setting(row)));
   }
 
   /// What is `value` times a change of the logarithm of the factor on a force.
-  void add_log_force(Index coordinate, double value) {
+  void add_log_force(Index element, double value) {
     if (!problem_.is_varied()) return;
-    add(problem_.layout_.varied, value * problem_.log_force_rate(coordinate, problem_.variation(u_, p_)));
+    add(problem_.layout_.varied, value * problem_.log_force_rate(element, problem_.variation(u_, p_)));
   }
 
-  void add_log_load(double value, Index coordinate) {
-    if (gradient_ != nullptr) problem_.add_log_load(value, coordinate, u_, p_, *gradient_);
+  void add_log_load(double value, Index element) {
+    if (gradient_ != nullptr) problem_.add_log_load(value, element, u_, p_, *gradient_);
   }
   void add(const Place& place, double value) {
     if (gradient_ != nullptr) HarmonicProblem::add(place, value, *gradient_);
@@ -330,7 +354,7 @@ class HarmonicProblem::Observation {
     if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, response_);
     responded_ = structure;
     return {response_, is_base, output != nullptr ? problem_.contacts() : which,
-            problem_.coordinates_.forces_on(is_base, elements_, order)};
+            problem_.coordinates_.forces_on(is_base, elements_, order, problem_.harmonics())};
   }
 
   const HarmonicProblem& problem_;
@@ -347,18 +371,19 @@ class HarmonicProblem::Observation {
 double HarmonicProblem::border(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                int border, continuation::Gradient* gradient) const {
   const StateBorder at_border = with_element(border, u, p, [&](const Element& element) {
-    return element.border(system_.orders, maximum(u, p, border), load(border, u, p), slips(regime, border));
+    return element.border(system_.orders, element_motion(u, p, border), known_swing(u, p, border),
+                          load(border, u, p), slips(regime, border));
   });
   if (gradient == nullptr) return at_border.value;
   gradient->unknowns.setZero();
   gradient->parameters.setZero();
-  for (Index a = 0; a < harmonics(); ++a) {
-    const Index place = 2 * (border * harmonics() + a);
+  for (Index a = 0; a < at_border.by_motion.size(); ++a) {
+    const Index place = 2 * (coordinates_.first(border) * harmonics() + a);
     add(place_of(place), at_border.by_motion(a).real(), *gradient);
     add(place_of(place + 1), at_border.by_motion(a).imag(), *gradient);
   }
   add_log_load(at_border.by_log_load, border, u, p, *gradient);
-  if (coordinates_[border].varied) add(layout_.varied, at_border.by_setting, *gradient);
+  if (first(border).varied) add(layout_.varied, at_border.by_setting, *gradient);
   return at_border.value;
 }
 
@@ -368,7 +393,9 @@ std::vector<continuation::Observable> HarmonicProblem::observables() const {
     const bool is_lag = quantity.measure == Measure::lag;
     const bool by_solves =
         quantity.of == Body::output && !is_lag && system_.outputs[at(quantity.which)].modes.is_solved();
-    all.push_back({quantity.name, quantity.measure != Measure::force && !by_solves});
+    const bool has_gradient =
+        quantity.measure != Measure::force && quantity.measure != Measure::reading && !by_solves;
+    all.push_back({quantity.name, has_gradient});
     if (is_lag) all.back() = angle(quantity.name);
   }
   return all;

@@ -23,7 +23,8 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
     : HarmonicProblem(std::move(system), {.eta = {Place::parameters, eta},
                                           .preload = {Place::parameters, preload},
                                           .real = {Place::unknowns, 0},
-                                          .imaginary = {Place::unknowns, 1}}) {
+                                          .imaginary = {Place::unknowns, 1}}),
+      is_odd_(all_odd(system_.orders)) {
   if (system_.varied) layout_.varied = {Place::parameters, further};
   quantities_ = {{"R", Measure::amplitude},
                  {"S", Measure::threshold},
@@ -39,11 +40,12 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
     quantities_.push_back({output.name, output.is_lag ? Measure::lag : Measure::amplitude, Body::output,
                            &output - system_.outputs.data()});
   }
+  add_readings();
   if (harmonics() == 1) return;
   quantities_.push_back({"R_peak", Measure::greatest});
   quantities_.push_back({"Y_peak", Measure::greatest, Body::base});
   quantities_.push_back({"U_peak", Measure::greatest, Body::damper});
-  add_higher_harmonics();
+  add_other_harmonics();
 }
 
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {
@@ -55,8 +57,8 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   const std::vector<ElementForce>& all = forces(u, p, regime, false);
   ElementForces sum{{}, {}, 0};
   for (Index a = 0; a < harmonics(); ++a) {
-    sum.base.push_back(coordinates_.forces_on(true, all, a));
-    sum.damper.push_back(coordinates_.forces_on(false, all, a));
+    sum.base.push_back(coordinates_.forces_on(true, all, a, harmonics()));
+    sum.damper.push_back(coordinates_.forces_on(false, all, a, harmonics()));
   }
   for (const ElementForce& one : all) sum.energy += one.energy;
   return sum;
@@ -78,7 +80,8 @@ void HarmonicResponse::set_varied(Order& order, double frequency_value, const Ve
   order.by_varied = rates.compliance;
   order.free_by_varied = rates.free;
   for (Index j = 0; j < coordinates_.size(); ++j)
-    order.by_varied.col(j) += order.joint.compliance.col(j) * log_force_rate(j, varied);
+    order.by_varied.col(j) +=
+        order.joint.compliance.col(j) * log_force_rate(coordinates_.element_of(j), varied);
 }
 
 void HarmonicResponse::set_order(Index which, const Vector& p, const continuation::Regime& regime,
@@ -91,7 +94,7 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
   } else {
     coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * p(eta), joint);
   }
-  if (all_stick(regime) && which > 0 && !coordinates_.has_others() &&
+  if (all_stick(regime) && is_odd_ && which > 0 && !coordinates_.has_others() &&
       joint.free.isZero(0)) {  // x_h = 0, also where C_h has a resonance
     joint.compliance.setZero();
     joint.compliance_eta.setZero();
@@ -116,8 +119,8 @@ struct HarmonicResponse::Rows {
   Order order;
   Vector residual;
   Vector weight;      // of each order, over |r|
-  ComplexMatrix own;  // derivative by f: orders x pairs of contacts, that of the column first
-  ComplexVector sum;  // of f by Re r_h and Im r_h
+  ComplexMatrix own;  // derivative by f: orders x pairs of coordinates, that of the column first
+  ComplexVector sum;  // of the f of a coordinate by Re x_h and Im x_h of one
   ComplexVector difference;
 };
 
@@ -131,8 +134,11 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                 double share, const continuation::Evaluation& out) const {
   if (!(has_value(p) && u.squaredNorm() > 0)) return false;
-  for (Index i = 0; i < switch_count(); ++i) {
-    if (slips(regime, i) && u.segment(2 * i * harmonics(), 2 * harmonics()).isZero(0)) return false;
+  for (Index e = 0; e < switch_count(); ++e) {
+    const Index count = coordinates_.element(e).coordinates();
+    if (slips(regime, e) &&
+        u.segment(2 * coordinates_.first(e) * harmonics(), 2 * count * harmonics()).isZero(0))
+      return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
@@ -172,7 +178,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
   for (Index j = 0; j < m; ++j) {
     const Index row = 2 * (j * harmonics() + which);
-    order.f(j) = elements[at(j)].harmonics(which) / order.stiffness(j);
+    order.f(j) = elements[at(coordinates_.element_of(j))].harmonics(place(j, which)) / order.stiffness(j);
     order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + share * order.joint.free(j);
   }
   order.held.noalias() = order.inverse * order.gap;
@@ -189,8 +195,10 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   if (parameter_jacobian == nullptr) return;
   ContactVector& column = order.gap;
   const auto by_loads = [&](const auto& rate, double factor) {  // at such rates of their logarithms
-    for (Index j = 0; j < m; ++j)
-      order.f(j) = elements[at(j)].by_log_load(which) / order.stiffness(j) * rate(j);
+    for (Index j = 0; j < m; ++j) {
+      const Index e = coordinates_.element_of(j);
+      order.f(j) = elements[at(e)].by_log_load(place(j, which)) / order.stiffness(j) * rate(e);
+    }
     column = order.f;
     column.noalias() -= order.inverse * order.f;
     column *= factor;
@@ -201,10 +209,10 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
   if (is_varied()) {
-    by_loads([&](Index j) { return log_load_rate(j, {}, p); }, weight);
+    by_loads([&](Index e) { return log_load_rate(e, {}, p); }, weight);
     for (Index j = 0; j < m; ++j) {
-      const HarmonicVector& by_setting = elements[at(j)].by_setting;
-      order.f(j) = by_setting.size() > 0 ? by_setting(which) / order.stiffness(j) : 0;
+      const HarmonicVector& by_setting = elements[at(coordinates_.element_of(j))].by_setting;
+      order.f(j) = by_setting.size() > 0 ? by_setting(place(j, which)) / order.stiffness(j) : 0;
     }
     column += weight * order.f;
     column.noalias() -= weight * (order.inverse * order.f);
@@ -244,21 +252,30 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
     const Index order = column % n;
     jacobian(2 * column, 2 * column) += rows.weight(order);
     jacobian(2 * column + 1, 2 * column + 1) += rows.weight(order);
-    if (is_linear(regime, from)) continue;  // f = x
-    const ElementForce& element = elements[at(from)];
-    const double per_k = 1 / rows.order.stiffness(from);
-    rows.sum = (element.linear.col(order) + element.conjugate.col(order)) * per_k;
-    rows.difference = (element.linear.col(order) - element.conjugate.col(order)) * Complex(0, per_k);
-    rows.sum(order) -= 1;
-    rows.difference(order) -= Complex(0, 1);
-    for (Index i = 0; i < m; ++i) {
-      const auto part = [&](Index real_column) {
-        return Eigen::Map<Eigen::ArrayXcd>(
-            reinterpret_cast<Complex*>(jacobian.col(real_column).data() + 2 * i * n), n);
-      };
-      const auto own = rows.own.col(from * m + i).array();
-      part(2 * column) += own * rows.sum.array();
-      part(2 * column + 1) += own * rows.difference.array();
+    if (is_odd_ && is_linear(regime, from)) continue;  // f = x
+    const Index of = coordinates_.element_of(from);
+    const Index first = coordinates_.first(of);
+    const Index by = place(from, order);
+    const ElementForce& element = elements[at(of)];
+    for (Index j = first; j < first + coordinates_.element(of).coordinates(); ++j) {
+      const double per_k = 1 / rows.order.stiffness(j);
+      const auto linear = element.linear.col(by).segment(place(j, 0), n);
+      const auto conjugate = element.conjugate.col(by).segment(place(j, 0), n);
+      rows.sum = (linear + conjugate) * per_k;
+      rows.difference = (linear - conjugate) * Complex(0, per_k);
+      if (j == from) {
+        rows.sum(order) -= 1;
+        rows.difference(order) -= Complex(0, 1);
+      }
+      for (Index i = 0; i < m; ++i) {
+        const auto part = [&](Index real_column) {
+          return Eigen::Map<Eigen::ArrayXcd>(
+              reinterpret_cast<Complex*>(jacobian.col(real_column).data() + 2 * i * n), n);
+        };
+        const auto own = rows.own.col(j * m + i).array();
+        part(2 * column) += own * rows.sum.array();
+        part(2 * column + 1) += own * rows.difference.array();
+      }
     }
   }
 }
@@ -274,6 +291,7 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
   const Vector springs = contact_springs(system_.contacts);
   std::vector<double> values;
   for (Index a = 0; a < harmonics(); ++a) {
+    if (system_.orders[at(a)] == 0) continue;
     const ContactModes* base = &system_.base[at(a)];
     const ContactModes* damper = &system_.damper[at(a)];
     std::vector<double> found;

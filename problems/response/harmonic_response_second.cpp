@@ -16,17 +16,18 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
   std::optional<SystemParameter::At> varied;
   if (is_varied()) varied = variation({}, p);
   std::vector<ElementForce> changes;
-  for (Index i = 0; i < coordinates_.size(); ++i) {
-    const double factor = force_factor(i, u, p);
-    const double own_log_load = varied ? log_load + log_load_rate(i, {}, p) * dp(further) : log_load;
-    ElementForce unscaled = elements[static_cast<std::size_t>(i)];
+  for (Index e = 0; e < coordinates_.elements(); ++e) {
+    const double factor = force_factor(e, u, p);
+    const double own_log_load = varied ? log_load + log_load_rate(e, {}, p) * dp(further) : log_load;
+    ElementForce unscaled = elements[at(e)];
     unscaled.scale(1 / factor, true);
-    const Element::Way way{motion(du, i), own_log_load, varied ? dp(further) : 0};
-    ElementForce change = with_element(i, u, p, [&](const Element& element) {
-      return element.change(unscaled, system_.orders, motion(u, i), load(i, u, p), slips(regime, i), way);
+    const Element::Way way{element_motion(du, {}, e), own_log_load, varied ? dp(further) : 0};
+    ElementForce change = with_element(e, u, p, [&](const Element& element) {
+      return element.change(unscaled, system_.orders, element_motion(u, {}, e), load(e, u, p),
+                            slips(regime, e), way);
     });
     change.scale(factor, true);
-    if (varied) change.add(elements[static_cast<std::size_t>(i)], log_force_rate(i, *varied) * dp(further));
+    if (varied) change.add(elements[at(e)], log_force_rate(e, *varied) * dp(further));
     changes.push_back(std::move(change));
   }
   const Index parameters = p.size();

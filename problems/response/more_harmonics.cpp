@@ -14,7 +14,7 @@ Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicRespo
     for (Index a = 0; a < from.harmonics(); ++a) {
       const std::vector<int>& orders = to.system().orders;
       const int order = from.system().orders[static_cast<std::size_t>(a)];
-      const auto place = std::lower_bound(orders.begin(), orders.end(), order) - orders.begin();
+      const auto place = std::find(orders.begin(), orders.end(), order) - orders.begin();
       if (place == std::ssize(orders)) continue;
       guess.unknowns.segment<2>(2 * (i * to.harmonics() + place)) =
           at.unknowns.segment<2>(2 * (i * from.harmonics() + a));

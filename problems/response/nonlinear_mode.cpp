@@ -23,7 +23,7 @@ NonlinearMode::NonlinearMode(HarmonicSystem system)
                  {"force", Measure::force}};
   if (system_.varied) layout_.varied = {Place::parameters, further};
   add_further_contacts();
-  add_higher_harmonics();
+  add_other_harmonics();
 }
 
 void NonlinearMode::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -48,7 +48,7 @@ NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p,
   double square = 0;
   Complex load = 0;
   const auto add = [&](const ContactModes& structure, bool is_base) {
-    const ContactVector on_dofs = coordinates_.forces_on(is_base, elements, 0);
+    const ContactVector on_dofs = coordinates_.forces_on(is_base, elements, 0, harmonics());
     for (const ContactMode& mode : structure.modes()) {
       const Complex d =
           ModalDenominator(u(Unknown::frequency), mode.frequency, structure.loss() + Loss{.mass = mass})

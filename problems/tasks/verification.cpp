@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/balanced_points.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
@@ -82,7 +83,7 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
 /// The ring in full under the harmonics of its load up to a highest one, where it is one of rods or beams
 /// that can be assembled.
 std::optional<Ring> assembled(SystemParameters parameters, int highest) {
-  parameters.harmonics = odd_up_to(highest);
+  parameters.harmonics = orders_up_to(highest, parameters);
   try {
     return build_ring(parameters);
   } catch (const std::invalid_argument&) {
@@ -128,8 +129,10 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
                                  const continuation::Branch& branch, const VerifyOptions& options) {
   const BalancedPoints known(parameters, orders, branch);
   const HarmonicResponse& problem = known.problem();
-  const int highest = std::min(2 * orders.back() + 13, 2 * most_harmonics - 1);
-  const HarmonicResponse more = balanced(parameters, odd_up_to(highest));
+  const std::vector<int> wide =
+      orders_up_to(std::min(2 * highest_order(orders) + 13, 2 * most_harmonics - 1), parameters);
+  const int highest = highest_order(wide);
+  const HarmonicResponse more = balanced(parameters, wide);
   std::optional<Ring> ring = options.in_time ? assembled(parameters, highest) : std::nullopt;
   std::vector<Verification> all;
   const std::vector<std::size_t> points = chosen(branch, options);

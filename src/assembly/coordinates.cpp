@@ -51,13 +51,21 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
     using Place = PlacedElement::Place;
     const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
     const double damper = placed.place == Place::base ? 0 : 1;
-    Coordinate& one = all.emplace_back(Coordinate{base, damper, placed.dof, nullptr});
-    const double usual = usual_stiffness(one);
+    const double side = placed.closes_backwards ? -1 : 1;
+    const double own = placed.kind->closes ? 1 : side;
+    Coordinate one{own * base, own * damper, placed.dof, nullptr};
+    Coordinate closing{side * base, side * damper, placed.normal, nullptr};
+    const double usual = usual_stiffness(placed.kind->closes ? closing : one);
+    one.name = element_name(parameters, k);
     one.element = placed.kind->make(values_of(placed, nodes, usual));
     for (Index i = 0; i < std::ssize(placed.settings); ++i) {
       if (setting_name(parameters, k, static_cast<std::size_t>(i)) != parameters.varied) continue;
       one.varied = [=](double value) { return placed.kind->make(values_of(placed, nodes, usual, i, value)); };
     }
+    closing.element = one.element;
+    closing.part = 1;
+    all.push_back(std::move(one));
+    if (placed.kind->closes) all.push_back(std::move(closing));
   }
   std::stable_partition(all.begin(), all.end(),
                         [](const Coordinate& one) { return one.element->has_border(); });
@@ -76,10 +84,14 @@ Coordinates::Coordinates(const HarmonicSystem& system)
     }
   }
   all_.insert(all_.end(), system.others.begin(), system.others.end());
-  const auto has_border = [](const Coordinate& one) { return one.element->has_border(); };
-  switches_ = std::count_if(all_.begin(), all_.end(), has_border);
-  if (!std::all_of(all_.begin(), all_.begin() + switches_, has_border))
-    throw std::invalid_argument("Coordinates: elements with a border must come first");
+  switches_ = 0;
+  for (Index i = 0; i < size(); ++i) {
+    if ((*this)[i].part == 0) first_.push_back(i);
+    element_of_.push_back(elements() - 1);
+    if ((*this)[i].part > 0 || !element(elements() - 1).has_border()) continue;
+    if (++switches_ < elements())
+      throw std::invalid_argument("Coordinates: elements with a border must come first");
+  }
   if (size() > most_contacts) throw std::invalid_argument("Coordinates: too many elements");
 }
 
@@ -113,11 +125,13 @@ void Coordinates::add(const ContactMatrix& compliance, bool is_base, ContactMatr
   }
 }
 
-ContactVector Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces,
-                                     Index order) const {
+ContactVector Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
+                                     Index orders) const {
   ContactVector sum = ContactVector::Zero(contacts_);
-  for (Index i = 0; i < size(); ++i)
-    sum((*this)[i].dof) -= (*this)[i].push(is_base) * forces[static_cast<std::size_t>(i)].harmonics(order);
+  for (Index i = 0; i < size(); ++i) {
+    const ElementForce& force = forces[static_cast<std::size_t>(element_of(i))];
+    sum((*this)[i].dof) -= (*this)[i].push(is_base) * force.harmonics(place(i, order, orders));
+  }
   return sum;
 }
 

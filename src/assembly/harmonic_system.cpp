@@ -1,5 +1,7 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -8,10 +10,19 @@
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/elements/idle.hpp"
-#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
 namespace {
+
+/// Refuses a structure that the static forces of the harmonic 0 would carry away.
+void check_rest(const ContactModes& structure, const char* name) {
+  for (const ContactMode& mode : structure.modes()) {
+    if (!(mode.frequency > 0) && !mode.shape.isZero(0))
+      throw std::invalid_argument(
+          fmt::format("nothing holds the {} at rest, which the harmonic 0, the mean, needs", name));
+  }
+}
 
 /// Of modes that deform a structure, the static compliance of one of its contact dofs.
 double static_compliance(const ContactModes& structure, Index dof) {
@@ -39,6 +50,16 @@ void check(const HarmonicSystem& system) {
   for (std::size_t a = 0; a < count; ++a) {
     if (system.base[a].contacts() != contacts || system.damper[a].contacts() != contacts)
       refuse("base, damper and contacts must be as many");
+  }
+  for (const Coordinate& one : system.others) {
+    if (!one.element) continue;
+    if (one.element->coordinates() * std::ssize(system.orders) > most_harmonics)
+      refuse("too many harmonics of an element");
+    if (!all_odd(system.orders) && !one.element->takes_any_orders())
+      refuse("an element takes odd harmonics alone");
+    if (!one.element->is_odd() &&
+        std::find(system.orders.begin(), system.orders.end(), 0) == system.orders.end())
+      refuse("an element that is not odd needs the harmonic 0");
   }
   for (const SectorContact& contact : system.contacts) {
     const bool rubs = contact.stiffness > 0 && contact.slip_per_preload > 0;
@@ -101,6 +122,10 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
       continue;
     }
     ContactSystem of_order = build_wave(in_order(parameters, h));
+    if (h == 0) {
+      check_rest(of_order.base, "base");
+      check_rest(of_order.damper, "damper");
+    }
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
 
@@ -33,6 +34,23 @@ std::vector<int> odd_up_to(int highest) {
   std::vector<int> orders;
   for (int h = 1; h <= highest; h += 2) orders.push_back(h);
   return orders;
+}
+
+std::vector<int> all_up_to(int highest) {
+  std::vector<int> orders{1, 0};
+  for (int h = 2; h <= highest; ++h) orders.push_back(h);
+  return orders;
+}
+
+std::vector<int> orders_up_to(int highest, const SystemParameters& system) {
+  constexpr int most = most_harmonics / 2 - 1;  // of elements in two coordinates
+  if (is_odd(system) && all_odd(system.harmonics)) return odd_up_to(highest);
+  return all_up_to(std::min(highest, most));
+}
+
+bool is_odd(const SystemParameters& system) {
+  return std::all_of(system.others.begin(), system.others.end(),
+                     [](const PlacedElement& one) { return one.kind->is_odd; });
 }
 
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {

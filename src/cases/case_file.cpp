@@ -10,7 +10,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/cases/runs.hpp"
-#include "arcslip/problems/response/floquet_response.hpp"
+#include "cases/branch_checks.hpp"
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
@@ -93,54 +93,6 @@ void check_fixed(const TomlSection& branch, const ForEach& for_each, const std::
   if (parameter == "eta" && (is_given || for_each.sets(frequency)))
     branch.fail(is_given ? frequency : "for_each",
                 fmt::format("{} is fixed only where parameter = \"P\"", frequency));
-}
-
-/// Whether stiffness is complex, which has no motion in time.
-bool is_structural(const SystemParameters& system) {
-  const PairLosses losses = structures_of(system).losses(system);
-  return losses.base(system).structural != 0 || losses.damper(system).structural != 0;
-}
-
-/// Refuses sectors that disturbances cannot run through.
-void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
-  for (const Index wave : problems::disturbed_waves(system)) {
-    try {
-      structures_of(system).check(wave, system.elements);
-    } catch (const std::invalid_argument& error) {
-      section.fail("stability", fmt::format("disturbances of {} waves: {}", wave, error.what()));
-    }
-  }
-}
-
-/// Refuses stability of what has no exponents.
-void check_stability(const TomlSection& section, const CaseBranch& branch) {
-  const ProblemRequest& problem = branch.problem;
-  const SystemParameters& system = problem.system;
-  if (!problem.stability) return;
-  if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
-  if (branch.curve) section.fail("stability", "not beside curve");
-  using Kind = SystemParameter::Kind;
-  const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
-  if (kind != Kind::load && kind != Kind::growth)
-    section.fail("stability", fmt::format("over eta, P, F and P_2, not over {}, with which the disturbances' "
-                                          "own waves would change",
-                                          system.varied));
-  if (!problem.response->in_time) section.fail("stability", "only for the forced response");
-  for (const PlacedElement& one : system.others) {
-    if (one.kind->has_memory)
-      section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
-  }
-  if (is_structural(system))
-    section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
-  if (!structures_of(system).has_equations())
-    section.fail("stability", "not of a structure by its responses, which has no motion in time");
-  try {
-    static_cast<void>(structures_of(system).in_modes());
-  } catch (const std::invalid_argument& error) {
-    section.fail("stability",
-                 fmt::format("disturbances are told by modes, which this damping couples: {}", error.what()));
-  }
-  check_disturbed_waves(section, system);
 }
 
 /// The value of the second parameter at which the first points of a curve are looked for.
@@ -302,6 +254,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   if (model_ == nullptr && branch.problem.response->parameters.front() == "R" && parameter_ != "R")
     section_.number("R", positive());
   if (branch.curve) find_seed(section_, branch);
+  check_even(system, branch.problem);
   check_stability(section_, branch);
   return branch;
 }

@@ -52,6 +52,20 @@ KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
                           otherwise("its kind; of the second of a kind `clearance_2`"), unlisted),
       ElementKey::special("contact", "integer >= 1", "of sectors, at which of the contact dofs", contact,
                           resolved([](const PlacedElement& placed) { return placed.dof + 1; }), unlisted)};
+  if (kind.closes)
+    keys.push_back(ElementKey::special(
+        "normal", "integer >= 1", "at which of the contact dofs it closes; `contact` is where it slides",
+        [](PlacedElement& placed, const TomlSection& section) {
+          placed.normal = section.integer("normal", at_least(1)) - 1;
+        },
+        otherwise("required"), resolved([](const PlacedElement& placed) { return placed.normal + 1; }),
+        unlisted));
+  if (!kind.is_odd)
+    keys.push_back(ElementKey::choice("closes", &PlacedElement::closes_backwards,
+                                      {{"forwards", false}, {"backwards", true}},
+                                      "whether it closes where the displacement of that dof grows or falls, "
+                                      "at contacts that of the damper relative to the base",
+                                      "", unlisted));
   for (std::size_t i = 0; i < kind.settings.size(); ++i) keys.push_back(key_of(kind, i));
   return {std::move(keys)};
 }
@@ -75,6 +89,18 @@ void read_kind(PlacedElement& placed, const TomlDocument& document, const TomlSe
     if (own->name == name) placed.own = own;
   }
   placed.kind = placed.own.get();
+}
+
+/// Refuses dofs that there are not.
+void check_dofs(const TomlSection& section, const PlacedElement& placed, Index contacts) {
+  if (placed.dof >= contacts)
+    section.fail("contact", fmt::format("expected a contact from 1 to {}, got {}", contacts, placed.dof + 1));
+  if (!placed.kind->closes) return;
+  if (contacts < 2)
+    section.fail("normal", "a structure with one contact dof has no second one along which it could close");
+  if (placed.normal >= contacts || placed.normal == placed.dof)
+    section.fail("normal", fmt::format("expected a contact from 1 to {} other than {}, got {}", contacts,
+                                       placed.dof + 1, placed.normal + 1));
 }
 
 /// Refuses an element whose settings would have the names of another one's.
@@ -107,19 +133,20 @@ void read_elements(const TomlDocument& document, SystemParameters& system) {
   if (node == nullptr) return;
   if (!node->is_array_of_tables()) document.mismatch(*node, "element", "tables [[element]]");
   const auto contacts = std::max<Index>(1, std::ssize(system.contacts));
+  Index coordinates = contacts + (system.cubic_stiffness != 0 ? contacts : 0);
   for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
     const TomlSection section(document, *node->as_array()->get(i)->as_table(), fmt::format("element[{}]", i));
     PlacedElement placed;
     read_kind(placed, document, section);
     for (const ElementKind::Value& setting : placed.kind->settings) placed.settings.push_back(setting.value);
     element_keys(*placed.kind).read(placed, section);
-    if (placed.dof >= contacts)
-      section.fail("contact",
-                   fmt::format("expected a contact from 1 to {}, got {}", contacts, placed.dof + 1));
+    check_dofs(section, placed, contacts);
     if (system.fixed_damper && placed.place == PlacedElement::Place::damper)
       section.fail("at", "there is no damper that moves");
-    if (contacts + std::ssize(system.others) + (system.cubic_stiffness != 0 ? contacts : 0) >= most_contacts)
-      section.fail("kind", fmt::format("more than {} contacts and elements at a node", most_contacts));
+    coordinates += placed.kind->closes ? 2 : 1;
+    if (coordinates > most_contacts)
+      section.fail("kind",
+                   fmt::format("more than {} contacts and coordinates of elements at a node", most_contacts));
     system.others.push_back(std::move(placed));
     check_names(section, system);
   }

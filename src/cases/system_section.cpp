@@ -7,8 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/elements/idle.hpp"
-#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/swing.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
 #include "cases/geometry_section.hpp"
@@ -45,28 +46,48 @@ auto not_undamped(double S::*ratio, bool S::*is_damped) {
   });
 }
 
+std::string harmonics_text(int highest) {
+  return fmt::format(R"(an odd integer from 1 to {}, a list that holds 1, or "auto")", highest);
+}
+
 /// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
 void read_orders(S& settings, const TomlSection& section) {
   constexpr int highest = 2 * most_harmonics - 1;
-  const auto fits = [](double h) { return h >= 1 && h <= highest && std::fmod(h, 2) == 1; };
+  const auto fits = [](double h) { return h >= 0 && h <= highest && std::fmod(h, 1) == 0; };
   const toml::node& node = section.require("harmonics", "");
   std::vector<int>& orders = settings.harmonics;
   if (node.value<std::string>() == "auto") {
     settings.harmonics_tolerance = usual_harmonics_tolerance;
   } else if (node.is_array()) {
-    const std::vector<double> listed = section.numbers("harmonics", {fits, " that is odd, from 1 to 255"});
+    const std::vector<double> listed = section.numbers("harmonics", {fits, " that is whole, from 0 to 255"});
     orders.assign(listed.begin(), listed.end());
-    if (orders.empty() || orders.front() != 1 ||
-        !std::is_sorted(orders.begin(), orders.end(), std::less_equal<>()))
-      section.fail("harmonics", "expected a list that begins with 1 and ascends");
+    const auto first = std::find(orders.begin(), orders.end(), 1);
+    if (first == orders.end() || !std::is_sorted(orders.begin(), orders.end(), std::less_equal<>()))
+      section.fail("harmonics", "expected a list that holds 1 and ascends");
+    std::rotate(orders.begin(), first, first + 1);
   } else {
-    if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())))
-      section.mismatch(
-          "harmonics",
-          fmt::format(R"(an odd integer from 1 to {}, a list of them that begins with 1, or "auto")",
-                      highest));
+    if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())) || *node.value<Index>() == 0)
+      section.mismatch("harmonics", harmonics_text(highest));
     orders = odd_up_to(static_cast<int>(*node.value<Index>()));
   }
+}
+
+/// Adds the mean and the even harmonics that elements which are not odd call for.
+void complete_orders(const TomlSection& section, ProblemRequest& problem) {
+  SystemParameters& system = problem.system;
+  const toml::node* node = section.table()->get("harmonics");
+  const auto highest = static_cast<int>(node != nullptr ? node->value<Index>().value_or(1) : 1);
+  const bool is_listed = node != nullptr && node->is_array();
+  if (is_odd(system)) {
+    if (highest % 2 == 0) section.mismatch("harmonics", harmonics_text(2 * most_harmonics - 1));
+    return;
+  }
+  if (!is_listed) system.harmonics = all_up_to(highest);
+  if (std::find(system.harmonics.begin(), system.harmonics.end(), 0) == system.harmonics.end())
+    section.fail("harmonics", "expected 0 among them, the mean, as elements are not odd");
+  if (std::ssize(system.harmonics) > most_harmonics / 2)
+    section.fail("harmonics", fmt::format("expected at most {} of them beside elements that close, got {}",
+                                          most_harmonics / 2, system.harmonics.size()));
 }
 
 /// Refuses structures that cannot travel as the waves of the harmonics.
@@ -107,8 +128,9 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
     document.fail(document.root().get("geometry"), "geometry", "only for rods and beams");
   problem.structure = &kind;
   kind.read({document, section, replacements, use}, problem);
-  check_waves(section, problem.system);
   read_elements(document, problem.system);
+  complete_orders(section, problem);
+  check_waves(section, problem.system);
   problem.system.excitation = read_excitation(document, replacements);
 }
 
@@ -191,7 +213,8 @@ std::vector<K> shared_keys() {
           "damping", [](auto& settings) -> auto& { return settings; }, damping, "",
           "a table { base = ..., damper = ... }", "damping ratios"),
       K::special("harmonics", "odd integer, list or \"auto\"",
-                 "the harmonics in which friction is balanced: all odd ones up to this, or those listed",
+                 "the harmonics in which friction is balanced: all odd ones up to this, or those listed; "
+                 "beside elements that are not odd the mean 0 and the even ones as well",
                  read_orders, resolved([](const S&) { return 1; })),
       K("harmonics_tolerance", &S::harmonics_tolerance, within(1e-9, 0.1, " >= 1e-9 and <= 0.1"),
         "the largest harmonic left out, relative to R", only(R"(only beside harmonics = "auto")", is_auto),

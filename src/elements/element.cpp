@@ -1,11 +1,14 @@
 #include "arcslip/elements/element.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace arcslip {
 
 void ElementForce::set_linear(double stiffness, const HarmonicVector& x, bool derivatives) {
   const Index count = x.size();
+  readings.clear();
   harmonics = stiffness * x;
   by_setting.resize(0);
   energy = 0;
@@ -44,24 +47,44 @@ ElementForce Element::change(const ElementForce& at, std::span<const int> orders
   change.by_log_load.setZero(x.size());
   change.linear.setZero(x.size(), x.size());
   change.conjugate.setZero(x.size(), x.size());
-  if (!is_linear(beyond)) second(at, orders, x, load, beyond, way, change);
+  if (!(is_linear(beyond) && all_odd(orders))) second(at, orders, x, load, beyond, way, change);
   return change;
 }
 
-StateBorder Element::border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
-                            bool beyond) const {
+StateBorder Element::border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
+                            double load, bool beyond) const {
+  const Swing swing = known != nullptr ? *known : Swing::of(orders, x);
+  const double amplitude = forgets_mean() ? swing.half() : swing.peak();
   const double limit = threshold(load);
   const double sign = beyond ? -1 : 1;
-  const double square = top.value * top.value;
+  const double square = amplitude * amplitude;
   const double sum = square + limit * limit;
   const double slope = sign * 4 * limit * limit / (sum * sum);  // by A^2/2
   StateBorder border{sign * (square - limit * limit) / sum, HarmonicVector(std::ssize(orders)),
                      -slope * square * threshold_by_log_load(), -slope * square * log_threshold_by_setting()};
   for (Index a = 0; a < border.by_motion.size(); ++a) {
-    border.by_motion(a) =
-        slope * top.value * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * top.angle);
+    const int h = orders[static_cast<std::size_t>(a)];
+    border.by_motion(a) = slope * amplitude * (forgets_mean() ? swing.half_by(h) : swing.peak_by(h));
   }
   return border;
+}
+
+void Element::difference(const Moved& moved, const HarmonicVector& x, const Way& way, double setting_scale,
+                         double relative, ElementForce& change) {
+  const double size = x.norm() > 0 ? x.norm() : 1;
+  const double pace =
+      std::max({way.motion.norm() / size, std::abs(way.log_load), std::abs(way.setting) / setting_scale});
+  if (!(pace > 0)) return;
+  const double step = relative / pace;
+  ElementForce ahead;
+  ElementForce behind;
+  moved(x + step * way.motion, step * way.log_load, step * way.setting, ahead);
+  moved(x - step * way.motion, -step * way.log_load, -step * way.setting, behind);
+  const auto rate = [step](const auto& one, const auto& other) { return (one - other) / (2 * step); };
+  change.linear += rate(ahead.linear, behind.linear);
+  change.conjugate += rate(ahead.conjugate, behind.conjugate);
+  change.by_log_load += rate(ahead.by_log_load, behind.by_log_load);
+  if (ahead.by_setting.size() > 0) change.by_setting += rate(ahead.by_setting, behind.by_setting);
 }
 
 double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }

@@ -95,7 +95,7 @@ void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x,
   law_->at(turn.x(), derivatives ? turn.ways() : Matrix(), setting, derivatives, samples);
   out.harmonics = turn.harmonics(samples.force);
   out.energy = turn.energy(out.harmonics, x);
-  out.maximum = turn.maximum();
+  out.swing = Swing::of_odd(turn.maximum());
   out.by_setting.resize(0);
   if (!derivatives) return;
   out.by_log_load.setZero(x.size());
@@ -124,18 +124,10 @@ void HystereticElement::second(const ElementForce& /*at*/, std::span<const int> 
     change.by_setting += k.first * way.motion + k.second * way.setting * x;
     return;
   }
-  const double size = x.norm() > 0 ? x.norm() : 1;
-  const double pace = std::max(way.motion.norm() / size, std::abs(way.setting) / law_->setting_scale());
-  if (!(pace > 0)) return;
-  const double step = difference_step / pace;
-  ElementForce ahead;
-  ElementForce behind;
-  this->at(orders, x + step * way.motion, step * way.setting, true, ahead);
-  this->at(orders, x - step * way.motion, -step * way.setting, true, behind);
-  const auto rate = [step](const auto& one, const auto& other) { return (one - other) / (2 * step); };
-  change.linear += rate(ahead.linear, behind.linear);
-  change.conjugate += rate(ahead.conjugate, behind.conjugate);
-  if (ahead.by_setting.size() > 0) change.by_setting += rate(ahead.by_setting, behind.by_setting);
+  const auto moved = [&](const HarmonicVector& motion, double, double setting, ElementForce& out) {
+    this->at(orders, motion, setting, true, out);
+  };
+  difference(moved, x, {way.motion, 0, way.setting}, law_->setting_scale(), difference_step, change);
 }
 
 }  // namespace arcslip

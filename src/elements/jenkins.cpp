@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "arcslip/elements/hysteresis_loop.hpp"
+#include "arcslip/elements/pressed/pressed_contact.hpp"
 
 namespace arcslip {
 
@@ -15,13 +16,14 @@ Jenkins::Jenkins(double stiffness, double slip_per_load)
 
 void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
                     bool derivatives, ElementForce& out) const {
+  if (!all_odd(orders)) return force_of_any(orders, x, load, slips, derivatives, out);
   if (!slips) return out.set_linear(stiffness_, x, derivatives);
   const OddMotion motion(orders, x);
   const HysteresisLoop loop(motion, threshold(load));
   loop.force(out.harmonics);
   out.harmonics *= stiffness_;
   out.energy = stiffness_ * loop.energy();
-  out.maximum = loop.maximum();
+  out.swing = loop.swing();
   out.by_setting.resize(0);
   if (!derivatives) return;
   loop.derivative(out.linear, out.conjugate);
@@ -32,8 +34,30 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
   out.by_log_load.noalias() -= out.conjugate * x.conjugate();
 }
 
+void Jenkins::force_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+                           bool derivatives, ElementForce& out) const {
+  const double limit = stiffness_ * threshold(load);
+  const PressedForce found =
+      pressed_force({1, stiffness_, 0, limit}, orders, x, ComplexVector::Zero(x.size()), derivatives,
+                    slips ? PressedArcs::Course::slips : PressedArcs::Course::sticks);
+  out.harmonics = found.tangential;
+  out.energy = found.energy;
+  if (slips) out.swing = Swing::of(orders, x);
+  out.by_setting.resize(0);
+  if (!derivatives) return;
+  out.linear = found.tangential_by_sliding.linear;
+  out.conjugate = found.tangential_by_sliding.conjugate;
+  out.by_log_load = limit * found.tangential_by[PressedForce::normal_force];
+}
+
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
-                     double load, bool /*slips*/, const Way& way, ElementForce& change) const {
+                     double load, bool slips, const Way& way, ElementForce& change) const {
+  if (!all_odd(orders)) {
+    const auto moved = [&](const HarmonicVector& motion, double log_load, double, ElementForce& out) {
+      force_of_any(orders, motion, load * std::exp(log_load), slips, true, out);
+    };
+    return difference(moved, x, way, 1, 1e-5, change);
+  }
   const double limit = threshold(load);
   HysteresisLoop(OddMotion(orders, x), limit)
       .second(way.motion, limit * way.log_load, change.linear, change.conjugate);

@@ -3,15 +3,47 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
-#include "arcslip/motion/arc_integrals.hpp"
+#include "arcslip/motion/periodic_motion.hpp"
 #include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
 
-/// A stretch of half a period in one zone.
+/// The motion over the part of a period that averages are taken over: half of one of odd orders.
+class Passage {
+ public:
+  Passage(std::span<const int> orders, const HarmonicVector& x) : orders_(orders), odd_(orders, x) {
+    if (!all_odd(orders)) any_.emplace(orders, x, highest_order(orders));
+  }
+
+  double period() const { return any_ ? two_pi : pi; }
+  int highest() const { return highest_order(orders_); }
+  double value(double theta) const { return any_ ? any_->value(theta) : odd_.value(theta); }
+  double slope(double theta) const { return any_ ? any_->at(theta).first : odd_.slopes(theta).first; }
+
+  /// Where it turns back; of a constant at 0.
+  Angles turns() const {
+    if (!any_) return odd_.turning_points();
+    Angles turns;
+    for (const double angle : any_->derivative().zeros()) turns.push(angle);
+    if (turns.count == 0) turns.push(0);
+    return turns;
+  }
+  Swing swing(const Angles& turns) const {
+    return any_ ? Swing::of(orders_, odd_.coefficients()) : Swing::of_odd(odd_.maximum(turns));
+  }
+
+ private:
+  std::span<const int> orders_;
+  OddMotion odd_;
+  std::optional<PeriodicMotion> any_;
+};
+
+/// A stretch of it in one zone.
 struct Stretch {
   double begin;
   double end;
@@ -21,17 +53,17 @@ struct Stretch {
 
 /// Calls `use` with all of them, from a turning point on. No motion is zero.
 template <class Use>
-void each_stretch(const PiecewiseLaw& law, const OddMotion& motion, const Angles& turns, const Use& use) {
+void each_stretch(const PiecewiseLaw& law, const Passage& motion, const Angles& turns, const Use& use) {
   for (int i = 0; i < turns.count; ++i) {
     double begin = turns[i];
-    const double end = i + 1 < turns.count ? turns[i + 1] : turns[0] + pi;
+    const double end = i + 1 < turns.count ? turns[i + 1] : turns[0] + motion.period();
     int zone = law.zone_at(motion.value(begin));
     const int last = law.zone_at(motion.value(end));
     const int way = last > zone ? 1 : -1;
     while (zone != last) {
       const double level = way > 0 ? law.ends(zone).high : law.ends(zone).low;
       const double crossing = bracketed_newton(
-          [&](double theta) { return std::pair(motion.value(theta) - level, motion.slopes(theta).first); },
+          [&](double theta) { return std::pair(motion.value(theta) - level, motion.slope(theta)); },
           0.5 * (begin + end), begin, end, way > 0);
       use(Stretch{begin, crossing, zone, zone + way});
       begin = crossing;
@@ -41,14 +73,15 @@ void each_stretch(const PiecewiseLaw& law, const OddMotion& motion, const Angles
   }
 }
 
-/// Calls `use` with angle, share of half a period and zone of nodes that integrate all products exactly, or
-/// over stretches to rounding.
+/// Calls `use` with angle, share and zone of nodes that integrate all products exactly where the motion stays
+/// in the first piece, or over stretches between the turning points to rounding.
 template <class Use>
-void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* turns, const Use& use) {
-  const int highest = (law.degree() + 1) * motion.orders().back();
-  if (turns == nullptr) {  // within the first piece
-    const int count = highest / 2 + 1;
-    for (int k = 0; k < count; ++k) use(pi * k / count, 1.0 / count, 0);
+void each_node(const PiecewiseLaw& law, const Passage& motion, const Angles* turns, const Use& use) {
+  const double period = motion.period();
+  const int highest = (law.degree() + 1) * motion.highest();
+  if (turns == nullptr) {
+    const int count = period > pi ? highest + 1 : highest / 2 + 1;
+    for (int k = 0; k < count; ++k) use(period * k / count, 1.0 / count, 0);
     return;
   }
   using Gauss = boost::math::quadrature::gauss<double, 20>;
@@ -61,7 +94,7 @@ void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* t
     for (int k = 0; k < panels; ++k) {
       const double middle = stretch.begin + (2 * k + 1) * half;
       for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-        const double share = Gauss::weights()[i] * half / pi;
+        const double share = Gauss::weights()[i] * half / period;
         use(middle - Gauss::abscissa()[i] * half, share, stretch.zone);
         use(middle + Gauss::abscissa()[i] * half, share, stretch.zone);
       }
@@ -69,35 +102,43 @@ void each_node(const PiecewiseLaw& law, const OddMotion& motion, const Angles* t
   });
 }
 
-// With e_h = e^{jh theta} at an angle and the mean over half a period,
+// With e_h = e^{jh theta} at an angle and the mean over the part of a period,
 //
-//   f_h = 2 mean(f conj(e_h)),   df_h = sum_l c_{h-l} dx_l + c_{h+l} conj(dx_l),   c_m = mean(f' conj(e_m)).
+//   f_h = 2 mean(f conj(e_h)),   df_h = sum_l c_{h-l} dx_l + c_{h+l} conj(dx_l),   c_m = mean(f' conj(e_m)),
+//
+// and half of that for h = 0.
 class Turn {
  public:
-  explicit Turn(std::span<const int> orders) : orders_(orders), conj_(std::ssize(orders)) {}
+  explicit Turn(std::span<const int> orders)
+      : orders_(orders), conj_(std::ssize(orders)), rows_(std::ssize(orders)) {}
 
   void go_to(double theta) {
     for (Index a = 0; a < conj_.size(); ++a)
       conj_(a) = std::polar(1.0, -orders_[static_cast<std::size_t>(a)] * theta);
+    rows_ = conj_;
+    for (Index a = 0; a < conj_.size(); ++a) {
+      if (orders_[static_cast<std::size_t>(a)] == 0) rows_(a) = 0.5;
+    }
   }
   double value(const HarmonicVector& x) const { return conj_.dot(x).real(); }
 
-  void add_force(double part, HarmonicVector& harmonics) const { harmonics += (2 * part) * conj_; }
+  void add_force(double part, HarmonicVector& harmonics) const { harmonics += (2 * part) * rows_; }
   void add_slope(double part, ComplexMatrix& linear, ComplexMatrix& conjugate) const {
     for (Index l = 0; l < conj_.size(); ++l) {
-      linear.col(l) += (part * std::conj(conj_(l))) * conj_;
-      conjugate.col(l) += (part * conj_(l)) * conj_;
+      linear.col(l) += (part * std::conj(conj_(l))) * rows_;
+      conjugate.col(l) += (part * conj_(l)) * rows_;
     }
   }
 
  private:
   std::span<const int> orders_;
   HarmonicVector conj_;
+  HarmonicVector rows_;
 };
 
 /// k_m of the slope by the polynomial of one zone, in full periods.
-std::vector<Complex> slope_harmonics(const PiecewiseLaw& law, const OddMotion& motion, int zone) {
-  const int highest = std::max(law.degree() - 1, 0) * motion.orders().back();
+std::vector<Complex> slope_harmonics(const PiecewiseLaw& law, const Passage& motion, int zone) {
+  const int highest = std::max(law.degree() - 1, 0) * motion.highest();
   const int count = 2 * highest + 1;
   std::vector<Complex> harmonics(static_cast<std::size_t>(highest + 1));
   for (int k = 0; k < count; ++k) {
@@ -122,20 +163,21 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   const Index count = x.size();
   out.harmonics.setZero(count);
   out.energy = 0;
+  out.readings.clear();
   out.by_setting.setZero(law_.is_varied() ? count : 0);
   if (derivatives) {
     out.linear.setZero(count, count);
     out.conjugate.setZero(count, count);
     out.by_log_load.setZero(count);
   }
-  const OddMotion motion(orders, x);
+  const Passage motion(orders, x);
   Angles turns;
-  if (beyond) {
-    turns = motion.turning_points();
-    out.maximum = motion.maximum(turns);
+  if (crosses(beyond)) {
+    turns = motion.turns();
+    out.swing = motion.swing(turns);
   }
   Turn turn(orders);
-  each_node(law_, motion, beyond ? &turns : nullptr, [&](double theta, double share, int zone) {
+  each_node(law_, motion, crosses(beyond) ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
     const double here = turn.value(x);
     turn.add_force(share * law_.value(here, zone), out.harmonics);
@@ -148,10 +190,10 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
 VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> orders,
                                                       const HarmonicVector& x) const {
   VaryingStiffness stiffness;
-  const OddMotion motion(orders, x);
+  const Passage motion(orders, x);
   constexpr double touch = 1 + 1e-9;  // a longer one holds something
-  const Angles turns = has_border() ? motion.turning_points() : Angles{};
-  if (!has_border() || motion.maximum(turns).value <= touch * law_.pieces().front().end.value) {
+  const Angles turns = has_border() ? motion.turns() : Angles{};
+  if (!has_border() || motion.swing(turns).peak() <= touch * law_.pieces().front().end.value) {
     const std::vector<Complex> all = slope_harmonics(law_, motion, 0);
     for (std::size_t m = 0; m < all.size(); m += 2) stiffness.harmonics.push_back(all[m]);
     return stiffness;
@@ -168,10 +210,10 @@ VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> order
 void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> orders,
                                const HarmonicVector& x, double /*load*/, bool beyond, const Way& way,
                                ElementForce& change) const {
-  const OddMotion odd(orders, x);
-  const Angles turns = beyond ? odd.turning_points() : Angles{};
+  const Passage motion(orders, x);
+  const Angles turns = crosses(beyond) ? motion.turns() : Angles{};
   Turn turn(orders);
-  each_node(law_, odd, beyond ? &turns : nullptr, [&](double theta, double share, int zone) {
+  each_node(law_, motion, crosses(beyond) ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
     const double here = turn.value(x);
     const double dx = turn.value(way.motion);
@@ -184,15 +226,15 @@ void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> 
     }
     turn.add_slope(share * slope, change.linear, change.conjugate);
   });
-  if (!beyond) return;
-  each_stretch(law_, odd, turns, [&](const Stretch& stretch) {
+  if (!crosses(beyond)) return;
+  each_stretch(law_, motion, turns, [&](const Stretch& stretch) {
     if (stretch.zone == stretch.next) return;
     turn.go_to(stretch.end);
     const double here = turn.value(x);
     const double drop = law_.slope(here, stretch.zone) - law_.slope(here, stretch.next);
     const double late =
         (law_.end_by_setting(stretch.zone, stretch.next) * way.setting - turn.value(way.motion)) /
-        (pi * odd.slopes(stretch.end).first);
+        (motion.period() * motion.slope(stretch.end));
     turn.add_slope(drop * late, change.linear, change.conjugate);
     if (law_.is_varied())
       turn.add_force((law_.by_setting(here, stretch.zone) - law_.by_setting(here, stretch.next)) * late,

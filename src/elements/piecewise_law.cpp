@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -29,22 +30,23 @@ double integral(const std::vector<Jet>& coefficients, double x) {
 
 }  // namespace
 
-PiecewiseLaw::PiecewiseLaw(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
+PiecewiseLaw::PiecewiseLaw(std::vector<Piece> pieces, bool is_one_sided)
+    : pieces_(std::move(pieces)), is_one_sided_(is_one_sided) {
   const auto refuse = [](const char* why) {
     throw std::invalid_argument(std::string("PiecewiseLaw: ") + why);
   };
   if (pieces_.empty() || !std::isinf(pieces_.back().end.value)) refuse("the last piece must have no end");
-  for (std::size_t m = 0; m < pieces_.front().coefficients.size(); m += 2) {
+  for (std::size_t m = 0; m < pieces_.front().coefficients.size() && !is_one_sided; m += 2) {
     if (pieces_.front().coefficients[m].value != 0) refuse("the first piece must be odd");
   }
-  double before = 0;
+  double before = is_one_sided ? std::numeric_limits<double>::lowest() : 0;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     degree_ = std::max(degree_, static_cast<int>(pieces_[i].coefficients.size()) - 1);
     const double end = pieces_[i].end.value;
     const auto varies = [](const Jet& number) { return number.first != 0 || number.second != 0; };
     is_varied_ = is_varied_ || varies(pieces_[i].end) ||
                  std::any_of(pieces_[i].coefficients.begin(), pieces_[i].coefficients.end(), varies);
-    if (!(end > before)) refuse("the ends of pieces must ascend from above 0");
+    if (!(end > before)) refuse("the ends of pieces must ascend, of an odd law from above 0");
     before = end;
     if (i + 1 == pieces_.size()) break;
     constexpr double rounding = 1e-12;
@@ -52,20 +54,24 @@ PiecewiseLaw::PiecewiseLaw(std::vector<Piece> pieces) : pieces_(std::move(pieces
     const double jump = value(end, zone + 1) - value(end, zone);
     double size = std::abs(value(end, zone));
     for (std::size_t m = 0; m < pieces_[i + 1].coefficients.size(); ++m)
-      size = std::max(size, std::abs(pieces_[i + 1].coefficients[m].value) * std::pow(end, m));
+      size = std::max(size, std::abs(pieces_[i + 1].coefficients[m].value) * std::pow(std::abs(end), m));
     if (!(std::abs(jump) <= rounding * size)) refuse("the force must be continuous");
   }
 }
 
 int PiecewiseLaw::zone_at(double x) const {
   int zone = 0;
+  if (is_one_sided_) {
+    while (x > piece(zone).end.value) ++zone;
+    return zone;
+  }
   while (std::abs(x) > piece(zone).end.value) ++zone;
   return x < 0 ? -zone : zone;
 }
 
 PiecewiseLaw::Ends PiecewiseLaw::ends(int zone) const {
   const double outer = piece(zone).end.value;
-  if (zone == 0) return {-outer, outer};
+  if (zone == 0) return {is_one_sided_ ? -std::numeric_limits<double>::infinity() : -outer, outer};
   const double inner = piece(std::abs(zone) - 1).end.value;
   return zone > 0 ? Ends{inner, outer} : Ends{-outer, -inner};
 }

@@ -17,12 +17,10 @@ PeriodicMotion::PeriodicMotion(std::span<const int> orders, const ComplexVector&
     : coefficients_(ComplexVector::Zero(highest + 1)) {
   if (std::ssize(orders) != coefficients.size())
     throw std::invalid_argument("PeriodicMotion: one coefficient for each order");
-  int last = -1;
   for (std::size_t a = 0; a < orders.size(); ++a) {
-    if (orders[a] <= last || orders[a] > highest)
-      throw std::invalid_argument("PeriodicMotion: orders must ascend from 0 or more");
-    last = orders[a];
-    coefficients_(last) = coefficients(static_cast<Index>(a));
+    if (orders[a] < 0 || orders[a] > highest)
+      throw std::invalid_argument("PeriodicMotion: orders must be 0 or more and not above the highest");
+    coefficients_(orders[a]) = coefficients(static_cast<Index>(a));
   }
   coefficients_(0) = coefficients_(0).real();
 }

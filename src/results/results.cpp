@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/version.hpp"
@@ -204,7 +205,7 @@ std::string describe_modes(const SystemParameters& system) {
 std::string describe_harmonics(const TracedBranch& traced) {
   const std::vector<int> orders = traced.base.harmonics;
   if (orders.size() == 1) return "";
-  return fmt::format("{} harmonics, up to {}\n", orders.size(), orders.back());
+  return fmt::format("{} harmonics, up to {}\n", orders.size(), highest_order(orders));
 }
 
 }  // namespace arcslip

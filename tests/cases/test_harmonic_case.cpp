@@ -116,7 +116,7 @@ TEST_CASE("Harmonics that cannot be taken are refused in one line", "[harmonics]
       {"harmonics = 3", "harmonics = 257", ":11:13", "system.harmonics", "255", "got 257"},
       {"harmonics = 3", "harmonics = 3.0", ":11:13", "system.harmonics", "odd integer", "got 3"},
       {"harmonics = 3", "harmonics = \"all\"", ":11:13", "system.harmonics", "\"auto\"", "all"},
-      {"harmonics = 3", "harmonics = [3, 5]", ":11:13", "system.harmonics", "begins with 1", ""},
+      {"harmonics = 3", "harmonics = [3, 5]", ":11:13", "system.harmonics", "holds 1", ""},
       {"harmonics = 3", "harmonics = [1, 5, 3]", ":11:13", "system.harmonics", "ascends", ""},
       {"harmonics = 3", "harmonics_tolerance = 1e-3", ":11:23", "harmonics_tolerance", "\"auto\"", ""},
   }));

@@ -62,7 +62,7 @@ TEST_CASE("Stops under one harmonic have the describing function of a dead zone"
   const double share = 1 - 2 / pi * (std::asin(q) + q * std::sqrt(1 - q * q));
   CHECK(std::abs(force.harmonics(0) - stiffness * share * x(0)) < 2e-14 * stiffness * A);
   CHECK(force.energy == 0);
-  CHECK_THAT(force.maximum.value, Catch::Matchers::WithinRel(A, 1e-15));
+  CHECK_THAT(force.swing.peak(), Catch::Matchers::WithinRel(A, 1e-15));
 }
 
 TEST_CASE("Harmonics of stops are those of their force in time", "[elements]") {

@@ -14,7 +14,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-std::vector<int> all_up_to(int highest) {
+std::vector<int> from_zero_to(int highest) {
   std::vector<int> orders;
   for (int h = 0; h <= highest; ++h) orders.push_back(h);
   return orders;
@@ -98,7 +98,7 @@ TEST_CASE("Friction under varying normal load has the harmonics of published loo
     ComplexVector g = ComplexVector::Zero(4);
     r(1) = row.X;
     g(1) = std::polar(row.n1, -row.phi);
-    const PressedForce force = pressed_force({.75, 2, 2.5, 2.5 * row.n0}, all_up_to(3), r, g, false);
+    const PressedForce force = pressed_force({.75, 2, 2.5, 2.5 * row.n0}, from_zero_to(3), r, g, false);
     CHECK(std::abs(force.tangential(0) - row.f[0]) < 1e-7);
     for (int h = 1; h <= 3; ++h) {
       const auto at = static_cast<std::size_t>(2 * h);
@@ -143,7 +143,7 @@ TEST_CASE("Friction under varying normal load is that of a march in time", "[pre
       const PressedSettings settings = random_pressed(draw);
       const ComplexVector r = random_course(draw, highest, 1);
       const ComplexVector g = random_course(draw, highest, 0.5);
-      const PressedForce force = pressed_force(settings, all_up_to(highest), r, g, false);
+      const PressedForce force = pressed_force(settings, from_zero_to(highest), r, g, false);
       const Marched other = marched(settings, r, g, 1 << 16);
       apart += force.apart_fraction;
       slip += force.slip_fraction;
@@ -162,7 +162,7 @@ TEST_CASE("Derivatives of friction under varying normal load are exact", "[press
   RandomSystems draw(3);
   int near = 0;
   for (const int highest : {1, 3, 7}) {
-    const std::vector<int> orders = all_up_to(highest);
+    const std::vector<int> orders = from_zero_to(highest);
     for (int i = 0; i < 40; ++i) {
       CAPTURE(highest, i);
       const PressedSettings s = random_pressed(draw);
@@ -204,7 +204,7 @@ TEST_CASE("Derivatives of friction under varying normal load are exact", "[press
 }
 
 TEST_CASE("Friction under varying normal load stands what coincides", "[pressed]") {
-  const std::vector<int> orders = all_up_to(2);
+  const std::vector<int> orders = from_zero_to(2);
   const auto force = [&](PressedSettings s, std::vector<Complex> r, std::vector<Complex> g) {
     return pressed_force(s, orders, Eigen::Map<ComplexVector>(r.data(), 3),
                          Eigen::Map<ComplexVector>(g.data(), 3), true);
@@ -238,7 +238,7 @@ TEST_CASE("A mass between friction and its normal force moves as integrated in t
   // m = 1, sliding x, closing y, K = [1 .2; .2 1.5], C = .05 K, w = 1.1, load (1, .6 e^{.5j}), preload 1
   const PressedSettings settings{.5, .6, .8, 1};
   constexpr Index count = 17;
-  const std::vector<int> orders = all_up_to(count - 1);
+  const std::vector<int> orders = from_zero_to(count - 1);
   const Eigen::Matrix2d K{{1, .2}, {.2, 1.5}};
   ComplexVector d = ComplexVector::Zero(2 * count);  // x, then y
   double error = 1;

@@ -34,7 +34,7 @@ TEST_CASE("An integer beyond those that a double counts is read to the last digi
       {"force = 1.0", "force = 1.0\ndamping = { base = 9007199254740993 }", ":10:20", "system.damping.base",
        "> -1 and < 1", "got 9007199254740993" + no_double},
       {"force = 1.0", "force = 1.0\nharmonics = [1, 9007199254740993]", ":10:17", "system.harmonics[1]",
-       "is odd", "got 9007199254740993" + no_double},
+       "is whole", "got 9007199254740993" + no_double},
       {"force = 1.0", "force = 1.0\nharmonics = -9223372036854775808", ":10:13", "system.harmonics",
        "an odd integer", "got -9223372036854775808"},
       {"elements = 30", "elements = 9223372036854775807", ":5:12", "system.elements", "an integer",

@@ -2,14 +2,16 @@
 
 // The coordinates x = L q in which elements act on base and damper: the relative motion u - y of a contact,
 // or the motion y of the base's contact dof against ground. Each row of L has an entry for one dof of the
-// base, one of the damper, or both. With the forces f of the elements against x,
+// base, one of the damper, or both. An element that acts in several coordinates has one row after the other.
+// With the forces f of the elements against x,
 //
-//   x_h + C_h f_h = x0 delta_h1,   C_h = L blockdiag(C_B, C_D) G^T,   x0 = L (y_0, 0),
+//   x_h + C_h f_h = x0_h,   C_h = L blockdiag(C_B, C_D) G^T,   x0 = L (y_0, 0),
 //
 // where G = L, but for contacts that act on the damper and not back on the base, which have no entry for it.
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "arcslip/elements/element.hpp"
@@ -20,7 +22,7 @@ namespace arcslip {
 struct HarmonicSystem;
 struct SystemParameters;
 
-/// A row of L with the element that acts in it.
+/// A row of L with the element that acts in it. What is said of the element is said in its first row.
 struct Coordinate {
   double base = 0;                         ///< entry of L for the base's dof
   double damper = 0;                       ///< and for the damper's
@@ -31,6 +33,9 @@ struct Coordinate {
   bool follows_base = false;               ///< whether its force is told relative to the base's stiffness K*
   /// The element at a value of its setting that is continued, with derivatives by it; null if none is.
   std::function<std::shared_ptr<const Element>(double)> varied = {};
+
+  Index part = 0;         ///< which of its element's coordinates it is
+  std::string name = {};  ///< the element's, if it has one
 
   /// Entry of L for a structure, and of G.
   double move(bool is_base) const { return is_base ? base : damper; }
@@ -48,14 +53,22 @@ class Coordinates {
   /// First the relative motions of the contacts, then the system's further coordinates.
   explicit Coordinates(const HarmonicSystem& system);
 
-  /// All of them, those of contacts, and what acts in the i-th.
+  /// All of them, and those of contacts, which have one element each.
   Index size() const { return std::ssize(all_); }
   Index contacts() const { return contacts_; }
-  const Element& element(Index i) const { return *all_[static_cast<std::size_t>(i)].element; }
   const Coordinate& operator[](Index i) const { return all_[static_cast<std::size_t>(i)]; }
 
-  /// How many, the first ones, have elements with a border.
+  /// How many elements there are, the e-th with its first coordinate, and that of a coordinate.
+  Index elements() const { return std::ssize(first_); }
+  const Element& element(Index e) const { return *(*this)[first(e)].element; }
+  Index first(Index e) const { return first_[static_cast<std::size_t>(e)]; }
+  Index element_of(Index i) const { return element_of_[static_cast<std::size_t>(i)]; }
+
+  /// How many, the first ones, of the elements have a border.
   Index switches() const { return switches_; }
+
+  /// Where a harmonic of a coordinate stands among those of its element, in each of which there are `orders`.
+  Index place(Index i, Index order, Index orders) const { return (*this)[i].part * orders + order; }
 
   /// Whether elements act but at the contacts.
   bool has_others() const { return size() > contacts_; }
@@ -71,11 +84,14 @@ class Coordinates {
   /// Adds the part that one structure has in L C G^T.
   void add(const ContactMatrix& compliance, bool is_base, ContactMatrix& sum) const;
 
-  /// Forces on the contact dofs of a structure in one order, -G^T f.
-  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order) const;
+  /// Forces on the contact dofs of a structure in one of the orders, -G^T f.
+  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
+                          Index orders) const;
 
  private:
   std::vector<Coordinate> all_;
+  std::vector<Index> first_;
+  std::vector<Index> element_of_;
   Index contacts_;
   Index switches_;
   bool spares_base_;

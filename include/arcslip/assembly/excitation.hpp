@@ -18,7 +18,7 @@ struct ExcitationKind {
   std::string name;               ///< what case files call it
   std::string meaning;            ///< one line
   std::vector<Setting> settings;  ///< its numbers
-  /// Amplitude of harmonic h, odd, over that of the first, which the force is; negative in antiphase.
+  /// Amplitude of harmonic h over that of the first, which the force is; negative in antiphase.
   std::function<double(const std::vector<double>& settings, int h)> share;
 };
 

@@ -19,7 +19,7 @@ struct SystemParameters;
 
 /// All that a response in several harmonics needs to know.
 struct HarmonicSystem {
-  std::vector<int> orders;                     ///< h, ascending: of a response odd and from 1
+  std::vector<int> orders;                     ///< h: of a response 1 first, then ascending, perhaps from 0
   std::vector<ContactModes> base;              ///< of each order, with the load that it has
   std::vector<ContactModes> damper;            ///< of each order, without load
   std::vector<SectorContact> contacts;         ///< in the order of the structures' own

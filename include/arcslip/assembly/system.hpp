@@ -45,6 +45,9 @@ struct PlacedElement {
   Index dof = 0;                                ///< which of the contact dofs, from 0
   std::vector<double> settings;                 ///< forces of rods and beams N times those of a node
   std::shared_ptr<const ElementKind> own = {};  ///< keeps a kind alive that is none of element_kinds()
+  Index normal = 0;               ///< of one that also closes, the contact dof along which it does
+  bool closes_backwards = false;  ///< whether it closes where that one's coordinate, or of a one-sided
+                                  ///< element its own, is negative
 };
 
 /// [system] of a case file, nondimensional throughout.
@@ -65,7 +68,7 @@ struct SystemParameters {
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
   bool one_way = false;        ///< friction acts on the damper and not back on the base
-  std::vector<int> harmonics = {1};        ///< h in which friction is balanced, odd and ascending from 1
+  std::vector<int> harmonics = {1};        ///< h in which friction is balanced, 1 first, then ascending
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
   Excitation excitation{nullptr, {}};      ///< the load's harmonics, of which the balanced ones act
 
@@ -97,6 +100,13 @@ std::string setting_name(const SystemParameters& parameters, std::size_t i, std:
 
 /// 1, 3, ..., `highest`.
 std::vector<int> odd_up_to(int highest);
+
+/// The same with 0 and the even ones between or, of a system whose elements are odd, without: 1, 0, 2, 3, ...
+std::vector<int> all_up_to(int highest);
+std::vector<int> orders_up_to(int highest, const SystemParameters& system);
+
+/// Whether all elements are odd, and whether all orders are.
+bool is_odd(const SystemParameters& system);
 
 /// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
 double shear_interface_stiffness(double slenderness, double poisson_ratio);

@@ -1,27 +1,33 @@
 #pragma once
 
-// What acts along one coordinate of the interface: a force that follows from the coordinate's motion x(t)
-// over a period and from the load that presses the parts together, f = f(x; load), in several odd harmonics.
+// What acts along one or several coordinates of the interface: forces that follow from the motion x(t) of
+// these coordinates over a period and from the load that presses the parts together, f = f(x; load), in
+// several harmonics. Their orders begin with 1; unless all are odd, 0 and even ones follow, the mean as a
+// coefficient without imaginary part. Vectors of harmonics hold all those of the first coordinate, then those
+// of the next.
 
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "arcslip/elements/piecewise_law.hpp"
 #include "arcslip/elements/varying_stiffness.hpp"
-#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
 
 /// The force of an element, with its derivatives: df_h = sum_l linear(h, l) dx_l + conjugate(h, l)
-/// conj(dx_l).
+/// conj(dx_l), of which for l = 0 each is half of the derivative.
 struct ElementForce {
   HarmonicVector harmonics;      ///< f_h, against x
   HarmonicVector by_log_load;    ///< df_h/d ln(load)
   HarmonicVector by_setting;     ///< df_h by a setting of the element that is continued; empty if none is
-  ComplexMatrix linear;          ///< harmonics x harmonics
+  ComplexMatrix linear;          ///< harmonics of all coordinates, squared
   ComplexMatrix conjugate;       ///< the same
   double energy = 0;             ///< lost per cycle
-  OddMotion::Maximum maximum{};  ///< of the motion, where the force was found from it
+  Swing swing{};                 ///< of the motion of one coordinate, where the force was found from it
+  std::vector<double> readings;  ///< what else is told, as `Element::readings` names it
 
   /// k x, whatever the load is.
   void set_linear(double stiffness, const HarmonicVector& x, bool derivatives);
@@ -46,21 +52,36 @@ class Element {
  public:
   virtual ~Element() = default;
 
-  /// The stiffness, > 0, relative to which the force is measured: that of the stuck state, if there is one.
-  virtual double reference_stiffness() const = 0;
+  /// In how many coordinates it acts.
+  virtual Index coordinates() const { return 1; }
+
+  /// The stiffness, > 0, relative to which the force in one of them is measured: that of the stuck state, if
+  /// there is one.
+  virtual double reference_stiffness(Index coordinate = 0) const = 0;
+
+  /// Whether it takes even orders and 0, and whether an odd motion meets an odd force.
+  virtual bool takes_any_orders() const { return true; }
+  virtual bool is_odd() const { return true; }
+
+  /// What its force comes with beside energy and swing, by name.
+  virtual std::vector<std::string> readings() const { return {}; }
 
   /// Whether it has a second state beyond a border, as a contact that slips; else its force is smooth.
   virtual bool has_border() const { return false; }
 
+  /// Whether it is in its second state at rest.
+  virtual bool rests_beyond(double /*load*/) const { return false; }
+
   /// What it does in its second state, as "slip".
   virtual std::string beyond() const { return ""; }
 
-  /// Whether the force is reference_stiffness() x in this state.
+  /// Whether the force is reference_stiffness() x in this state under odd motions and, where the state is the
+  /// first one, under small ones.
   virtual bool is_linear(bool beyond) const = 0;
 
-  /// The force under the motion x with these orders; all but harmonics, energy and, beyond, the maximum only
-  /// with `derivatives`. No motion beyond the border is zero. Allocates nothing where the sizes are those of
-  /// before.
+  /// The force under the motion x with these orders; all but harmonics, energy, readings and, beyond, the
+  /// swing only with `derivatives`. No motion beyond the border is zero. Of odd orders it allocates nothing
+  /// where the sizes are those of before.
   virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                      bool derivatives, ElementForce& out) const = 0;
 
@@ -79,10 +100,14 @@ class Element {
   /// What small disturbances of the motion x meet; a contact that slips has a memory and no such stiffness.
   virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const = 0;
 
-  /// The border of one that has one, (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in the first state and its
-  /// negative beyond, smooth where the motion is zero; `top` is the motion's maximum.
-  StateBorder border(std::span<const int> orders, const OddMotion::Maximum& top, double load,
-                     bool beyond) const;
+  /// The border of one that has one, of one coordinate (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in the first
+  /// state and its negative beyond, smooth where the motion is zero. A is max |x| or, of one that forgets the
+  /// mean, half of the motion's range; `known` is its swing, if it is.
+  virtual StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
+                             double load, bool beyond) const;
+
+  /// Whether its border is reached by how far the motion goes from side to side, wherever its middle is.
+  virtual bool forgets_mean() const { return false; }
 
   /// S, the amplitude up to which it stays in its first state; infinite of one without border.
   virtual double threshold(double load) const;
@@ -97,6 +122,14 @@ class Element {
   virtual const PiecewiseLaw* law() const { return nullptr; }
 
  protected:
+  /// The force with derivatives under another motion, with so much added to ln(load) and to the setting.
+  using Moved =
+      std::function<void(const HarmonicVector& x, double log_load, double setting, ElementForce& out)>;
+
+  /// `second` by central differences over `relative` times the motion, or the setting over its scale.
+  static void difference(const Moved& moved, const HarmonicVector& x, const Way& way, double setting_scale,
+                         double relative, ElementForce& change);
+
   /// How `linear`, `conjugate`, `by_log_load` and `by_setting`, which are zero before, of a force that is not
   /// linear change.
   virtual void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,

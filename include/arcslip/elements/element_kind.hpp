@@ -31,7 +31,10 @@ struct ElementKind {
   };
   std::vector<Value> settings;                                        ///< all of them
   std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values
-  bool has_memory = false;  ///< whether its force follows from the way that the motion has taken
+  bool has_memory = false;       ///< whether its force follows from the way that the motion has taken
+  bool is_odd = true;            ///< whether an odd motion meets an odd force
+  bool takes_any_orders = true;  ///< whether even orders and 0 may be balanced beside it
+  bool closes = false;           ///< whether it acts along a second, closing coordinate
 };
 
 /// All of them, in alphabetical order.

@@ -27,7 +27,7 @@
 //
 // the last term only where slip follows. It is one-sided where the number of slips changes.
 
-#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
 
@@ -39,7 +39,7 @@ class HysteresisLoop {
   /// f = r -+ (amplitude - S). `motion` must outlive the loop and not be zero.
   HysteresisLoop(const OddMotion& motion, double slip_threshold);
 
-  OddMotion::Maximum maximum() const { return {begin_, amplitude_}; }  ///< of the motion
+  Swing swing() const { return Swing::of_odd({begin_, amplitude_}); }  ///< of the motion
 
   /// f_h, in the units of r.
   void force(HarmonicVector& harmonics) const;

@@ -53,8 +53,9 @@ class HystereticElement final : public Element {
   /// `reference` > 0 is the stiffness relative to which the force is measured.
   HystereticElement(std::shared_ptr<const CycleLaw> law, double reference);
 
-  double reference_stiffness() const override { return reference_; }
+  double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
   bool has_border() const override { return stuck_.has_value(); }
+  bool takes_any_orders() const override { return false; }
   std::string beyond() const override { return stuck_ ? "slip" : ""; }
   bool is_linear(bool /*beyond*/) const override { return false; }
   double threshold(double load) const override {

@@ -15,8 +15,9 @@ class Idle final : public Element {
   /// `reference` is the stiffness that its coordinate meets, > 0.
   explicit Idle(double reference) : reference_(reference) {}
 
-  double reference_stiffness() const override { return reference_; }
+  double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
   bool has_border() const override { return true; }
+  bool forgets_mean() const override { return true; }
   std::string beyond() const override { return "slip"; }
   bool is_linear(bool /*slips*/) const override { return false; }
   void force(std::span<const int> /*orders*/, const HarmonicVector& x, double /*load*/, bool /*slips*/,

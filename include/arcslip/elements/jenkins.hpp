@@ -2,7 +2,8 @@
 
 // A contact point: a spring of stiffness k in series with a slider that yields at the displacement S, which
 // is proportional to the load [Jenkins]. In slip the force follows from the motion by HysteresisLoop; it
-// sticks where its amplitude A = max |x(t)| is at most S.
+// sticks where its amplitude A = max |x(t)| is at most S. Under motions with even orders it is the contact of
+// pressed_contact.hpp under a constant normal force, and A half of the motion's range.
 
 #include "arcslip/elements/element.hpp"
 
@@ -14,8 +15,9 @@ class Jenkins final : public Element {
   /// Throws std::invalid_argument where stiffness or S/load is not positive.
   Jenkins(double stiffness, double slip_per_load);
 
-  double reference_stiffness() const override { return stiffness_; }
+  double reference_stiffness(Index /*coordinate*/ = 0) const override { return stiffness_; }
   bool has_border() const override { return true; }
+  bool forgets_mean() const override { return true; }
   std::string beyond() const override { return "slip"; }
   bool is_linear(bool slips) const override { return !slips; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
@@ -30,6 +32,8 @@ class Jenkins final : public Element {
   double threshold_by_log_load() const override { return 1; }
 
  private:
+  void force_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+                    bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool slips, const Way& way, ElementForce& change) const override;
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// Elements whose force is a function of the momentary displacement, odd, f(-x) = -f(x). One whose law changes
-// at some displacement has a border there: the motion that reaches the end of the law's first piece. Where it
-// crosses the ends of further pieces the force is continuous, and its second derivatives are one-sided.
+// Elements whose force is a function of the momentary displacement. One whose law is odd, f(-x) = -f(x), and
+// changes at some displacement has a border there: the motion that reaches the end of the law's first piece.
+// Where it crosses other ends of pieces the force is continuous, and its second derivatives are one-sided.
 
 #include <memory>
 
@@ -17,8 +17,9 @@ class MemorylessElement final : public Element {
   /// the first piece.
   MemorylessElement(PiecewiseLaw law, double reference, std::string beyond = "touch");
 
-  double reference_stiffness() const override { return reference_; }
-  bool has_border() const override { return law_.pieces().size() > 1; }
+  double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
+  bool has_border() const override { return law_.pieces().size() > 1 && !law_.is_one_sided(); }
+  bool is_odd() const override { return !law_.is_one_sided(); }
   std::string beyond() const override { return beyond_; }
   bool is_linear(bool /*beyond*/) const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
@@ -31,6 +32,9 @@ class MemorylessElement final : public Element {
   const PiecewiseLaw* law() const override { return &law_; }
 
  private:
+  /// Whether the motion may leave the first piece.
+  bool crosses(bool beyond) const { return law_.is_one_sided() || beyond; }
+
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;
 

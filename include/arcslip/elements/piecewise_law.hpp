@@ -1,7 +1,8 @@
 #pragma once
 
-// A force that follows from the momentary displacement alone, odd, f(-x) = -f(x), and for x >= 0 a polynomial
-// from each displacement at which it changes its law to the next.
+// A force that follows from the momentary displacement alone, a polynomial from each displacement at which it
+// changes its law to the next: odd, f(-x) = -f(x), with pieces for x >= 0, or one-sided, with pieces for all
+// x.
 
 #include <cstdlib>
 #include <vector>
@@ -19,9 +20,12 @@ class PiecewiseLaw {
     std::vector<Jet> coefficients;  ///< c_m
   };
 
-  /// Throws std::invalid_argument unless the ends ascend from above 0 to infinity, the first piece has odd
-  /// powers alone and the force is continuous.
-  explicit PiecewiseLaw(std::vector<Piece> pieces);
+  /// Throws std::invalid_argument unless the ends ascend to infinity and the force is continuous and, of an
+  /// odd one, the ends are positive and the first piece has odd powers alone.
+  explicit PiecewiseLaw(std::vector<Piece> pieces, bool is_one_sided = false);
+
+  /// Whether the first piece goes on to the least of x.
+  bool is_one_sided() const { return is_one_sided_; }
 
   /// In their order from x = 0.
   const std::vector<Piece>& pieces() const { return pieces_; }
@@ -60,6 +64,7 @@ class PiecewiseLaw {
   const Piece& piece(int zone) const { return pieces_[static_cast<std::size_t>(std::abs(zone))]; }
 
   std::vector<Piece> pieces_;
+  bool is_one_sided_ = false;
   int degree_ = 0;
   bool is_varied_ = false;
 };

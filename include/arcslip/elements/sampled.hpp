@@ -35,7 +35,8 @@ class SampledElement final : public Element {
   /// `reference` > 0 is the stiffness relative to which the force is measured.
   SampledElement(std::shared_ptr<const SampledLaw> law, double reference);
 
-  double reference_stiffness() const override { return reference_; }
+  double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
+  bool takes_any_orders() const override { return false; }
   bool is_linear(bool /*beyond*/) const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;

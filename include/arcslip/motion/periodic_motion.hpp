@@ -17,7 +17,8 @@ class PeriodicMotion {
   /// x_0, x_1, ..., x_H, of at least one; the imaginary part of x_0 does not count.
   explicit PeriodicMotion(ComplexVector coefficients);
 
-  /// `orders` are the h >= 0, ascending, with one coefficient each; other harmonics up to `highest` are zero.
+  /// `orders` are the h >= 0, different ones, with one coefficient each; other harmonics up to `highest` are
+  /// zero.
   PeriodicMotion(std::span<const int> orders, const ComplexVector& coefficients, int highest);
 
   /// H.

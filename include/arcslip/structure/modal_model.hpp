@@ -45,8 +45,8 @@ struct Loss {
   double modal = 0;       ///< 2 zeta, zeta the damping ratio of every mode
   double mass = 0;        ///< mu of C = 2 pi mu M
 
-  /// Loss factor of what is proportional to stiffness.
-  double at(double eta) const { return viscous * eta + structural; }
+  /// Loss factor of what is proportional to stiffness; at rest nothing is lost.
+  double at(double eta) const { return eta == 0 ? 0 : viscous * eta + structural; }
 
   /// Im d_k of a mode, with its derivative in eta.
   double part(double eta, double frequency) const {

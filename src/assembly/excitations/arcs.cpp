@@ -14,7 +14,7 @@ ExcitationKind arcs_excitation() {
           {{"width", 0.5, 0, 0.5, false, "w of an arc, over the wavelength; 0.5 is a square wave", false}},
           [](const std::vector<double>& settings, int h) {
             const double angle = pi * settings[0];
-            return std::sin(h * angle) / (h * std::sin(angle));
+            return h % 2 == 0 ? 0 : std::sin(h * angle) / (h * std::sin(angle));
           }};
 }
 

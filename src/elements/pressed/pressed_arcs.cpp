@@ -24,7 +24,7 @@ PeriodicMotion combined(double a, const PeriodicMotion& x, double b, const Perio
 }  // namespace
 
 PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding,
-                         const PeriodicMotion& closing)
+                         const PeriodicMotion& closing, Course course)
     : settings_(settings),
       sliding_(sliding),
       press_(combined(settings.normal_stiffness, closing, 0, sliding, settings.normal_force)),
@@ -34,6 +34,17 @@ PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& 
     throw std::invalid_argument(
         "PressedArcs: the tangential stiffness must be positive, friction and normal stiffness not negative");
   cut();
+  if (course == Course::sticks) {
+    stay_stuck();
+  } else if (course == Course::slips && room() >= 0) {
+    slip_no_way();
+  } else {
+    settle();
+  }
+}
+
+/// A second period is the settled one.
+void PressedArcs::settle() {
   pass(false);
   pass(true);
   Arc& first = arcs_.front();
@@ -93,6 +104,32 @@ void PressedArcs::pass(bool record) {
       stick(cell);
     }
   }
+}
+
+/// With A as near to zero as its bounds let it be. Beyond the border they have changed places, which at the
+/// border of a motion without mean they may do by rounding.
+void PressedArcs::stay_stuck() {
+  constexpr double rounding = 1e-13;
+  const double zero = rounding * (std::abs(highest_high().high) + std::abs(lowest_low().low));
+  const double low = highest_low().low;
+  const double high = lowest_high().high;
+  if (std::min(low, high) > zero)
+    hold(highest_low(), 1);
+  else if (std::max(low, high) < -zero)
+    hold(lowest_high(), -1);
+  records_ = true;
+  add(0, two_pi);
+}
+
+/// From where the lower bound has taken A to where the upper one does, and back.
+void PressedArcs::slip_no_way() {
+  records_ = true;
+  const double way = std::remainder(lowest_high().angle - highest_low().angle, two_pi);
+  const double width = way < 0 ? way + two_pi : way;
+  hold(highest_low(), 1);
+  add(now_.anchor, width);
+  hold(lowest_high(), -1);
+  add(now_.anchor, two_pi - width);
 }
 
 /// After having been apart.
@@ -170,16 +207,6 @@ double PressedArcs::fraction(Phase phase) const {
   double sum = 0;
   for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
   return sum / two_pi;
-}
-
-double PressedArcs::room() const {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  for (const Node& node : nodes_) {
-    low = std::max(low, node.low);
-    high = std::min(high, node.high);
-  }
-  return high - low;
 }
 
 }  // namespace arcslip

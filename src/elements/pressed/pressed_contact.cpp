@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "arcslip/motion/swing.hpp"
 #include "elements/pressed/arc_sums.hpp"
 
 namespace arcslip {
@@ -16,12 +17,12 @@ using Phase = PressedArcs::Phase;
 class PressedIntegrals {
  public:
   PressedIntegrals(const PressedSettings& settings, std::span<const int> orders,
-                   const PeriodicMotion& sliding, const PeriodicMotion& closing)
+                   const PeriodicMotion& sliding, const PeriodicMotion& closing, PressedArcs::Course course)
       : settings_(settings),
         orders_(orders),
         sliding_(sliding),
         closing_(closing),
-        course_(settings, sliding, closing),
+        course_(settings, sliding, closing, course),
         stick_(2 * sliding.highest()),
         slip_(2 * sliding.highest()),
         touch_(2 * sliding.highest()) {
@@ -130,11 +131,12 @@ class PressedIntegrals {
 }  // namespace
 
 PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
-                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives) {
+                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
+                           PressedArcs::Course course) {
   if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
-  const PeriodicMotion slides(orders, sliding, orders.back());
-  const PeriodicMotion closes(orders, closing, orders.back());
-  const PressedIntegrals integrals(settings, orders, slides, closes);
+  const PeriodicMotion slides(orders, sliding, highest_order(orders));
+  const PeriodicMotion closes(orders, closing, highest_order(orders));
+  const PressedIntegrals integrals(settings, orders, slides, closes, course);
   PressedForce out;
   integrals.forces(out);
   if (!derivatives) return out;

@@ -172,6 +172,7 @@ std::shared_ptr<const ElementKind> kind_of(const py::object& element, const std:
     kind->settings.push_back(
         {any_value(setting[0].cast<std::string>(), given, "of one's own"), setting[2].cast<bool>()});
   }
+  kind->takes_any_orders = false;
   kind->has_memory = element.attr("memory").cast<bool>();
   kind->make = [element = kept(element), raised,
                 has_memory = kind->has_memory](const ElementKind::Values& values) {

@@ -18,6 +18,7 @@
 // slips any A between them is settled: that one is taken that remains as the motion grows in proportion from
 // rest without friction, which is A nearest to zero.
 
+#include <algorithm>
 #include <vector>
 
 #include "arcslip/motion/periodic_motion.hpp"
@@ -38,6 +39,11 @@ class PressedArcs {
   /// State.
   enum class Phase { stick, slip, apart };
 
+  /// Which course is meant: the one there is, or that of one side of the border between both, continued
+  /// smoothly for a corrector that steps beyond it. That in which it sticks has n in place of N; that in
+  /// which it slips has, where it would stick, A at one bound after the other.
+  enum class Course { any, sticks, slips };
+
   /// An arc in theta.
   struct Arc {
     double begin;            ///< theta
@@ -52,7 +58,8 @@ class PressedArcs {
   };
 
   /// Sliding and closing displacement. Throws std::invalid_argument of settings out of their range.
-  PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding, const PeriodicMotion& closing);
+  PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding, const PeriodicMotion& closing,
+              Course course = Course::any);
 
   /// Those of a period, one behind the other.
   const std::vector<Arc>& arcs() const { return arcs_; }
@@ -66,16 +73,26 @@ class PressedArcs {
   /// Whether it sticks all the time.
   bool is_stuck() const { return arcs_.size() == 1 && arcs_.front().phase == Phase::stick; }
 
-  /// min (k_t r + mu n) - max (k_t r - mu n), below which something slips at zero, and negative where there
-  /// is no stuck state; its sign says nothing where the parts come apart.
-  double room() const;
+  /// A place of the period with the bounds of A there.
+  struct Node {
+    double angle;  ///< theta
+    double low;    ///< k_t r - mu n
+    double high;   ///< k_t r + mu n
+  };
+
+  /// Where the lower bound is highest and the upper one lowest, and the other way round.
+  const Node& highest_low() const { return *std::max_element(nodes_.begin(), nodes_.end(), lower_low); }
+  const Node& lowest_high() const { return *std::min_element(nodes_.begin(), nodes_.end(), lower_high); }
+  const Node& lowest_low() const { return *std::min_element(nodes_.begin(), nodes_.end(), lower_low); }
+  const Node& highest_high() const { return *std::max_element(nodes_.begin(), nodes_.end(), lower_high); }
+
+  /// min (k_t r + mu n) - max (k_t r - mu n): it sticks where this is positive, and slips or comes apart
+  /// where it is negative.
+  double room() const { return lowest_high().high - highest_low().low; }
 
  private:
-  struct Node {
-    double angle;
-    double low;   // k_t r - mu n
-    double high;  // k_t r + mu n
-  };
+  static bool lower_low(const Node& a, const Node& b) { return a.low < b.low; }
+  static bool lower_high(const Node& a, const Node& b) { return a.high < b.high; }
   struct Cell {
     Node begin;
     Node end;
@@ -86,6 +103,9 @@ class PressedArcs {
   };
   void cut();
   void pass(bool record);
+  void settle();
+  void stay_stuck();
+  void slip_no_way();
   void touch(const Cell& cell);
   void hold(const Node& node, int direction);
   void stick(const Cell& cell);

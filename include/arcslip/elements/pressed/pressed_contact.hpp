@@ -50,10 +50,11 @@ struct PressedForce {
   double greatest_normal = 0;  ///< max N
 };
 
-/// The settled forces under the motions with these `orders` (h >= 0, ascending), one coefficient each; the
-/// derivatives only if they are wanted. Throws std::invalid_argument of settings out of their range or orders
-/// that do not fit.
+/// The settled forces under the motions with these `orders` (h >= 0, different ones), one coefficient each;
+/// the derivatives only if they are wanted. Throws std::invalid_argument of settings out of their range or
+/// orders that do not fit.
 PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
-                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives);
+                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
+                           PressedArcs::Course course = PressedArcs::Course::any);
 
 }  // namespace arcslip

@@ -1,8 +1,8 @@
 #pragma once
 
 // What the problems of base, damper and contacts in several harmonics share: the coordinates x in which
-// elements act, the regimes, which elements are beyond their border A_i = max |x_i(t)| = S_i, as contacts
-// that slip, and the quantities of their motions. Whether eta, a damping ratio or the first harmonic of the
+// elements act, the regimes, which elements are beyond their border, as contacts that slip, and the
+// quantities of their motions. Whether eta, a damping ratio or the first harmonic of the
 // first coordinate is an unknown or a parameter is each problem's own matter, its layout.
 
 #include "arcslip/assembly/coordinates.hpp"
@@ -18,7 +18,7 @@ class HarmonicProblem : public continuation::Problem {
  public:
   Index size() const override { return 2 * coordinates_.size() * harmonics(); }
 
-  /// Of the coordinates whose elements have a border, which come first.
+  /// Of the elements that have a border, which come first.
   Index switch_count() const override { return coordinates_.switches(); }
   std::string describe(const continuation::Regime& regime) const override;
   int border_count(const continuation::Regime& /*regime*/) const override {
@@ -50,6 +50,9 @@ class HarmonicProblem : public continuation::Problem {
   /// x_h of a coordinate.
   HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
 
+  /// Those of all coordinates of an element, one after the other.
+  HarmonicVector element_motion(const Vector& u, const Vector& p, Index element) const;
+
   /// S of a contact.
   double slip_threshold(Index contact, const Vector& u, const Vector& p) const {
     return coordinates_.element(contact).threshold(load(contact, u, p));
@@ -76,22 +79,36 @@ class HarmonicProblem : public continuation::Problem {
   };
 
   /// Of what a quantity tells.
-  enum class Measure { frequency, damping, threshold, ratio, amplitude, lag, dissipated, greatest, force };
+  enum class Measure {
+    frequency,
+    damping,
+    threshold,
+    ratio,
+    amplitude,
+    mean,
+    lag,
+    dissipated,
+    greatest,
+    force,
+    reading
+  };
   enum class Body { contact, base, damper, output };
   struct Quantity {
     std::string name;         ///< the observable's
     Measure measure;          ///< what is told
     Body of = Body::contact;  ///< of what
-    Index which = 0;          ///< contact or output
-    Index order = 0;          ///< the position of the harmonic
+    Index which = 0;          ///< contact or output; of a reading the element
+    Index order = 0;          ///< the position of the harmonic, or which reading
   };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   HarmonicProblem(HarmonicSystem system, Layout layout);
 
-  /// The quantities of the contacts but the first, and of the first in the harmonics above it.
+  /// The quantities of the contacts but the first, of the first in the other harmonics, and what elements
+  /// tell.
   void add_further_contacts();
-  void add_higher_harmonics();
+  void add_other_harmonics();
+  void add_readings();
 
   /// What stands there; 0 of what stands nowhere.
   double value(const Place& place, const Vector& u, const Vector& p) const {
@@ -132,55 +149,65 @@ class HarmonicProblem : public continuation::Problem {
   }
 
   /// The same times what a variation does to S/P of a contact; of other elements it does not count.
-  double load(Index coordinate, const Vector& u, const Vector& p) const {
-    return is_varied() && system_.varied->concerns(coordinate)
+  double load(Index element, const Vector& u, const Vector& p) const {
+    return is_varied() && system_.varied->concerns(element)
                ? pressing(u, p) * variation(u, p).here.slip_per_preload
                : pressing(u, p);
   }
 
   /// How the logarithm of that load changes with the further parameter.
-  double log_load_rate(Index coordinate, const Vector& u, const Vector& p) const {
+  double log_load_rate(Index element, const Vector& u, const Vector& p) const {
     const auto [here, rate] = variation(u, p);
     const double eta = frequency(u, p);
     const double by_growth = rate.preload_growth * eta * eta / pressing(u, p);
-    return system_.varied->concerns(coordinate) ? by_growth + rate.slip_per_preload / here.slip_per_preload
-                                                : by_growth;
+    return system_.varied->concerns(element) ? by_growth + rate.slip_per_preload / here.slip_per_preload
+                                             : by_growth;
   }
 
-  /// Calls `use` with the element of a coordinate, as it is here.
+  /// The first coordinate of an element.
+  const Coordinate& first(Index element) const { return coordinates_[coordinates_.first(element)]; }
+
+  /// Calls `use` with an element, as it is here.
   template <class Use>
-  auto with_element(Index coordinate, const Vector& u, const Vector& p, const Use& use) const {
-    const auto& varied = coordinates_[coordinate].varied;
+  auto with_element(Index element, const Vector& u, const Vector& p, const Use& use) const {
+    const auto& varied = first(element).varied;
     return is_varied() && varied ? use(*varied(value(layout_.varied, u, p)))
-                                 : use(coordinates_.element(coordinate));
+                                 : use(coordinates_.element(element));
   }
 
-  /// The factor of a variation on the force of a coordinate's element; null where it has none.
-  double SystemVariation::*varied_force(Index coordinate) const {
-    if (coordinate < contacts())
-      return system_.varied->concerns(coordinate) ? &SystemVariation::contact_stiffness : nullptr;
-    return coordinates_[coordinate].follows_base ? &SystemVariation::others : nullptr;
+  /// The factor of a variation on the force of an element; null where it has none.
+  double SystemVariation::*varied_force(Index element) const {
+    if (element < contacts())
+      return system_.varied->concerns(element) ? &SystemVariation::contact_stiffness : nullptr;
+    return first(element).follows_base ? &SystemVariation::others : nullptr;
   }
 
   /// All factors on that force.
-  double force_factor(Index coordinate, const Vector& u, const Vector& p) const {
-    const double own = coordinates_[coordinate].factor;
-    const auto varied = is_varied() ? varied_force(coordinate) : nullptr;
+  double force_factor(Index element, const Vector& u, const Vector& p) const {
+    const double own = first(element).factor;
+    const auto varied = is_varied() ? varied_force(element) : nullptr;
     return varied != nullptr ? own * variation(u, p).here.*varied : own;
   }
 
   /// How the logarithm of that factor changes with the further parameter.
-  double log_force_rate(Index coordinate, const SystemParameter::At& at) const {
-    const auto varied = varied_force(coordinate);
+  double log_force_rate(Index element, const SystemParameter::At& at) const {
+    const auto varied = varied_force(element);
     return varied != nullptr ? at.rate.*varied / at.here.*varied : 0;
   }
 
-  /// The stiffness relative to which the force of a coordinate's element is measured.
+  /// The stiffness relative to which the force in a coordinate is measured.
   double reference_stiffness(Index coordinate, const Vector& u, const Vector& p) const {
-    return coordinates_.element(coordinate).reference_stiffness() * force_factor(coordinate, u, p);
+    const Index element = coordinates_.element_of(coordinate);
+    return coordinates_.element(element).reference_stiffness(coordinates_[coordinate].part) *
+           force_factor(element, u, p);
   }
 
-  /// Of each coordinate; valid until the thread's next call, whose work space it is.
+  /// Where a harmonic of a coordinate stands in the vectors of its element's force.
+  Index place(Index coordinate, Index order) const {
+    return coordinates_.place(coordinate, order, harmonics());
+  }
+
+  /// Of each element; valid until the thread's next call, whose work space it is.
   const std::vector<ElementForce>& forces(const Vector& u, const Vector& p,
                                           const continuation::Regime& regime, bool derivatives) const;
 
@@ -211,10 +238,10 @@ class HarmonicProblem : public continuation::Problem {
   /// Where Re or Im of a harmonic stands, by its position among those of all.
   Place place_of(Index unknown) const;
   static void add(const Place& place, double value, continuation::Gradient& gradient);
-  /// Adds what is `value` times a change of the logarithm of a coordinate's load.
-  void add_log_load(double value, Index coordinate, const Vector& u, const Vector& p,
+  /// Adds what is `value` times a change of the logarithm of an element's load.
+  void add_log_load(double value, Index element, const Vector& u, const Vector& p,
                     continuation::Gradient& gradient) const;
-  OddMotion::Maximum maximum(const Vector& u, const Vector& p, Index contact) const;
+  const Swing* known_swing(const Vector& u, const Vector& p, Index element) const;
   class Observation;
 };
 

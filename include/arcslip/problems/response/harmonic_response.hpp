@@ -1,19 +1,21 @@
 #pragma once
 
-// Forced response of base and damper in several odd harmonics, with elements in the coordinates x of their
-// interface, see coordinates.hpp: in each x_i the force K_i f_i(x_i), K_i the element's reference stiffness:
+// Forced response of base and damper in several harmonics, with elements in the coordinates x of their
+// interface, see coordinates.hpp: in each x_i the force K_i f_i(x), K_i the element's reference stiffness:
 //
-//   x_h + C_h(eta) K f_h(x) = x0 delta_h1,   C_h at (h eta, h a),   K = diag(K_i).
+//   x_h + C_h(eta) K f_h(x) = x0_h,   C_h at (h eta, h a),   K = diag(K_i).
 //
-// Solved is f_h + (1 + C_h K)^{-1} (x_h - f_h - x0 delta_h1) = 0 relative to |x| and to sqrt(1 + |(1 + C_h
+// Where an element or the load is not odd under half a period, even harmonics are among them, and the mean h
+// = 0, the static state: C_0 is the static compliance, and x_0 has an imaginary part that the equation makes
+// 0. Solved is f_h + (1 + C_h K)^{-1} (x_h - f_h - x0_h) = 0 relative to |x| and to sqrt(1 + |(1 + C_h
 // K)^{-1}|^2): where the contacts stick, the error of x itself, however much larger C_h K is for their common
 // motion than for their differences. The first coordinates are the relative motions r = u - y of m contacts:
 // u_h from the forces on the damper, y_h = u_h - r_h.
 //
-// Unknowns: Re x_1, Im x_1, Re x_3, ... of the first coordinate, then of the next. Parameters: eta, P.
-// Regimes: which contacts slip, bit i for contact i; borders: the amplitude A_i = max |r_i(t)| is S_i. That a
-// slipping contact slips once more in a period, or once less, is no border: the engine crosses such a corner
-// as it finds it.
+// Unknowns: Re x_1, Im x_1, Re x_3, ... in the order of the system's of the first coordinate, then of the
+// next. Parameters: eta, P. Regimes: which contacts slip, bit i for contact i; borders: the amplitude A_i =
+// max |r_i(t)| is S_i. That a slipping contact slips once more in a period, or once less, is no border: the
+// engine crosses such a corner as it finds it.
 
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/problems/response/harmonic_problem.hpp"
@@ -68,10 +70,10 @@ class HarmonicResponse : public HarmonicProblem {
     return HarmonicProblem::slip_threshold(contact, {}, p);
   }
 
-  /// f_h of the element of a coordinate.
-  HarmonicVector element_force(Index coordinate, const Vector& u, const Vector& p,
+  /// f_h of an element.
+  HarmonicVector element_force(Index element, const Vector& u, const Vector& p,
                                const continuation::Regime& regime) const {
-    return forces(u, p, regime, false)[at(coordinate)].harmonics;
+    return forces(u, p, regime, false)[at(element)].harmonics;
   }
 
   /// What the elements do to base and damper.
@@ -82,6 +84,9 @@ class HarmonicResponse : public HarmonicProblem {
   };
   /// At a solution.
   ElementForces element_forces(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
+
+  /// Whether all harmonics are odd.
+  bool is_odd() const { return is_odd_; }
 
  private:
   class LoadPath;
@@ -118,9 +123,15 @@ class HarmonicResponse : public HarmonicProblem {
   void fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
             const continuation::Regime& regime, Matrix& jacobian, Matrix& parameter_jacobian) const;
 
+  /// Whether the force in a coordinate is K x, be it under small motions alone.
   bool is_linear(const continuation::Regime& regime, Index coordinate) const {
-    return coordinates_.element(coordinate).is_linear(slips(regime, coordinate));
+    const Index e = coordinates_.element_of(coordinate);
+    return coordinates_.element(e).is_linear(slips(regime, e));
   }
+  /// Which elements are in their second state at rest.
+  continuation::Regime at_rest(const Vector& p) const;
+  bool is_odd_;
+
   /// Whether there is a response at these parameters.
   bool has_value(const Vector& p) const {
     return p(eta) > 0 && p(preload) > 0 && (!is_varied() || system_.varied->allows(p(further))) &&

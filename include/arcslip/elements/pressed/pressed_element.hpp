@@ -1,0 +1,58 @@
+#pragma once
+
+// The contact of pressed_contact.hpp as an element of two coordinates, the sliding displacement r and the
+// closing one g. Displacements are told from a rest in which it holds the equilibrium with its normal force
+// max(0, N_0), so that along g acts what this changes by: N - max(0, N_0). N_0 has a part that is
+// proportional to the load.
+
+#include "arcslip/elements/element.hpp"
+#include "arcslip/elements/jet.hpp"
+#include "arcslip/elements/pressed/pressed_contact.hpp"
+
+namespace arcslip {
+
+/// Such an element. Its first state is the one in which it sticks and never comes apart.
+class PressedElement final : public Element {
+ public:
+  /// Numbers of it.
+  struct Settings {
+    Jet friction;          ///< mu >= 0
+    Jet tangential;        ///< k_t > 0
+    Jet normal;            ///< k_n >= 0
+    Jet normal_force;      ///< N_0 without load
+    Jet normal_per_load;   ///< and what the load adds to it, per load
+    double reference = 1;  ///< the stiffness by which the normal force is measured where k_n = 0, > 0
+  };
+
+  /// Throws std::invalid_argument of settings out of their range.
+  explicit PressedElement(const Settings& settings);
+
+  Index coordinates() const override { return 2; }
+  double reference_stiffness(Index coordinate = 0) const override;
+  bool is_odd() const override { return false; }
+  std::vector<std::string> readings() const override { return {"N_min", "N_max", "slip", "apart"}; }
+  bool has_border() const override { return true; }
+  std::string beyond() const override { return "slip"; }
+  bool rests_beyond(double load) const override;
+  bool is_linear(bool beyond) const override { return !beyond && settings_.normal.value > 0; }
+  void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
+             ElementForce& out) const override;
+  StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
+                     bool beyond) const override;
+  /// Throws std::logic_error: there is none.
+  VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
+
+ private:
+  /// The settings with so much added to the one that is continued, and their rates by it.
+  PressedSettings at(double load, double setting) const;
+  PressedSettings rates(double load) const;
+  bool is_varied() const;
+  void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,
+                bool beyond, bool derivatives, ElementForce& out) const;
+  void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
+              bool beyond, const Way& way, ElementForce& change) const override;
+
+  Settings settings_;
+};
+
+}  // namespace arcslip

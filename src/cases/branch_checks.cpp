@@ -1,0 +1,85 @@
+#include "cases/branch_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/structures.hpp"
+#include "arcslip/motion/swing.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+
+namespace arcslip {
+namespace {
+
+/// Whether stiffness is complex, which has no motion in time.
+bool is_structural(const SystemParameters& system) {
+  const PairLosses losses = structures_of(system).losses(system);
+  return losses.base(system).structural != 0 || losses.damper(system).structural != 0;
+}
+
+/// Refuses sectors that disturbances cannot run through.
+void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
+  for (const Index wave : problems::disturbed_waves(system)) {
+    try {
+      structures_of(system).check(wave, system.elements);
+    } catch (const std::invalid_argument& error) {
+      section.fail("stability", fmt::format("disturbances of {} waves: {}", wave, error.what()));
+    }
+  }
+}
+
+}  // namespace
+
+void check_even(const TomlSection& section, const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  if (problem.model != nullptr || all_odd(system.harmonics)) return;
+  const char* why = "the mean and even harmonics, which elements that are not odd call for, are balanced";
+  if (problem.harmonics_tolerance) section.fail("harmonics", fmt::format(R"(not "auto" where {})", why));
+  if (system.one_way || problem.response->has_own_frequency())
+    section.fail("harmonics", fmt::format("{} in forced responses alone", why));
+  for (const PlacedElement& one : system.others) {
+    if (!one.kind->takes_any_orders)
+      section.fail("harmonics",
+                   fmt::format("{}: not beside element '{}', which is taken as odd", why, one.kind->name));
+  }
+  try {
+    static_cast<void>(build_harmonic_system(system));
+  } catch (const std::invalid_argument& error) {
+    section.fail("harmonics", error.what());
+  }
+}
+
+void check_stability(const TomlSection& section, const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  const SystemParameters& system = problem.system;
+  if (!problem.stability) return;
+  if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
+  if (branch.curve) section.fail("stability", "not beside curve");
+  using Kind = SystemParameter::Kind;
+  const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
+  if (kind != Kind::load && kind != Kind::growth)
+    section.fail("stability", fmt::format("over eta, P, F and P_2, not over {}, with which the disturbances' "
+                                          "own waves would change",
+                                          system.varied));
+  if (!problem.response->in_time) section.fail("stability", "only for the forced response");
+  for (const PlacedElement& one : system.others) {
+    if (one.kind->has_memory)
+      section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
+  }
+  if (!all_odd(system.harmonics))
+    section.fail("stability", "not beside even harmonics and the mean, which elements that are not odd need");
+  if (is_structural(system))
+    section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
+  if (!structures_of(system).has_equations())
+    section.fail("stability", "not of a structure by its responses, which has no motion in time");
+  try {
+    static_cast<void>(structures_of(system).in_modes());
+  } catch (const std::invalid_argument& error) {
+    section.fail("stability",
+                 fmt::format("disturbances are told by modes, which this damping couples: {}", error.what()));
+  }
+  check_disturbed_waves(section, system);
+}
+
+}  // namespace arcslip

@@ -1,0 +1,16 @@
+#pragma once
+
+// What a branch may not ask for together.
+
+#include "arcslip/cases/case_file.hpp"
+#include "keys/toml_reader.hpp"
+
+namespace arcslip {
+
+/// Refuses in [system] what is not made for harmonics that are not odd.
+void check_even(const TomlSection& section, const ProblemRequest& problem);
+
+/// Refuses in [branch] stability of what has no exponents.
+void check_stability(const TomlSection& section, const CaseBranch& branch);
+
+}  // namespace arcslip

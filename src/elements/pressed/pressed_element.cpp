@@ -1,0 +1,164 @@
+#include "arcslip/elements/pressed/pressed_element.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip {
+namespace {
+
+using Course = PressedArcs::Course;
+
+/// Position of the mean among these orders.
+Index place_of_mean(std::span<const int> orders) {
+  return std::find(orders.begin(), orders.end(), 0) - orders.begin();
+}
+
+/// Adds a part of a derivative to the rows of one coordinate by those of another.
+void put(const HarmonicDerivative& part, Index row, Index column, ElementForce& out) {
+  const Index n = part.linear.rows();
+  out.linear.block(row * n, column * n, n, n) = part.linear;
+  out.conjugate.block(row * n, column * n, n, n) = part.conjugate;
+}
+
+}  // namespace
+
+PressedElement::PressedElement(const Settings& settings) : settings_(settings) {
+  if (!(settings.tangential.value > 0 && settings.normal.value >= 0 && settings.friction.value >= 0 &&
+        settings.reference > 0))
+    throw std::invalid_argument(
+        "PressedElement: tangential stiffness and reference must be positive, normal stiffness and friction "
+        "not negative");
+}
+
+double PressedElement::reference_stiffness(Index coordinate) const {
+  if (coordinate == 0) return settings_.tangential.value;
+  return settings_.normal.value > 0 ? settings_.normal.value : settings_.reference;
+}
+
+PressedSettings PressedElement::at(double load, double setting) const {
+  const auto moved = [setting](const Jet& jet) {
+    return jet.value + setting * (jet.first + 0.5 * setting * jet.second);
+  };
+  return {moved(settings_.friction), moved(settings_.tangential), moved(settings_.normal),
+          moved(settings_.normal_force) + load * moved(settings_.normal_per_load)};
+}
+
+bool PressedElement::is_varied() const {
+  const auto& [friction, tangential, normal, normal_force, normal_per_load, reference] = settings_;
+  const auto varies = [](const Jet& jet) { return jet.first != 0 || jet.second != 0; };
+  return varies(friction) || varies(tangential) || varies(normal) || varies(normal_force) ||
+         varies(normal_per_load);
+}
+
+bool PressedElement::rests_beyond(double load) const {
+  return !(settings_.friction.value > 0 && at(load, 0).normal_force > 0);
+}
+
+void PressedElement::force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
+                           bool derivatives, ElementForce& out) const {
+  force_at(orders, x, load, 0, beyond, derivatives, out);
+}
+
+void PressedElement::force_at(std::span<const int> orders, const HarmonicVector& x, double load,
+                              double setting, bool beyond, bool derivatives, ElementForce& out) const {
+  const Index n = std::ssize(orders);
+  const PressedSettings settings = at(load, setting);
+  const PressedForce found = pressed_force(settings, orders, x.head(n), x.tail(n), derivatives,
+                                           beyond ? Course::slips : Course::sticks);
+  const Index mean = n + place_of_mean(orders);
+  const double rests = std::max(0.0, settings.normal_force);
+  const auto both = [&](const ComplexVector& tangential, const ComplexVector& normal, double rest) {
+    HarmonicVector all(2 * n);
+    all << tangential, normal;
+    all(mean) -= rest;
+    return all;
+  };
+  out.harmonics = both(found.tangential, found.normal, rests);
+  out.energy = found.energy;
+  out.readings = {found.least_normal, found.greatest_normal, found.slip_fraction, found.apart_fraction};
+  out.by_setting.resize(0);
+  if (!derivatives) return;
+  out.linear.setZero(2 * n, 2 * n);
+  out.conjugate.setZero(2 * n, 2 * n);
+  put(found.tangential_by_sliding, 0, 0, out);
+  put(found.tangential_by_closing, 0, 1, out);
+  put(found.normal_by_closing, 1, 1, out);
+  const double rests_rate = settings.normal_force > 0 ? 1 : 0;
+  const auto by = [&](PressedForce::Setting which) {
+    const bool is_force = which == PressedForce::normal_force;
+    return both(found.tangential_by[which], found.normal_by[which], is_force ? rests_rate : 0);
+  };
+  const Settings& s = settings_;
+  const double per_load = s.normal_per_load.value + setting * s.normal_per_load.first;
+  out.by_log_load = load * per_load * by(PressedForce::normal_force);
+  if (!is_varied()) return;
+  out.by_setting = s.friction.first * by(PressedForce::friction) +
+                   s.tangential.first * by(PressedForce::tangential_stiffness) +
+                   s.normal.first * by(PressedForce::normal_stiffness) +
+                   (s.normal_force.first + load * s.normal_per_load.first) * by(PressedForce::normal_force);
+}
+
+/// W/sqrt(T^2 + B^2) of W = min (k_t r + mu n) - max (k_t r - mu n), T = max (k_t r + mu n) and B = min (k_t
+/// r
+/// - mu n).
+StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVector& x,
+                                   const Swing* /*known*/, double load, bool beyond) const {
+  const Index n = std::ssize(orders);
+  const PressedSettings settings = at(load, 0);
+  const int highest = highest_order(orders);
+  const PeriodicMotion slides(orders, x.head(n), highest);
+  const PeriodicMotion closes(orders, x.tail(n), highest);
+  const PressedArcs course(settings, slides, closes, Course::sticks);
+  const double top = course.highest_high().high;
+  const double bottom = course.lowest_low().low;
+  const double norm = std::hypot(top, bottom);
+  const double sign = beyond ? 1 : -1;
+  StateBorder border{0, HarmonicVector::Zero(2 * n), 0, 0};
+  if (!(norm > 0)) return border;
+  border.value = sign * course.room() / norm;
+  const double k = settings.tangential_stiffness;
+  const double mu = settings.friction;
+  const Settings& s = settings_;
+  const auto add = [&](double angle, double side, double part) {  // of a bound k_t r + side mu n
+    for (Index a = 0; a < n; ++a) {
+      const Complex turn = std::polar(1.0, -orders[static_cast<std::size_t>(a)] * angle);
+      border.by_motion(a) += part * k * turn;
+      border.by_motion(n + a) += part * side * mu * settings.normal_stiffness * turn;
+    }
+    const double closing = closes.value(angle);
+    const double press = settings.normal_force + settings.normal_stiffness * closing;
+    border.by_log_load += part * side * mu * load * s.normal_per_load.value;
+    border.by_setting +=
+        part * (s.tangential.first * slides.value(angle) +
+                side * (s.friction.first * press + mu * (s.normal.first * closing + s.normal_force.first +
+                                                         load * s.normal_per_load.first)));
+  };
+  add(course.lowest_high().angle, 1, sign / norm);
+  add(course.highest_low().angle, -1, -sign / norm);
+  const double per_norm = border.value / (norm * norm);
+  add(course.highest_high().angle, 1, -per_norm * top);
+  add(course.lowest_low().angle, -1, -per_norm * bottom);
+  return border;
+}
+
+VaryingStiffness PressedElement::stiffness_in_time(std::span<const int> /*orders*/,
+                                                   const HarmonicVector& /*x*/) const {
+  throw std::logic_error("PressedElement: what has a memory has no stiffness in time");
+}
+
+void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,
+                            double load, bool beyond, const Way& way, ElementForce& change) const {
+  const auto moved = [&](const HarmonicVector& motion, double log_load, double setting, ElementForce& out) {
+    force_at(orders, motion, load * std::exp(log_load), setting, beyond, true, out);
+  };
+  const Settings& s = settings_;
+  double scale = 1;  // of the setting that is continued
+  for (const Jet& jet : {s.friction, s.tangential, s.normal, s.normal_force, s.normal_per_load}) {
+    if (jet.first != 0 && jet.value != 0) scale = std::abs(jet.value / jet.first);
+  }
+  constexpr double relative = 1e-5;
+  difference(moved, x, way, scale, relative, change);
+}
+
+}  // namespace arcslip

@@ -1,0 +1,39 @@
+#include "arcslip/motion/swing.hpp"
+
+#include <cmath>
+
+#include "arcslip/motion/periodic_motion.hpp"
+
+namespace arcslip {
+
+bool all_odd(std::span<const int> orders) {
+  return std::all_of(orders.begin(), orders.end(), [](int h) { return h % 2 == 1; });
+}
+
+Swing Swing::of(std::span<const int> orders, const HarmonicVector& x) {
+  if (all_odd(orders)) return of_odd(OddMotion(orders, x).maximum());
+  const PeriodicMotion motion(orders, x, highest_order(orders));
+  const double begin = motion.value(0);
+  Swing swing{{0, begin}, {0, begin}, false};
+  for (const double angle : motion.derivative().zeros()) {
+    const double here = motion.value(angle);
+    if (here > swing.greatest.value) swing.greatest = {angle, here};
+    if (here < swing.least.value) swing.least = {angle, here};
+  }
+  return swing;
+}
+
+Complex Swing::half_by(int h) const {
+  const Complex top = std::polar(1.0, -h * greatest.angle);
+  return is_odd ? top : 0.5 * (top - std::polar(1.0, -h * least.angle));
+}
+
+/// Where both sides are as far, whatever is greater by rounding, the mean of both one-sided derivatives.
+Complex Swing::peak_by(int h) const {
+  constexpr double rounding = 1e-13;
+  if (std::abs(greatest.value + least.value) <= rounding * peak()) return half_by(h);
+  return greatest.value >= -least.value ? std::polar(1.0, -h * greatest.angle)
+                                        : -std::polar(1.0, -h * least.angle);
+}
+
+}  // namespace arcslip
