@@ -7,6 +7,8 @@
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/cases/runs.hpp"
+#include "arcslip/continuation/problem/derivative_check.hpp"
+#include "arcslip/problems/response/power_balance.hpp"
 #include "branches.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
@@ -157,4 +159,34 @@ TEST_CASE("A linear spring of an element is one of the structure", "[cases]") {
     INFO(i);
     CHECK_THAT(heights[0][i], WithinRel(heights[1][i], 1e-8));
   }
+}
+
+TEST_CASE("Microslip takes part in branches, studies and derivatives, and is refused where it has no law") {
+  const std::string masses =
+      "[system]\nmodel = \"spring_mass\"\nbase = { mass = [1.0], stiffness = [1.0] }\ncontact_stiffness = "
+      "0.2\n"
+      "preload = 0.5\ndamping = { base = 0.01 }\nharmonics = 5\n\n";
+  const std::string iwan = "[[element]]\nkind = \"iwan\"\nat = \"base\"\nstiffness = 0.5\nspread = 1.0\n\n";
+  const std::string text = masses + iwan + branch_text;
+  const std::vector<TracedBranch> traced = trace(case_texts::read_text(text).branches[0]);
+  const continuation::Branch& branch = traced.front().branch;
+  REQUIRE(branch.complete());
+  const auto& problem = dynamic_cast<const problems::HarmonicResponse&>(*traced.front().base.problem);
+  for (const continuation::BranchPoint& point : branch.points) {
+    CHECK(problems::power_balance(problem, point.unknowns, point.parameters, point.regime).error() < 1e-10);
+  }
+  const continuation::BranchPoint& some = branch.points[branch.points.size() / 3];
+  CHECK(continuation::check_derivatives(problem, some.unknowns, some.parameters, some.regime).worst < 1e-7);
+  // a spread of nothing is one more contact of its stiffness and limit
+  const auto peak = [](const std::string& case_text) {
+    const std::vector<TracedBranch> all = trace(case_texts::read_text(case_text).branches[0]);
+    return of_type(all.front().branch, continuation::PointType::peak).at(0).parameters(0);
+  };
+  const std::string narrow = replaced(iwan, "spread = 1.0", "first_limit = 1.0\nspread = 1e-7");
+  const std::string nothing = replaced(iwan, "0.5", "1e-12");
+  CHECK_THAT(
+      peak(masses + replaced(narrow, "0.5", "0.2") + branch_text),
+      WithinRel(peak(replaced(masses, "0.2", "0.4\nlimit_per_preload = 2") + nothing + branch_text), 1e-7));
+  CHECK_THAT(case_texts::error_of(text + "stability = true\n"),
+             ContainsSubstring("not beside element 'iwan', which has a memory"));
 }

@@ -1,0 +1,244 @@
+// The quantities of a point of a harmonic problem, with their gradients.
+
+#include <cmath>
+
+#include "arcslip/problems/response/contact_problem.hpp"
+#include "arcslip/problems/response/harmonic_problem.hpp"
+
+namespace arcslip::problems {
+
+/// What is known of one point, with the gradient of what is asked of it.
+class HarmonicProblem::Observation {
+ public:
+  Observation(const HarmonicProblem& problem, const Vector& u, const Vector& p,
+              const continuation::Regime& regime, continuation::Gradient* gradient)
+      : problem_(problem),
+        system_(problem.system_),
+        u_(u),
+        p_(p),
+        regime_(regime),
+        gradient_(gradient),
+        elements_(problem.forces(u, p, regime, gradient != nullptr)) {}
+
+  /// A quantity; its gradient is added.
+  double value(const Quantity& quantity) {
+    switch (quantity.measure) {
+      case Measure::frequency: return plain(problem_.layout_.eta);
+      case Measure::damping: return plain(problem_.layout_.damping);
+      case Measure::threshold: return threshold(quantity.which, 1);
+      case Measure::ratio: return ratio(quantity.which);
+      case Measure::amplitude: return amplitude(quantity, 1);
+      case Measure::mean: return mean(quantity);
+      case Measure::lag: return lag_of(quantity);
+      case Measure::dissipated: return dissipated(quantity.which);
+      case Measure::greatest: return greatest(quantity.of);
+      case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
+      case Measure::reading: return elements_[at(quantity.which)].readings[at(quantity.order)];
+    }
+    return 0;
+  }
+
+ private:
+  double plain(const Place& place) {
+    add(place, 1);
+    return problem_.value(place, u_, p_);
+  }
+
+  /// S of a contact, with so much of its gradient.
+  double threshold(Index contact, double part) {
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    add_log_load(part * S, contact);
+    return S;
+  }
+
+  double ratio(Index contact) {
+    const double R = std::abs(phasor(Body::contact, contact, 0));
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    if (gradient_ != nullptr) {
+      amplitude({"", Measure::amplitude, Body::contact, contact, 0}, 1 / S);
+      threshold(contact, -R / (S * S));
+    }
+    return R / S;
+  }
+
+  /// Of what is zero but for rounding the gradient is zero, the mean of those all around.
+  double amplitude(const Quantity& quantity, double part) {
+    constexpr double rounding = 1e-15;
+    const Complex z = phasor(quantity.of, quantity.which, quantity.order);
+    const double size = std::abs(z);
+    if (size > rounding * u_.norm()) add(quantity.of, quantity.which, quantity.order, part / size * z);
+    return size;
+  }
+
+  double mean(const Quantity& quantity) {
+    add(quantity.of, quantity.which, quantity.order, 1);
+    return phasor(quantity.of, quantity.which, quantity.order).real();
+  }
+
+  double lag_of(const Quantity& quantity) {
+    const Complex z = phasor(quantity.of, quantity.which, quantity.order);
+    if (z != 0.0) add(quantity.of, quantity.which, quantity.order, Complex(0, -1) / std::conj(z));
+    return lag(z);
+  }
+
+  /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics.
+  double dissipated(Index contact) {
+    const double S = problem_.slip_threshold(contact, u_, p_);
+    const double unit = problem_.reference_stiffness(contact, u_, p_) * S * S;
+    const ElementForce& element = elements_[at(contact)];
+    if (gradient_ != nullptr) {
+      const HarmonicVector x = problem_.motion(u_, p_, contact);
+      for (Index a = 0; a < problem_.harmonics(); ++a) {
+        const Complex per = Complex(0, pi * system_.orders[at(a)] / unit);
+        add_force(contact, a, per * x(a));
+        add_motion(contact, a, -per * element.harmonics(a));
+      }
+      threshold(contact, -2 * element.energy / (unit * S));
+      add_log_force(contact, -element.energy / unit);
+    }
+    return element.energy / unit;
+  }
+
+  /// The greatest value in time, which changes as the value at its own time.
+  double greatest(Body of) {
+    HarmonicVector motion(problem_.harmonics());
+    for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, 0, a);
+    const Swing swing = Swing::of(system_.orders, motion);
+    for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a)
+      add(of, 0, a, swing.peak_by(system_.orders[at(a)]));
+    return swing.peak();
+  }
+
+  /// One harmonic of a motion: of the base y = u - x.
+  Complex phasor(Body of, Index which, Index order) {
+    if (of == Body::contact) return problem_.motion(u_, p_, which)(order);
+    const Row row = row_of(of, which, order);
+    Complex z = row.times(row.response.compliance);
+    if (of == Body::output) z += row.response.free(row.index);
+    if (of == Body::base) z -= problem_.motion(u_, p_, which)(order);
+    return z;
+  }
+
+  /// Adds Re(conj(weight) dz) of that harmonic.
+  void add(Body of, Index which, Index order, Complex weight) {
+    if (gradient_ == nullptr) return;
+    if (of == Body::contact) return add_motion(which, order, weight);
+    if (of == Body::base) add_motion(which, order, -weight);
+    const Row row = row_of(of, which, order);
+    Complex by_eta = row.times(row.response.compliance_eta);
+    if (of == Body::output) by_eta += row.response.free_eta(row.index);
+    add(problem_.layout_.eta, std::real(std::conj(weight) * by_eta));
+    if (problem_.layout_.damping.of != Place::nowhere)
+      add(problem_.layout_.damping, std::real(std::conj(weight) * row.times(row.response.by_damping)));
+    if (problem_.is_varied()) {
+      Complex by_varied = row.times(row.response.by_varied);
+      if (of == Body::output) by_varied += row.response.free_by_varied(row.index);
+      add(problem_.layout_.varied, std::real(std::conj(weight) * by_varied));
+    }
+    for (Index j = 0; j < problem_.coordinates(); ++j) {
+      const double share = problem_.coordinates_[j].push(row.is_base);
+      if (share == 0) continue;
+      const Complex c = row.response.compliance(row.index, problem_.coordinates_[j].dof);
+      add_force(j, order, -share * std::conj(c) * weight);
+    }
+  }
+
+  void add_motion(Index coordinate, Index order, Complex weight) {
+    const Index place = 2 * (coordinate * problem_.harmonics() + order);
+    add(problem_.place_of(place), weight.real());
+    add(problem_.place_of(place + 1), weight.imag());
+  }
+
+  void add_force(Index coordinate, Index order, Complex weight) {
+    const Index of = problem_.coordinates_.element_of(coordinate);
+    const Index first = problem_.coordinates_.first(of);
+    const Index row = problem_.place(coordinate, order);
+    const ElementForce& element = elements_[at(of)];
+    const Complex w = std::conj(weight);
+    for (Index b = 0; b < element.linear.cols(); ++b) {
+      const Complex linear = w * element.linear(row, b);
+      const Complex conjugate = w * element.conjugate(row, b);
+      add_motion(first + b / problem_.harmonics(), b % problem_.harmonics(),
+                 {std::real(linear + conjugate), -std::imag(linear - conjugate)});
+    }
+    add_log_load(std::real(w * element.by_log_load(row)), of);
+    add_log_force(of, std::real(w * element.harmonics(row)));
+    if (element.by_setting.size() > 0) add(problem_.layout_.varied, std::real(w * element.by_setting(row)));
+  }
+
+  /// What is `value` times a change of the logarithm of the factor on a force.
+  void add_log_force(Index element, double value) {
+    if (!problem_.is_varied()) return;
+    add(problem_.layout_.varied, value * problem_.log_force_rate(element, problem_.variation(u_, p_)));
+  }
+
+  void add_log_load(double value, Index element) {
+    if (gradient_ != nullptr) problem_.add_log_load(value, element, u_, p_, *gradient_);
+  }
+  void add(const Place& place, double value) {
+    if (gradient_ != nullptr) HarmonicProblem::add(place, value, *gradient_);
+  }
+
+  /// The row of a structure's compliance that a motion of damper or output is, found once for quantities that
+  /// follow one another, and the forces on it.
+  struct Row {
+    const Response& response;
+    bool is_base;
+    Index index;
+    ContactVector forces;
+
+    Complex times(const ContactMatrix& compliance) const {
+      return (compliance.row(index).head(forces.size()) * forces).value();
+    }
+  };
+  Row row_of(Body of, Index which, Index order) {
+    const ContactOutput* output = of == Body::output ? &system_.outputs[at(which)] : nullptr;
+    const ContactModes* structure = output != nullptr ? &output->modes : &system_.damper[at(order)];
+    const bool is_base = output != nullptr && output->on_base;
+    if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, response_);
+    responded_ = structure;
+    return {response_, is_base, output != nullptr ? problem_.contacts() : which,
+            problem_.coordinates_.forces_on(is_base, elements_, order, problem_.harmonics())};
+  }
+
+  const HarmonicProblem& problem_;
+  const HarmonicSystem& system_;
+  const Vector& u_;
+  const Vector& p_;
+  continuation::Regime regime_;
+  continuation::Gradient* gradient_;
+  const std::vector<ElementForce>& elements_;
+  const ContactModes* responded_ = nullptr;
+  Response response_;
+};
+
+std::vector<continuation::Observable> HarmonicProblem::observables() const {
+  std::vector<continuation::Observable> all;
+  for (const Quantity& quantity : quantities_) {
+    const bool is_lag = quantity.measure == Measure::lag;
+    const bool by_solves =
+        quantity.of == Body::output && !is_lag && system_.outputs[at(quantity.which)].modes.is_solved();
+    const bool has_gradient =
+        quantity.measure != Measure::force && quantity.measure != Measure::reading && !by_solves;
+    all.push_back({quantity.name, has_gradient});
+    if (is_lag) all.back() = angle(quantity.name);
+  }
+  return all;
+}
+
+void HarmonicProblem::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              Vector& values) const {
+  values.resize(std::ssize(quantities_));
+  Observation at_point(*this, u, p, regime, nullptr);
+  for (std::size_t i = 0; i < quantities_.size(); ++i)
+    values(static_cast<Index>(i)) = at_point.value(quantities_[i]);
+}
+
+double HarmonicProblem::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                Index which, continuation::Gradient& gradient) const {
+  gradient.unknowns.setZero();
+  gradient.parameters.setZero();
+  return Observation(*this, u, p, regime, &gradient).value(quantities_[at(which)]);
+}
+
+}  // namespace arcslip::problems
