@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
@@ -31,9 +32,20 @@ void check_disturbed_waves(const TomlSection& section, const SystemParameters& s
 
 }  // namespace
 
-void check_even(const TomlSection& section, const ProblemRequest& problem) {
+void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
   if (problem.model != nullptr || all_odd(system.harmonics)) return;
+  const bool lifts = std::any_of(system.others.begin(), system.others.end(),
+                                 [](const PlacedElement& one) { return one.kind->closes; });
+  using continuation::PointType;
+  const auto is = [&](PointType type) { return branch.curve->type == type; };
+  if (lifts && branch.curve && (is(PointType::peak) || is(PointType::trough) || is(PointType::fold)))
+    branch_section.fail(
+        "curve",
+        "not of folds, peaks and troughs beside element 'friction': their second derivatives "
+        "jump with every event within the period; for_each lists preloads whose branches have "
+        "them");
   const char* why = "the mean and even harmonics, which elements that are not odd call for, are balanced";
   if (problem.harmonics_tolerance) section.fail("harmonics", fmt::format(R"(not "auto" where {})", why));
   if (system.one_way || problem.response->has_own_frequency())

@@ -254,7 +254,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
   if (model_ == nullptr && branch.problem.response->parameters.front() == "R" && parameter_ != "R")
     section_.number("R", positive());
   if (branch.curve) find_seed(section_, branch);
-  check_even(system, branch.problem);
+  check_even(system, section_, branch);
   check_stability(section_, branch);
   return branch;
 }

@@ -79,6 +79,17 @@ inline std::string sector(const std::string& contacts, const std::string& more) 
 inline const std::string stops =
     "[[element]]\nkind = \"clearance\"\nat = \"base\"\nstiffness = 20.0\ngap = 0.1\n";
 
+/// Two contacts of three, which also rub as they are pressed together by their own motion and lift off, and
+/// meet a stop on one side.
+inline const std::string lift_off =
+    "[[element]]\nkind = \"friction\"\nat = \"contact\"\nnormal = 2\ntangential_stiffness = 1.0\n"
+    "normal_stiffness = 1.5\nmu = 0.5\nnormal_per_preload = 0.5\n"
+    "[[element]]\nkind = \"unilateral\"\nat = \"base\"\ncontact = 3\nstiffness = 2.0\ngap = 0.05\n";
+
+/// Sliders of many limits.
+inline const std::string microslip =
+    "[[element]]\nkind = \"iwan\"\nat = \"damper\"\nstiffness = 10.0\nfirst_limit = 1.0\nspread = 1.0\n";
+
 /// A load with harmonics of its own.
 inline const std::string arcs = "[excitation]\nkind = \"arcs\"\nwidth = 0.3\n";
 
@@ -112,6 +123,8 @@ inline std::vector<Kind> kinds() {
           {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
+          {"lift-off and a gap", sector("[1, 2, 3]", lift_off), 0.1, 0.6, 0.25, -5e-2},
+          {"microslip", rods(microslip), 0.5, 5, 1.6, -5e-2},
           {"without symmetry", no_symmetry, 0.1, 0.6, 0.25, -5e-2},
           {"`path = \"full\"`", sector("[1, 2, 3]", "path = \"full\""), 0.1, 0.6, 0.25, -5e-2}};
 }
