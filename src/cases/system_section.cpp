@@ -75,7 +75,7 @@ void read_orders(S& settings, const TomlSection& section) {
 /// Adds the mean and the even harmonics that elements which are not odd call for.
 void complete_orders(const TomlSection& section, ProblemRequest& problem) {
   SystemParameters& system = problem.system;
-  const toml::node* node = section.table()->get("harmonics");
+  const toml::node* node = section.has("harmonics") ? &section.require("harmonics", "") : nullptr;
   const auto highest = static_cast<int>(node != nullptr ? node->value<Index>().value_or(1) : 1);
   const bool is_listed = node != nullptr && node->is_array();
   if (is_odd(system)) {
