@@ -198,7 +198,7 @@ class HarmonicProblem::Observation {
     if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, response_);
     responded_ = structure;
     return {response_, is_base, output != nullptr ? problem_.contacts() : which,
-            problem_.coordinates_.forces_on(is_base, elements_, order, problem_.harmonics())};
+            problem_.coordinates_.forces_on(is_base, elements_, order)};
   }
 
   const HarmonicProblem& problem_;

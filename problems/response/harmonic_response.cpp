@@ -57,8 +57,8 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   const std::vector<ElementForce>& all = forces(u, p, regime, false);
   ElementForces sum{{}, {}, 0};
   for (Index a = 0; a < harmonics(); ++a) {
-    sum.base.push_back(coordinates_.forces_on(true, all, a, harmonics()));
-    sum.damper.push_back(coordinates_.forces_on(false, all, a, harmonics()));
+    sum.base.push_back(coordinates_.forces_on(true, all, a));
+    sum.damper.push_back(coordinates_.forces_on(false, all, a));
   }
   for (const ElementForce& one : all) sum.energy += one.energy;
   return sum;

@@ -51,7 +51,7 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
     using Place = PlacedElement::Place;
     const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
     const double damper = placed.place == Place::base ? 0 : 1;
-    const double side = placed.closes_backwards ? -1 : 1;
+    const double side = placed.closes_backwards ? -1 : 1;  // of the coordinate that closes
     const double own = placed.kind->closes ? 1 : side;
     Coordinate one{own * base, own * damper, placed.dof, nullptr};
     Coordinate closing{side * base, side * damper, placed.normal, nullptr};
@@ -125,12 +125,13 @@ void Coordinates::add(const ContactMatrix& compliance, bool is_base, ContactMatr
   }
 }
 
-ContactVector Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
-                                     Index orders) const {
+ContactVector Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces,
+                                     Index order) const {
   ContactVector sum = ContactVector::Zero(contacts_);
   for (Index i = 0; i < size(); ++i) {
-    const ElementForce& force = forces[static_cast<std::size_t>(element_of(i))];
-    sum((*this)[i].dof) -= (*this)[i].push(is_base) * force.harmonics(place(i, order, orders));
+    const HarmonicVector& force = forces[static_cast<std::size_t>(element_of(i))].harmonics;
+    const Index orders = force.size() / element(element_of(i)).coordinates();
+    sum((*this)[i].dof) -= (*this)[i].push(is_base) * force((*this)[i].part * orders + order);
   }
   return sum;
 }

@@ -9,7 +9,7 @@ namespace arcslip {
 
 /// Refuses in [system] what is not made for harmonics that are not odd, and in [branch] curves of folds and
 /// extrema of what lifts off.
-void check_even(const TomlSection& system, const TomlSection& branch_section, const CaseBranch& branch);
+void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch);
 
 /// Refuses in [branch] stability of what has no exponents.
 void check_stability(const TomlSection& section, const CaseBranch& branch);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/elements/idle.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "cases/element_section.hpp"
@@ -46,14 +45,17 @@ auto not_undamped(double S::*ratio, bool S::*is_damped) {
   });
 }
 
-std::string harmonics_text(int highest) {
-  return fmt::format(R"(an odd integer from 1 to {}, a list that holds 1, or "auto")", highest);
+constexpr int highest_harmonic = 2 * most_harmonics - 1;
+
+/// Refuses what is no set of harmonics.
+[[noreturn]] void refuse_orders(const TomlSection& section) {
+  section.mismatch("harmonics", fmt::format(R"(an odd integer from 1 to {}, a list that holds 1, or "auto")",
+                                            highest_harmonic));
 }
 
 /// The harmonics in which friction is balanced: up to a highest one, listed, or found while tracing.
 void read_orders(S& settings, const TomlSection& section) {
-  constexpr int highest = 2 * most_harmonics - 1;
-  const auto fits = [](double h) { return h >= 0 && h <= highest && std::fmod(h, 1) == 0; };
+  const auto fits = [](double h) { return h >= 0 && h <= highest_harmonic && std::fmod(h, 1) == 0; };
   const toml::node& node = section.require("harmonics", "");
   std::vector<int>& orders = settings.harmonics;
   if (node.value<std::string>() == "auto") {
@@ -67,19 +69,18 @@ void read_orders(S& settings, const TomlSection& section) {
     std::rotate(orders.begin(), first, first + 1);
   } else {
     if (!node.is_integer() || !fits(static_cast<double>(*node.value<Index>())) || *node.value<Index>() == 0)
-      section.mismatch("harmonics", harmonics_text(highest));
+      refuse_orders(section);
     orders = odd_up_to(static_cast<int>(*node.value<Index>()));
   }
 }
 
 /// Adds the mean and the even harmonics that elements which are not odd call for.
-void complete_orders(const TomlSection& section, ProblemRequest& problem) {
-  SystemParameters& system = problem.system;
+void complete_orders(const TomlSection& section, SystemParameters& system) {
   const toml::node* node = section.has("harmonics") ? &section.require("harmonics", "") : nullptr;
   const auto highest = static_cast<int>(node != nullptr ? node->value<Index>().value_or(1) : 1);
   const bool is_listed = node != nullptr && node->is_array();
   if (is_odd(system)) {
-    if (highest % 2 == 0) section.mismatch("harmonics", harmonics_text(2 * most_harmonics - 1));
+    if (highest % 2 == 0) refuse_orders(section);
     return;
   }
   if (!is_listed) system.harmonics = all_up_to(highest);
@@ -129,7 +130,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   problem.structure = &kind;
   kind.read({document, section, replacements, use}, problem);
   read_elements(document, problem.system);
-  complete_orders(section, problem);
+  complete_orders(section, problem.system);
   check_waves(section, problem.system);
   problem.system.excitation = read_excitation(document, replacements);
 }

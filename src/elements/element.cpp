@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace arcslip {
 
@@ -85,6 +86,21 @@ void Element::difference(const Moved& moved, const HarmonicVector& x, const Way&
   change.conjugate += rate(ahead.conjugate, behind.conjugate);
   change.by_log_load += rate(ahead.by_log_load, behind.by_log_load);
   if (ahead.by_setting.size() > 0) change.by_setting += rate(ahead.by_setting, behind.by_setting);
+}
+
+VaryingStiffness Element::stiffness_in_time(std::span<const int> /*orders*/,
+                                            const HarmonicVector& /*x*/) const {
+  throw std::logic_error("Element: what has a memory has no stiffness in time");
+}
+
+double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexVector>& force,
+                    const Eigen::Ref<const ComplexVector>& x) {
+  double sum = 0;
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    sum += pi * orders[a] * std::imag(force(at) * std::conj(x(at)));
+  }
+  return sum;
 }
 
 double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }

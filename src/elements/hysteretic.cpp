@@ -56,11 +56,6 @@ class CycleTurn {
     return harmonics(samples) - (Complex(0, shift_(k)) * h_.cast<Complex>()).cwiseProduct(force);
   }
 
-  /// pi sum_h h Im(f_h conj(x_h)).
-  double energy(const HarmonicVector& force, const HarmonicVector& motion) const {
-    return pi * h_.dot(force.cwiseProduct(motion.conjugate()).imag());
-  }
-
  private:
   static constexpr double flat = 1e-3;
 
@@ -94,7 +89,7 @@ void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x,
   CycleSamples samples;
   law_->at(turn.x(), derivatives ? turn.ways() : Matrix(), setting, derivatives, samples);
   out.harmonics = turn.harmonics(samples.force);
-  out.energy = turn.energy(out.harmonics, x);
+  out.energy = cycle_energy(orders, out.harmonics, x);
   out.swing = Swing::of_odd(turn.maximum());
   out.by_setting.resize(0);
   if (!derivatives) return;
@@ -108,11 +103,6 @@ void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x,
     out.linear.col(l) = 0.5 * (real - Complex(0, 1) * imaginary);
     out.conjugate.col(l) = 0.5 * (real + Complex(0, 1) * imaginary);
   }
-}
-
-VaryingStiffness HystereticElement::stiffness_in_time(std::span<const int> /*orders*/,
-                                                      const HarmonicVector& /*x*/) const {
-  throw std::logic_error("HystereticElement: what has a memory has no stiffness in time");
 }
 
 void HystereticElement::second(const ElementForce& /*at*/, std::span<const int> orders,

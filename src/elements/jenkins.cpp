@@ -56,7 +56,7 @@ void Jenkins::second(const ElementForce& at, std::span<const int> orders, const 
     const auto moved = [&](const HarmonicVector& motion, double log_load, double, ElementForce& out) {
       force_of_any(orders, motion, load * std::exp(log_load), slips, true, out);
     };
-    return difference(moved, x, way, 1, 1e-5, change);
+    return difference(moved, x, way, 1, smooth_step, change);
   }
   const double limit = threshold(load);
   HysteresisLoop(OddMotion(orders, x), limit)

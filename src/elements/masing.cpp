@@ -1,26 +1,16 @@
 #include "arcslip/elements/masing.hpp"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <stdexcept>
 
 #include "arcslip/motion/periodic_motion.hpp"
+#include "elements/harmonic_turn.hpp"
 #include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
 namespace {
 
-/// e^{-jh theta} of each order: the derivative of x(theta) by the x_h.
-HarmonicVector turned_back(std::span<const int> orders, double theta) {
-  HarmonicVector turns(std::ssize(orders));
-  for (Index a = 0; a < turns.size(); ++a)
-    turns(a) = std::polar(1.0, -orders[static_cast<std::size_t>(a)] * theta);
-  return turns;
-}
-
 /// Where the motion turned back, with the force there and its derivatives.
 struct Reversal {
-  double angle;
   double x;
   double force;
   HarmonicVector turns;      // derivative of x by the x_h
@@ -34,12 +24,12 @@ class MasingCycle {
   MasingCycle(const Backbone& backbone, std::span<const int> orders, const HarmonicVector& x, double load,
               bool derivatives, ElementForce& out)
       : backbone_(backbone),
-        orders_(orders),
         motion_(orders, x, highest_order(orders)),
         load_(load),
         derivatives_(derivatives),
         out_(out),
-        corners_(backbone.corners()) {}
+        corners_(backbone.corners()),
+        turn_(orders) {}
 
   void run() {
     const std::vector<double> turns = motion_.derivative().zeros();
@@ -64,24 +54,21 @@ class MasingCycle {
     const double x = motion_.value(angle);
     const double side = x < 0 ? -1 : 1;
     const Jet force = backbone_.force(side * x / load_);
-    const HarmonicVector turns = turned_back(orders_, angle);
-    open_ = {{angle, x, side * load_ * force.value, turns, backbone_.slope(side * x / load_) * turns,
+    turn_.go_to(angle);
+    open_ = {{x, side * load_ * force.value, turn_.back(), backbone_.slope(side * x / load_) * turn_.back(),
               side * load_ * force.first}};
   }
 
   /// Where the branch has come to.
-  Reversal reversal(double angle) const {
+  Reversal reversal(double angle) {
     const double x = motion_.value(angle);
-    const HarmonicVector turns = turned_back(orders_, angle);
+    turn_.go_to(angle);
     const Reversal& last = open_.back();
     const double side = x < last.x ? -1 : 1;
     const double half = 0.5 * side * (x - last.x) / load_;
     const Jet force = backbone_.force(half);
-    return {angle,
-            x,
-            last.force + side * 2 * load_ * force.value,
-            turns,
-            last.by_motion + backbone_.slope(half) * (turns - last.turns),
+    return {x, last.force + side * 2 * load_ * force.value, turn_.back(),
+            last.by_motion + backbone_.slope(half) * (turn_.back() - last.turns),
             last.by_setting + side * 2 * load_ * force.first};
   }
 
@@ -123,86 +110,62 @@ class MasingCycle {
   }
 
   void integrate(double from, double to) {
-    using Gauss = boost::math::quadrature::gauss<double, 20>;
-    constexpr double longest = 24;  // panel, in radians of the highest harmonic
-    if (!(to > from)) return;
-    const int panels = static_cast<int>(3 * motion_.highest() * (to - from) / longest) + 1;
-    const double half = 0.5 * (to - from) / panels;
-    for (int k = 0; k < panels; ++k) {
-      const double middle = from + (2 * k + 1) * half;
-      for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-        const double weight = Gauss::weights()[i] * half / pi;
-        add(middle - Gauss::abscissa()[i] * half, weight);
-        add(middle + Gauss::abscissa()[i] * half, weight);
-      }
-    }
+    each_gauss_node(from, to, 3 * motion_.highest(),
+                    [&](double angle, double weight) { add(angle, weight / two_pi); });
   }
 
-  void add(double angle, double weight) {
+  void add(double angle, double share) {
     const Reversal here = reversal(angle);
-    rows_ = weight * here.turns;
-    for (Index a = 0; a < rows_.size(); ++a) {
-      if (orders_[static_cast<std::size_t>(a)] == 0) rows_(a) = 0.5 * weight;
-    }
-    out_.harmonics += here.force * rows_;
+    turn_.add_force(share * here.force, out_.harmonics);
     if (!derivatives_) return;
-    out_.linear.noalias() += 0.5 * rows_ * here.by_motion.adjoint();
-    out_.conjugate.noalias() += 0.5 * rows_ * here.by_motion.transpose();
-    if (out_.by_setting.size() > 0) out_.by_setting += here.by_setting * rows_;
+    turn_.add_change(share, here.by_motion, out_.linear, out_.conjugate);
+    if (out_.by_setting.size() > 0) turn_.add_force(share * here.by_setting, out_.by_setting);
   }
 
   const Backbone& backbone_;
-  std::span<const int> orders_;
   PeriodicMotion motion_;
   double load_;
   bool derivatives_;
   ElementForce& out_;
   std::vector<double> corners_;
   std::vector<Reversal> open_;  // turning points of loops that are not closed, the last one last
-  HarmonicVector rows_;
+  HarmonicTurn turn_;
 };
 
 void masing_force(const Backbone& backbone, std::span<const int> orders, const HarmonicVector& x, double load,
-                  bool derivatives, ElementForce& out) {
+                  bool is_varied, bool derivatives, ElementForce& out) {
   const Index n = x.size();
   out.harmonics.setZero(n);
-  out.by_setting.setZero(derivatives && backbone.setting_scale() > 0 ? n : 0);
+  out.by_setting.setZero(derivatives && is_varied ? n : 0);
   out.readings.clear();
   if (derivatives) {
     out.linear.setZero(n, n);
     out.conjugate.setZero(n, n);
   }
   MasingCycle(backbone, orders, x, load, derivatives, out).run();
-  out.energy = 0;
-  for (Index a = 0; a < n; ++a)
-    out.energy += pi * orders[static_cast<std::size_t>(a)] * std::imag(out.harmonics(a) * std::conj(x(a)));
+  out.energy = cycle_energy(orders, out.harmonics, x);
   if (derivatives)  // f is homogeneous in x and the load
     out.by_log_load = out.harmonics - out.linear * x - out.conjugate * x.conjugate();
 }
 
 }  // namespace
 
-MasingElement::MasingElement(Made made) : made_(std::move(made)), backbone_(made_(0)) {}
+MasingElement::MasingElement(Made made, double setting_scale)
+    : made_(std::move(made)), backbone_(made_(0)), setting_scale_(setting_scale) {}
 
 void MasingElement::force(std::span<const int> orders, const HarmonicVector& x, double load, bool /*beyond*/,
                           bool derivatives, ElementForce& out) const {
-  masing_force(*backbone_, orders, x, load, derivatives, out);
-}
-
-VaryingStiffness MasingElement::stiffness_in_time(std::span<const int> /*orders*/,
-                                                  const HarmonicVector& /*x*/) const {
-  throw std::logic_error("MasingElement: what has a memory has no stiffness in time");
+  masing_force(*backbone_, orders, x, load, setting_scale_ > 0, derivatives, out);
 }
 
 void MasingElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,
                            double load, bool /*beyond*/, const Way& way, ElementForce& change) const {
-  constexpr double relative = 1e-5;
+  const bool is_varied = setting_scale_ > 0;
   const auto moved = [&](const HarmonicVector& motion, double log_load, double setting, ElementForce& out) {
     const auto backbone = setting == 0 ? backbone_ : made_(setting);
-    masing_force(*backbone, orders, motion, load * std::exp(log_load), true, out);
+    masing_force(*backbone, orders, motion, load * std::exp(log_load), is_varied, true, out);
   };
-  const double scale = backbone_->setting_scale();
-  difference(moved, x, way, scale > 0 ? scale : 1, relative, change);
+  difference(moved, x, way, is_varied ? setting_scale_ : 1, smooth_step, change);
 }
 
 }  // namespace arcslip

@@ -1,13 +1,13 @@
 #include "arcslip/elements/memoryless.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "arcslip/motion/periodic_motion.hpp"
+#include "elements/harmonic_turn.hpp"
 #include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
@@ -34,7 +34,7 @@ class Passage {
     return turns;
   }
   Swing swing(const Angles& turns) const {
-    return any_ ? Swing::of(orders_, odd_.coefficients()) : Swing::of_odd(odd_.maximum(turns));
+    return any_ ? Swing::at(*any_, turns.all()) : Swing::of_odd(odd_.maximum(turns));
   }
 
  private:
@@ -84,57 +84,11 @@ void each_node(const PiecewiseLaw& law, const Passage& motion, const Angles* tur
     for (int k = 0; k < count; ++k) use(period * k / count, 1.0 / count, 0);
     return;
   }
-  using Gauss = boost::math::quadrature::gauss<double, 20>;
-  constexpr double longest = 24;  // panel, in radians of the highest harmonic
   each_stretch(law, motion, *turns, [&](const Stretch& stretch) {
-    const double width = stretch.end - stretch.begin;
-    if (!(width > 0)) return;
-    const int panels = static_cast<int>(highest * width / longest) + 1;
-    const double half = 0.5 * width / panels;
-    for (int k = 0; k < panels; ++k) {
-      const double middle = stretch.begin + (2 * k + 1) * half;
-      for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-        const double share = Gauss::weights()[i] * half / period;
-        use(middle - Gauss::abscissa()[i] * half, share, stretch.zone);
-        use(middle + Gauss::abscissa()[i] * half, share, stretch.zone);
-      }
-    }
+    each_gauss_node(stretch.begin, stretch.end, highest,
+                    [&](double theta, double weight) { use(theta, weight / period, stretch.zone); });
   });
 }
-
-// With e_h = e^{jh theta} at an angle and the mean over the part of a period,
-//
-//   f_h = 2 mean(f conj(e_h)),   df_h = sum_l c_{h-l} dx_l + c_{h+l} conj(dx_l),   c_m = mean(f' conj(e_m)),
-//
-// and half of that for h = 0.
-class Turn {
- public:
-  explicit Turn(std::span<const int> orders)
-      : orders_(orders), conj_(std::ssize(orders)), rows_(std::ssize(orders)) {}
-
-  void go_to(double theta) {
-    for (Index a = 0; a < conj_.size(); ++a)
-      conj_(a) = std::polar(1.0, -orders_[static_cast<std::size_t>(a)] * theta);
-    rows_ = conj_;
-    for (Index a = 0; a < conj_.size(); ++a) {
-      if (orders_[static_cast<std::size_t>(a)] == 0) rows_(a) = 0.5;
-    }
-  }
-  double value(const HarmonicVector& x) const { return conj_.dot(x).real(); }
-
-  void add_force(double part, HarmonicVector& harmonics) const { harmonics += (2 * part) * rows_; }
-  void add_slope(double part, ComplexMatrix& linear, ComplexMatrix& conjugate) const {
-    for (Index l = 0; l < conj_.size(); ++l) {
-      linear.col(l) += (part * std::conj(conj_(l))) * rows_;
-      conjugate.col(l) += (part * conj_(l)) * rows_;
-    }
-  }
-
- private:
-  std::span<const int> orders_;
-  HarmonicVector conj_;
-  HarmonicVector rows_;
-};
 
 /// k_m of the slope by the polynomial of one zone, in full periods.
 std::vector<Complex> slope_harmonics(const PiecewiseLaw& law, const Passage& motion, int zone) {
@@ -174,9 +128,9 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   Angles turns;
   if (crosses(beyond)) {
     turns = motion.turns();
-    out.swing = motion.swing(turns);
+    if (has_border()) out.swing = motion.swing(turns);
   }
-  Turn turn(orders);
+  HarmonicTurn turn(orders);
   each_node(law_, motion, crosses(beyond) ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
     const double here = turn.value(x);
@@ -212,7 +166,7 @@ void MemorylessElement::second(const ElementForce& /*at*/, std::span<const int> 
                                ElementForce& change) const {
   const Passage motion(orders, x);
   const Angles turns = crosses(beyond) ? motion.turns() : Angles{};
-  Turn turn(orders);
+  HarmonicTurn turn(orders);
   each_node(law_, motion, crosses(beyond) ? &turns : nullptr, [&](double theta, double share, int zone) {
     turn.go_to(theta);
     const double here = turn.value(x);

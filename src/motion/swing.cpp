@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "arcslip/motion/periodic_motion.hpp"
-
 namespace arcslip {
 
 bool all_odd(std::span<const int> orders) {
@@ -13,9 +11,13 @@ bool all_odd(std::span<const int> orders) {
 Swing Swing::of(std::span<const int> orders, const HarmonicVector& x) {
   if (all_odd(orders)) return of_odd(OddMotion(orders, x).maximum());
   const PeriodicMotion motion(orders, x, highest_order(orders));
+  return at(motion, motion.derivative().zeros());
+}
+
+Swing Swing::at(const PeriodicMotion& motion, std::span<const double> angles) {
   const double begin = motion.value(0);
   Swing swing{{0, begin}, {0, begin}, false};
-  for (const double angle : motion.derivative().zeros()) {
+  for (const double angle : angles) {
     const double here = motion.value(angle);
     if (here > swing.greatest.value) swing.greatest = {angle, here};
     if (here < swing.least.value) swing.least = {angle, here};

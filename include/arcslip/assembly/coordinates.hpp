@@ -67,9 +67,6 @@ class Coordinates {
   /// How many, the first ones, of the elements have a border.
   Index switches() const { return switches_; }
 
-  /// Where a harmonic of a coordinate stands among those of its element, in each of which there are `orders`.
-  Index place(Index i, Index order, Index orders) const { return (*this)[i].part * orders + order; }
-
   /// Whether elements act but at the contacts.
   bool has_others() const { return size() > contacts_; }
 
@@ -84,9 +81,8 @@ class Coordinates {
   /// Adds the part that one structure has in L C G^T.
   void add(const ContactMatrix& compliance, bool is_base, ContactMatrix& sum) const;
 
-  /// Forces on the contact dofs of a structure in one of the orders, -G^T f.
-  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
-                          Index orders) const;
+  /// Forces on the contact dofs of a structure in one order, -G^T f.
+  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order) const;
 
  private:
   std::vector<Coordinate> all_;

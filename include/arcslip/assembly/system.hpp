@@ -105,7 +105,7 @@ std::vector<int> odd_up_to(int highest);
 std::vector<int> all_up_to(int highest);
 std::vector<int> orders_up_to(int highest, const SystemParameters& system);
 
-/// Whether all elements are odd, and whether all orders are.
+/// Whether an odd motion meets odd forces of all elements.
 bool is_odd(const SystemParameters& system);
 
 /// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].

@@ -39,6 +39,10 @@ struct ElementForce {
   void add(const ElementForce& change, double part);
 };
 
+/// E = pi sum_h h Im(f_h conj(x_h)) of a force under a motion: lost per cycle.
+double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexVector>& force,
+                    const Eigen::Ref<const ComplexVector>& x);
+
 /// Where a state of an element ends.
 struct StateBorder {
   double value;              ///< negative inside
@@ -77,7 +81,7 @@ class Element {
 
   /// Whether the force is reference_stiffness() x in this state under odd motions and, where the state is the
   /// first one, under small ones.
-  virtual bool is_linear(bool beyond) const = 0;
+  virtual bool is_linear(bool /*beyond*/) const { return false; }
 
   /// The force under the motion x with these orders; all but harmonics, energy, readings and, beyond, the
   /// swing only with `derivatives`. No motion beyond the border is zero. Of odd orders it allocates nothing
@@ -98,7 +102,8 @@ class Element {
                       double load, bool beyond, const Way& way) const;
 
   /// What small disturbances of the motion x meet; a contact that slips has a memory and no such stiffness.
-  virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const = 0;
+  /// Throws std::logic_error unless overridden: what has a memory in every state has none.
+  virtual VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const;
 
   /// The border of one that has one, of one coordinate (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in the first
   /// state and its negative beyond, smooth where the motion is zero. A is max |x| or, of one that forgets the
@@ -125,6 +130,9 @@ class Element {
   /// The force with derivatives under another motion, with so much added to ln(load) and to the setting.
   using Moved =
       std::function<void(const HarmonicVector& x, double log_load, double setting, ElementForce& out)>;
+
+  /// Over which forces of smooth pieces are differenced, of the motion.
+  static constexpr double smooth_step = 1e-5;
 
   /// `second` by central differences over `relative` times the motion, or the setting over its scale.
   static void difference(const Moved& moved, const HarmonicVector& x, const Way& way, double setting_scale,

@@ -57,7 +57,6 @@ class HystereticElement final : public Element {
   bool has_border() const override { return stuck_.has_value(); }
   bool takes_any_orders() const override { return false; }
   std::string beyond() const override { return stuck_ ? "slip" : ""; }
-  bool is_linear(bool /*beyond*/) const override { return false; }
   double threshold(double load) const override {
     return stuck_ ? stuck_->amplitude.value : Element::threshold(load);
   }
@@ -66,8 +65,6 @@ class HystereticElement final : public Element {
   }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
-  /// Throws std::logic_error: there is none.
-  VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
 
  private:
   void at(std::span<const int> orders, const HarmonicVector& x, double setting, bool derivatives,

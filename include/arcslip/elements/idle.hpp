@@ -19,7 +19,6 @@ class Idle final : public Element {
   bool has_border() const override { return true; }
   bool forgets_mean() const override { return true; }
   std::string beyond() const override { return "slip"; }
-  bool is_linear(bool /*slips*/) const override { return false; }
   void force(std::span<const int> /*orders*/, const HarmonicVector& x, double /*load*/, bool /*slips*/,
              bool derivatives, ElementForce& out) const override {
     out.set_linear(0, x, derivatives);

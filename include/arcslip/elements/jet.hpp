@@ -3,6 +3,9 @@
 // Numbers with their first and second derivative by one setting of an element, so that a law written once
 // tells how it changes with any of its settings.
 
+#include <cmath>
+#include <span>
+
 namespace arcslip {
 
 /// Such a number.
@@ -31,6 +34,21 @@ inline Jet operator/(const Jet& a, const Jet& b) {
   const double value = a.value / b.value;
   const double first = (a.first - value * b.first) / b.value;
   return {value, first, (a.second - 2 * first * b.first - value * b.second) / b.value};
+}
+
+/// With so much added to the setting.
+inline Jet shifted(const Jet& number, double by) {
+  return {number.value + by * (number.first + 0.5 * by * number.second), number.first + by * number.second,
+          number.second};
+}
+
+/// A typical magnitude of the setting by which these numbers have derivatives, the one that it is; 0 if none
+/// has any.
+inline double setting_scale(std::span<const Jet> numbers) {
+  for (const Jet& one : numbers) {
+    if (one.first != 0) return (one.value != 0 ? std::abs(one.value) : 1) / std::abs(one.first);
+  }
+  return 0;
 }
 
 }  // namespace arcslip

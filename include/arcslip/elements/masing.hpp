@@ -13,7 +13,6 @@
 // Forces are integrated by Gauss between turning points, closings and corners of F, to rounding where F is a
 // polynomial there.
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -33,9 +32,6 @@ class Backbone {
 
   /// Where F is no longer the same smooth function, ascending.
   virtual std::vector<double> corners() const = 0;
-
-  /// A setting that is continued: its size, or 0 where none is.
-  virtual double setting_scale() const = 0;
 };
 
 /// By its backbone.
@@ -44,14 +40,12 @@ class MasingElement final : public Element {
   /// At a value of the setting that is continued, so much above its own.
   using Made = std::function<std::shared_ptr<const Backbone>(double setting)>;
 
-  explicit MasingElement(Made made);
+  /// `setting_scale` is a typical magnitude of that setting, 0 where none is continued.
+  MasingElement(Made made, double setting_scale);
 
   double reference_stiffness(Index /*coordinate*/ = 0) const override { return backbone_->slope(0); }
-  bool is_linear(bool /*beyond*/) const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
-  /// Throws std::logic_error: there is none.
-  VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
 
  private:
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
@@ -59,20 +53,18 @@ class MasingElement final : public Element {
 
   Made made_;
   std::shared_ptr<const Backbone> backbone_;
+  double setting_scale_;
 };
 
-/// Of a backbone that is made of settings, forces per load, and of the size of the one that is continued.
+/// Of a backbone that is made of settings, forces per load.
 template <class Type>
 std::shared_ptr<const Element> masing_of(const ElementKind::Values& values) {
-  return std::make_shared<MasingElement>([settings = values.settings](double more) {
-    double scale = 0;
-    std::vector<Jet> moved;
-    for (const Jet& one : settings) {
-      moved.push_back({one.value + more * one.first, one.first, 0});
-      if (one.first != 0) scale = one.value != 0 ? std::abs(one.value / one.first) : 1 / std::abs(one.first);
-    }
-    return std::make_shared<Type>(moved, scale);
-  });
+  const auto made = [settings = values.settings](double more) {
+    std::vector<Jet> all;
+    for (const Jet& one : settings) all.push_back(shifted(one, more));
+    return std::make_shared<Type>(all);
+  };
+  return std::make_shared<MasingElement>(made, setting_scale(values.settings));
 }
 
 }  // namespace arcslip

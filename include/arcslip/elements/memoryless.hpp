@@ -21,7 +21,6 @@ class MemorylessElement final : public Element {
   bool has_border() const override { return law_.pieces().size() > 1 && !law_.is_one_sided(); }
   bool is_odd() const override { return !law_.is_one_sided(); }
   std::string beyond() const override { return beyond_; }
-  bool is_linear(bool /*beyond*/) const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;

@@ -37,7 +37,6 @@ class SampledElement final : public Element {
 
   double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
   bool takes_any_orders() const override { return false; }
-  bool is_linear(bool /*beyond*/) const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;

@@ -21,7 +21,8 @@ struct Angles {
   std::array<double, std::size_t{2} * most_harmonics> values;  ///< the first `count` of them count
   int count = 0;                                               ///< how many there are
 
-  /// The i-th of `count`.
+  /// All of them, and the i-th of `count`.
+  std::span<const double> all() const { return {values.data(), static_cast<std::size_t>(count)}; }
   double operator[](int i) const { return values[static_cast<std::size_t>(i)]; }
   /// More than fit in are zeros of rounding, where all but three of them meet.
   void push(double angle) {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/periodic_motion.hpp"
 
 namespace arcslip {
 
@@ -29,6 +30,8 @@ struct Swing {
   static Swing of_odd(const OddMotion::Maximum& greatest) {
     return {greatest, {greatest.angle + pi, -greatest.value}, true};
   }
+  /// Of one that has its greatest and least value at some of these angles, if there are any.
+  static Swing at(const PeriodicMotion& motion, std::span<const double> angles);
   /// Of any motion.
   static Swing of(std::span<const int> orders, const HarmonicVector& x);
 

@@ -11,11 +11,8 @@ namespace {
 
 class UniformBackbone final : public Backbone {
  public:
-  UniformBackbone(const std::vector<Jet>& settings, double setting_scale)
-      : k_(settings[0]),
-        first_(settings[1] / k_),
-        last_((settings[1] + settings[2]) / k_),
-        scale_(setting_scale) {}
+  explicit UniformBackbone(const std::vector<Jet>& settings)
+      : k_(settings[0]), first_(settings[1] / k_), last_((settings[1] + settings[2]) / k_) {}
 
   Jet force(double x) const override {
     if (x <= first_.value) return k_ * x;
@@ -27,13 +24,11 @@ class UniformBackbone final : public Backbone {
     return k_.value * std::max(0.0, last_.value - x) / (last_.value - first_.value);
   }
   std::vector<double> corners() const override { return {first_.value, last_.value}; }
-  double setting_scale() const override { return scale_; }
 
  private:
   Jet k_;
   Jet first_;
   Jet last_;
-  double scale_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double imaginary_step = 1e-30;  // whose square is nothing: derivative
 
 class FourParameterBackbone final : public Backbone {
  public:
-  FourParameterBackbone(const std::vector<Jet>& settings, double setting_scale) : scale_(setting_scale) {
+  explicit FourParameterBackbone(const std::vector<Jet>& settings) {
     const auto complex = [](const Jet& jet) { return Complex(jet.value, imaginary_step * jet.first); };
     slip_force_ = complex(settings[0]);
     stiffness_ = complex(settings[1]);
@@ -38,7 +38,6 @@ class FourParameterBackbone final : public Backbone {
     return x >= phi_max_.real() ? 0 : stiffness_.real() - density_.real() * std::pow(x, chi + 1) / (chi + 1);
   }
   std::vector<double> corners() const override { return {phi_max_.real()}; }
-  double setting_scale() const override { return scale_; }
 
  private:
   Complex slip_force_;
@@ -46,7 +45,6 @@ class FourParameterBackbone final : public Backbone {
   Complex chi_;
   Complex phi_max_;
   Complex density_;  // R_0
-  double scale_;
 };
 
 }  // namespace

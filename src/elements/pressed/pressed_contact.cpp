@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "arcslip/elements/element.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "elements/pressed/arc_sums.hpp"
 
@@ -47,11 +48,6 @@ class PressedIntegrals {
     out.normal = touch_.harmonics(course_.press(), orders_);
     out.slip_fraction = course_.fraction(Phase::slip);
     out.apart_fraction = course_.fraction(Phase::apart);
-    for (std::size_t a = 0; a < orders_.size(); ++a) {
-      const auto at = static_cast<Index>(a);
-      out.energy +=
-          pi * orders_[a] * std::imag(out.tangential(at) * std::conj(sliding_.coefficients()(orders_[a])));
-    }
     normal_range(out);
   }
 
@@ -103,15 +99,9 @@ class PressedIntegrals {
   };
 
   void normal_range(PressedForce& out) const {
-    const PeriodicMotion& press = course_.press();
-    double least = press.value(0);
-    double greatest = least;
-    for (const double angle : press.derivative().zeros()) {
-      least = std::min(least, press.value(angle));
-      greatest = std::max(greatest, press.value(angle));
-    }
-    out.least_normal = std::max(0.0, least);
-    out.greatest_normal = std::max(0.0, greatest);
+    const Swing swing = Swing::at(course_.press(), course_.press().derivative().zeros());
+    out.least_normal = std::max(0.0, swing.least.value);
+    out.greatest_normal = std::max(0.0, swing.greatest.value);
   }
 
   const PressedSettings& settings_;
@@ -139,6 +129,7 @@ PressedForce pressed_force(const PressedSettings& settings, std::span<const int>
   const PressedIntegrals integrals(settings, orders, slides, closes, course);
   PressedForce out;
   integrals.forces(out);
+  out.energy = cycle_energy(orders, out.tangential, sliding);
   if (!derivatives) return out;
   integrals.by_motions(out);
   integrals.by_settings(out);

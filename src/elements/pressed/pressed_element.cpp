@@ -37,18 +37,9 @@ double PressedElement::reference_stiffness(Index coordinate) const {
 }
 
 PressedSettings PressedElement::at(double load, double setting) const {
-  const auto moved = [setting](const Jet& jet) {
-    return jet.value + setting * (jet.first + 0.5 * setting * jet.second);
-  };
-  return {moved(settings_.friction), moved(settings_.tangential), moved(settings_.normal),
-          moved(settings_.normal_force) + load * moved(settings_.normal_per_load)};
-}
-
-bool PressedElement::is_varied() const {
-  const auto& [friction, tangential, normal, normal_force, normal_per_load, reference] = settings_;
-  const auto varies = [](const Jet& jet) { return jet.first != 0 || jet.second != 0; };
-  return varies(friction) || varies(tangential) || varies(normal) || varies(normal_force) ||
-         varies(normal_per_load);
+  const auto here = [setting](const Jet& number) { return shifted(number, setting).value; };
+  return {here(settings_.friction), here(settings_.tangential), here(settings_.normal),
+          here(settings_.normal_force) + load * here(settings_.normal_per_load)};
 }
 
 bool PressedElement::rests_beyond(double load) const {
@@ -92,7 +83,7 @@ void PressedElement::force_at(std::span<const int> orders, const HarmonicVector&
   const Settings& s = settings_;
   const double per_load = s.normal_per_load.value + setting * s.normal_per_load.first;
   out.by_log_load = load * per_load * by(PressedForce::normal_force);
-  if (!is_varied()) return;
+  if (!(settings_.scale() > 0)) return;
   out.by_setting = s.friction.first * by(PressedForce::friction) +
                    s.tangential.first * by(PressedForce::tangential_stiffness) +
                    s.normal.first * by(PressedForce::normal_stiffness) +
@@ -142,23 +133,13 @@ StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVe
   return border;
 }
 
-VaryingStiffness PressedElement::stiffness_in_time(std::span<const int> /*orders*/,
-                                                   const HarmonicVector& /*x*/) const {
-  throw std::logic_error("PressedElement: what has a memory has no stiffness in time");
-}
-
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,
                             double load, bool beyond, const Way& way, ElementForce& change) const {
   const auto moved = [&](const HarmonicVector& motion, double log_load, double setting, ElementForce& out) {
     force_at(orders, motion, load * std::exp(log_load), setting, beyond, true, out);
   };
-  const Settings& s = settings_;
-  double scale = 1;  // of the setting that is continued
-  for (const Jet& jet : {s.friction, s.tangential, s.normal, s.normal_force, s.normal_per_load}) {
-    if (jet.first != 0 && jet.value != 0) scale = std::abs(jet.value / jet.first);
-  }
-  constexpr double relative = 1e-5;
-  difference(moved, x, way, scale, relative, change);
+  const double scale = settings_.scale();
+  difference(moved, x, way, scale > 0 ? scale : 1, smooth_step, change);
 }
 
 }  // namespace arcslip

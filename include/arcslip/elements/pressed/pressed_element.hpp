@@ -5,6 +5,8 @@
 // max(0, N_0), so that along g acts what this changes by: N - max(0, N_0). N_0 has a part that is
 // proportional to the load.
 
+#include <array>
+
 #include "arcslip/elements/element.hpp"
 #include "arcslip/elements/jet.hpp"
 #include "arcslip/elements/pressed/pressed_contact.hpp"
@@ -22,6 +24,11 @@ class PressedElement final : public Element {
     Jet normal_force;      ///< N_0 without load
     Jet normal_per_load;   ///< and what the load adds to it, per load
     double reference = 1;  ///< the stiffness by which the normal force is measured where k_n = 0, > 0
+
+    /// Of the setting that is continued, 0 if none is.
+    double scale() const {
+      return setting_scale(std::array{friction, tangential, normal, normal_force, normal_per_load});
+    }
   };
 
   /// Throws std::invalid_argument of settings out of their range.
@@ -39,14 +46,10 @@ class PressedElement final : public Element {
              ElementForce& out) const override;
   StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                      bool beyond) const override;
-  /// Throws std::logic_error: there is none.
-  VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
 
  private:
-  /// The settings with so much added to the one that is continued, and their rates by it.
+  /// The settings with so much added to the one that is continued.
   PressedSettings at(double load, double setting) const;
-  PressedSettings rates(double load) const;
-  bool is_varied() const;
   void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,
                 bool beyond, bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,

@@ -2,8 +2,8 @@
 
 // What the problems of base, damper and contacts in several harmonics share: the coordinates x in which
 // elements act, the regimes, which elements are beyond their border, as contacts that slip, and the
-// quantities of their motions. Whether eta, a damping ratio or the first harmonic of the
-// first coordinate is an unknown or a parameter is each problem's own matter, its layout.
+// quantities of their motions. Whether eta, a damping ratio or the first harmonic of the first coordinate is
+// an unknown or a parameter is each problem's own matter, its layout.
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
@@ -204,7 +204,7 @@ class HarmonicProblem : public continuation::Problem {
 
   /// Where a harmonic of a coordinate stands in the vectors of its element's force.
   Index place(Index coordinate, Index order) const {
-    return coordinates_.place(coordinate, order, harmonics());
+    return coordinates_[coordinate].part * harmonics() + order;
   }
 
   /// Of each element; valid until the thread's next call, whose work space it is.

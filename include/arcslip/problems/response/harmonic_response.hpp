@@ -85,9 +85,6 @@ class HarmonicResponse : public HarmonicProblem {
   /// At a solution.
   ElementForces element_forces(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
 
-  /// Whether all harmonics are odd.
-  bool is_odd() const { return is_odd_; }
-
  private:
   class LoadPath;
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -130,7 +127,7 @@ class HarmonicResponse : public HarmonicProblem {
   }
   /// Which elements are in their second state at rest.
   continuation::Regime at_rest(const Vector& p) const;
-  bool is_odd_;
+  bool is_odd_;  ///< whether all harmonics are odd
 
   /// Whether there is a response at these parameters.
   bool has_value(const Vector& p) const {
