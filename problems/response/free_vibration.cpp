@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace arcslip::problems {
 
@@ -17,6 +19,12 @@ struct FreeVibration::Order {
   double norm_damping = 0;
   double norm_varied = 0;
 };
+
+FreeVibration::FreeVibration(HarmonicSystem system, Layout layout)
+    : HarmonicProblem(std::move(system), layout) {
+  if (!all_odd(system_.orders))
+    throw std::invalid_argument("FreeVibration: the mean and even harmonics are those of forced responses");
+}
 
 /// The unknowns that are no motion stand in front.
 double FreeVibration::length(const Vector& u, const Vector& p) const {
@@ -84,6 +92,23 @@ bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuatio
   return true;
 }
 
+/// The derivative of a row but for its weight by the further parameter.
+Complex FreeVibration::by_varied(const Order& order, Index coordinate,
+                                 const std::vector<ElementForce>& elements, Complex residual, const Vector& u,
+                                 const Vector& p) const {
+  const SystemParameter::At varied = variation(u, p);
+  Complex sum = -residual * (0.5 * order.norm_varied / order.norm);
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    const ElementForce& element = elements[at(j)];
+    Complex force_rate = element.by_log_load(order.which) * log_load_rate(j, u, p) +
+                         element.harmonics(order.which) * log_force_rate(j, varied);
+    if (element.by_setting.size() > 0) force_rate += element.by_setting(order.which);
+    sum += order.compliance_varied(coordinate, j) * element.harmonics(order.which) +
+           order.compliance(coordinate, j) * force_rate;
+  }
+  return sum;
+}
+
 void FreeVibration::fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
                              const Vector& u, const Vector& p, const continuation::Evaluation& out) const {
   const Index n = harmonics();
@@ -115,19 +140,7 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
     by_eta += order.compliance_eta(coordinate, j) * force;
     by_damping += order.compliance_damping(coordinate, j) * force;
   }
-  if (is_varied()) {
-    const SystemParameter::At varied = variation(u, p);
-    Complex by_varied = -residual * (0.5 * order.norm_varied / order.norm);
-    for (Index j = 0; j < coordinates_.size(); ++j) {
-      const ElementForce& element = elements[at(j)];
-      Complex force_rate = element.by_log_load(order.which) * log_load_rate(j, u, p) +
-                           element.harmonics(order.which) * log_force_rate(j, varied);
-      if (element.by_setting.size() > 0) force_rate += element.by_setting(order.which);
-      by_varied += order.compliance_varied(coordinate, j) * element.harmonics(order.which) +
-                   order.compliance(coordinate, j) * force_rate;
-    }
-    store_at(layout_.varied, by_varied);
-  }
+  if (is_varied()) store_at(layout_.varied, by_varied(order, coordinate, elements, residual, u, p));
   const Complex by_load = by_log_load / pressing(u, p);
   store_at(layout_.preload, by_load);
   store_at(layout_.eta, by_eta + by_load * (2 * growth(u, p) * frequency(u, p)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/elements/memoryless.hpp"
@@ -197,4 +198,9 @@ TEST_CASE("One-way responses of one contact are those of the scalar equation", "
     CAPTURE(i, eta);
     for (Index k = 0; k < 9; ++k) CHECK_THAT(found(k), WithinRel(expected(k), 1e-8) || WithinAbs(0, 1e-12));
   }
+}
+
+TEST_CASE("Vibration without a load takes odd harmonics alone") {
+  CHECK_NOTHROW(HarmonicCycle(two_contacts({1, 3}, 1)));
+  CHECK_THROWS_AS(HarmonicCycle(two_contacts({1, 2, 3}, 1)), std::invalid_argument);
 }

@@ -20,7 +20,8 @@ class FreeVibration : public HarmonicProblem {
                               const continuation::Evaluation& out) const override;
 
  protected:
-  using HarmonicProblem::HarmonicProblem;
+  /// Throws std::invalid_argument as HarmonicProblem does, and where not all harmonics are odd.
+  FreeVibration(HarmonicSystem system, Layout layout);
 
   /// Re x_1 of the first coordinate.
   double amplitude(const Vector& u, const Vector& p) const { return value(layout_.real, u, p); }
@@ -31,6 +32,8 @@ class FreeVibration : public HarmonicProblem {
  private:
   struct Order;
   Order order(Index which, const Vector& u, const Vector& p, const continuation::Regime& regime) const;
+  Complex by_varied(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
+                    Complex residual, const Vector& u, const Vector& p) const;
   void fill_row(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,
                 const Vector& u, const Vector& p, const continuation::Evaluation& out) const;
 };
