@@ -24,6 +24,11 @@ std::vector<Index> tracked_observables(const Problem& problem, const TraceOption
   return tracked;
 }
 
+bool looks_for_pairs(const Problem& problem, const TraceOptions& options) {
+  constexpr Index many = 24;
+  return options.branch_point_pairs.value_or(problem.switch_count() <= 1 || problem.size() <= many);
+}
+
 constexpr double first_step = 1e-6;  // of the largest: where a corner may have made the last one shorter
 
 /// Ends a branch in the midst of a step.
@@ -40,7 +45,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       parameter_(index_of(problem.parameter_names(), options.parameter)),
       corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
-               options.branch_point_pairs, options.tolerances),
+               looks_for_pairs(problem, options), options.tolerances),
       watch_(problem, options.events),
       targets_(problem, parameter_, options) {
   state_.distance = 0.1 * options.max_step;

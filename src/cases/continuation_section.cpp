@@ -52,6 +52,12 @@ const KeyTable<continuation::TraceOptions>& continuation_keys() {
        K("max_step", &S::max_step, up_to(1), "largest step", unit("scaled arclength")),
        K("min_step", &S::min_step, {" > 0 and <= max_step", least_step},
          "smallest step; a branch that asks for less has ended", unit("scaled arclength")),
+       K::special(
+           "branch_point_pairs", "true or false", "whether two branch points within one step are looked for",
+           [](S& options, const TomlSection& section) {
+             options.branch_point_pairs = section.boolean("branch_point_pairs");
+           },
+           otherwise("true, but with several contacts and more than 24 unknowns false")),
        K("max_points", &S::max_points, at_least(2, INT_MAX), "of a branch, at most"),
        K("stop_at", &S::stop_at, {" from `from` to `to`", range},
          "values of the parameter to land on exactly; in a study preloads at which every peak gets a row"),

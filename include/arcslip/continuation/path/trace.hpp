@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,8 +47,10 @@ struct TraceOptions {
   std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
   std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
   /// Whether two branch points within one step are looked for, where the Jacobian's determinant leaves room.
-  /// A problem that is known to have none is traced faster without, where its Jacobian jumps often.
-  bool branch_point_pairs = true;
+  /// By default they are, but with several switches and more than 24 unknowns: there the determinant jumps
+  /// and changes so fast that nearly every step leaves room. A problem that is known to have none is traced
+  /// faster without.
+  std::optional<bool> branch_point_pairs;
   /// Whether, at a corner within its regime that no step can pass, the branch is looked for where it goes
   /// back.
   bool turns_at_corners = true;
