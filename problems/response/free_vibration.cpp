@@ -138,6 +138,8 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
     const Complex force = elements[at(j)].harmonics(order.which);
     by_log_load += order.compliance(coordinate, j) * elements[at(j)].by_log_load(order.which);
     by_eta += order.compliance_eta(coordinate, j) * force;
+    const HarmonicVector& viscous = elements[at(j)].by_eta;
+    if (viscous.size() > 0) by_eta += order.compliance(coordinate, j) * viscous(order.which);
     by_damping += order.compliance_damping(coordinate, j) * force;
   }
   if (is_varied()) store_at(layout_.varied, by_varied(order, coordinate, elements, residual, u, p));

@@ -18,7 +18,8 @@ class HarmonicProblem::Observation {
         p_(p),
         regime_(regime),
         gradient_(gradient),
-        elements_(problem.forces(u, p, regime, gradient != nullptr)) {}
+        elements_(problem.forces(u, p, regime, gradient != nullptr)),
+        work_(last_forces()) {}
 
   /// A quantity; its gradient is added.
   double value(const Quantity& quantity) {
@@ -163,6 +164,7 @@ class HarmonicProblem::Observation {
     }
     add_log_load(std::real(w * element.by_log_load(row)), of);
     add_log_force(of, std::real(w * element.harmonics(row)));
+    if (element.by_eta.size() > 0) add(problem_.layout_.eta, std::real(w * element.by_eta(row)));
     if (element.by_setting.size() > 0) add(problem_.layout_.varied, std::real(w * element.by_setting(row)));
   }
 
@@ -185,7 +187,7 @@ class HarmonicProblem::Observation {
     const Response& response;
     bool is_base;
     Index index;
-    ContactVector forces;
+    const ContactVector& forces;
 
     Complex times(const ContactMatrix& compliance) const {
       return (compliance.row(index).head(forces.size()) * forces).value();
@@ -195,10 +197,10 @@ class HarmonicProblem::Observation {
     const ContactOutput* output = of == Body::output ? &system_.outputs[at(which)] : nullptr;
     const ContactModes* structure = output != nullptr ? &output->modes : &system_.damper[at(order)];
     const bool is_base = output != nullptr && output->on_base;
-    if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, response_);
+    if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, work_.response);
     responded_ = structure;
-    return {response_, is_base, output != nullptr ? problem_.contacts() : which,
-            problem_.coordinates_.forces_on(is_base, elements_, order)};
+    problem_.coordinates_.forces_on(is_base, elements_, order, work_.on_structure);
+    return {work_.response, is_base, output != nullptr ? problem_.contacts() : which, work_.on_structure};
   }
 
   const HarmonicProblem& problem_;
@@ -208,8 +210,8 @@ class HarmonicProblem::Observation {
   continuation::Regime regime_;
   continuation::Gradient* gradient_;
   const std::vector<ElementForce>& elements_;
+  Forces& work_;
   const ContactModes* responded_ = nullptr;
-  Response response_;
 };
 
 std::vector<continuation::Observable> HarmonicProblem::observables() const {

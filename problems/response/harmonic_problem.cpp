@@ -5,15 +5,6 @@
 
 namespace arcslip::problems {
 
-/// Forces of all elements with what they were found for: work space of a thread.
-struct HarmonicProblem::Forces {
-  std::vector<int> orders;
-  Vector unknowns;
-  Vector parameters;
-  continuation::Regime regime;
-  std::vector<ElementForce> of_elements;
-};
-
 HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
     : system_(std::move(system)), coordinates_(system_), layout_(layout) {
   check(system_);
@@ -63,12 +54,21 @@ const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const 
   for (Index e = 0; e < coordinates_.elements(); ++e) {
     ElementForce& force = last.of_elements[at(e)];
     with_element(e, u, p, [&](const Element& element) {
-      element.force(system_.orders, element_motion(u, p, e), load(e, u, p), slips(regime, e), derivatives,
-                    force);
+      const HarmonicVector x = element_motion(u, p, e);
+      element.force(system_.orders, x, load(e, u, p), slips(regime, e), derivatives, force);
+      force.by_eta.resize(0);
+      if (const auto viscous = viscous_of(element, u, p)) force.add(*viscous, x, derivatives);
     });
     if (const double factor = force_factor(e, u, p); factor != 1) force.scale(factor, derivatives);
   }
   return last.of_elements;
+}
+
+std::optional<ElementForce::Viscous> HarmonicProblem::viscous_of(const Element& element, const Vector& u,
+                                                                 const Vector& p) const {
+  const Jet damping = element.damping();
+  if (damping.value == 0 && damping.first == 0) return std::nullopt;
+  return ElementForce::Viscous{damping, frequency(u, p), system_.orders};
 }
 
 /// Known where the forces were last found, as at each point that a corrector ends on; else null.
@@ -114,7 +114,8 @@ void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index
     by_varied = is_base ? varied.rate.base : varied.rate.damper;
   }
   if (!is_damped && !is_varied()) {
-    static_cast<ContactReceptance&>(response) = structure.at(h * eta);
+    response.set_zero(structure.contacts());
+    structure.add(h * eta, response);
     response.compliance_eta *= h;
     response.free_eta *= h;
     return;

@@ -57,8 +57,8 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
   const std::vector<ElementForce>& all = forces(u, p, regime, false);
   ElementForces sum{{}, {}, 0};
   for (Index a = 0; a < harmonics(); ++a) {
-    sum.base.push_back(coordinates_.forces_on(true, all, a));
-    sum.damper.push_back(coordinates_.forces_on(false, all, a));
+    coordinates_.forces_on(true, all, a, sum.base.emplace_back());
+    coordinates_.forces_on(false, all, a, sum.damper.emplace_back());
   }
   for (const ElementForce& one : all) sum.energy += one.energy;
   return sum;
@@ -92,7 +92,8 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
   if (is_varied()) {
     set_varied(order, h * p(eta), p);
   } else {
-    coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * p(eta), joint);
+    coordinates_.receptance(system_.base[at(which)], system_.damper[at(which)], h * p(eta), order.each,
+                            joint);
   }
   if (all_stick(regime) && is_odd_ && which > 0 && !coordinates_.has_others() &&
       joint.free.isZero(0)) {  // x_h = 0, also where C_h has a resonance
@@ -206,16 +207,20 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   by_loads([](Index) { return 1.0; }, weight / pressing({}, p));
   store(column, which, harmonics(), parameter_jacobian->col(preload));
   column *= 2 * growth({}, p) * p(eta);
+  const auto add_forces = [&](HarmonicVector ElementForce::*rates) {
+    for (Index j = 0; j < m; ++j) {
+      const HarmonicVector& rate = elements[at(coordinates_.element_of(j))].*rates;
+      order.f(j) = rate.size() > 0 ? rate(place(j, which)) / order.stiffness(j) : 0;
+    }
+    column += weight * order.f;
+    column.noalias() -= weight * (order.inverse * order.f);
+  };
+  add_forces(&ElementForce::by_eta);
   add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
   if (is_varied()) {
     by_loads([&](Index e) { return log_load_rate(e, {}, p); }, weight);
-    for (Index j = 0; j < m; ++j) {
-      const HarmonicVector& by_setting = elements[at(coordinates_.element_of(j))].by_setting;
-      order.f(j) = by_setting.size() > 0 ? by_setting(place(j, which)) / order.stiffness(j) : 0;
-    }
-    column += weight * order.f;
-    column.noalias() -= weight * (order.inverse * order.f);
+    add_forces(&ElementForce::by_setting);
     add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
     store(column, which, harmonics(), parameter_jacobian->col(further));
   }
@@ -228,13 +233,10 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
 /// Adds to the column in `gap` what changes of 1 + C_h K and of -x0 do, and of the weight by them.
 void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compliance,
                                        const ContactVector& free, double share, double weight) const {
-  Complex slope = 0;  // of the weight's logarithm, over its square
-  ContactVector turned;
-  for (Index j = 0; j < coordinates_.size(); ++j) {
-    order.f.noalias() = compliance * order.inverse.col(j);
-    turned.noalias() = order.inverse * order.f;
-    slope += order.inverse.col(j).dot(turned);
-  }
+  order.product.noalias() = compliance * order.inverse;
+  order.turned.noalias() = order.inverse * order.product;
+  const Complex slope =  // of the weight's logarithm, over its square
+      order.inverse.conjugate().cwiseProduct(order.turned).sum();
   order.f = share * free;
   order.f.noalias() -= compliance * order.held;
   order.gap += (order.weight * order.weight * slope.real()) * order.residual;

@@ -23,8 +23,11 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
     unscaled.scale(1 / factor, true);
     const Element::Way way{element_motion(du, {}, e), own_log_load, varied ? dp(further) : 0};
     ElementForce change = with_element(e, u, p, [&](const Element& element) {
-      return element.change(unscaled, system_.orders, element_motion(u, {}, e), load(e, u, p),
-                            slips(regime, e), way);
+      const HarmonicVector x = element_motion(u, {}, e);
+      ElementForce moved = element.change(unscaled, system_.orders, x, load(e, u, p), slips(regime, e), way);
+      if (const auto viscous = viscous_of(element, u, p))
+        moved.add_change(*viscous, x, way.motion, dp(eta), way.setting);
+      return moved;
     });
     change.scale(factor, true);
     if (varied) change.add(elements[at(e)], log_force_rate(e, *varied) * dp(further));

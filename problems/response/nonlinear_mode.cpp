@@ -48,7 +48,8 @@ NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p,
   double square = 0;
   Complex load = 0;
   const auto add = [&](const ContactModes& structure, bool is_base) {
-    const ContactVector on_dofs = coordinates_.forces_on(is_base, elements, 0);
+    ContactVector on_dofs;
+    coordinates_.forces_on(is_base, elements, 0, on_dofs);
     for (const ContactMode& mode : structure.modes()) {
       const Complex d =
           ModalDenominator(u(Unknown::frequency), mode.frequency, structure.loss() + Loss{.mass = mass})

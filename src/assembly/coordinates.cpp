@@ -15,9 +15,9 @@ namespace {
 
 /// The numbers of an element at a node, with derivatives by one of the settings where that has a value of its
 /// own.
-ElementKind::Values values_of(const PlacedElement& placed, double nodes, double usual_stiffness,
+ElementKind::Values values_of(const PlacedElement& placed, double nodes, double rate, double usual_stiffness,
                               Index varied = -1, double value = 0) {
-  ElementKind::Values values{{}, usual_stiffness};
+  ElementKind::Values values{{}, usual_stiffness, rate};
   for (Index i = 0; i < std::ssize(placed.settings); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double share = placed.kind->settings[k].scales_force ? 1 / nodes : 1;
@@ -46,6 +46,7 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
     }
   }
   const double nodes = structures_of(parameters).nodes(parameters);
+  const double rate = structures_of(parameters).circular_frequency();
   for (std::size_t k = 0; k < parameters.others.size(); ++k) {
     const PlacedElement& placed = parameters.others[k];
     using Place = PlacedElement::Place;
@@ -57,10 +58,12 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
     Coordinate closing{side * base, side * damper, placed.normal, nullptr};
     const double usual = usual_stiffness(placed.kind->closes ? closing : one);
     one.name = element_name(parameters, k);
-    one.element = placed.kind->make(values_of(placed, nodes, usual));
+    one.element = placed.kind->make(values_of(placed, nodes, rate, usual));
     for (Index i = 0; i < std::ssize(placed.settings); ++i) {
       if (setting_name(parameters, k, static_cast<std::size_t>(i)) != parameters.varied) continue;
-      one.varied = [=](double value) { return placed.kind->make(values_of(placed, nodes, usual, i, value)); };
+      one.varied = [=](double value) {
+        return placed.kind->make(values_of(placed, nodes, rate, usual, i, value));
+      };
     }
     closing.element = one.element;
     closing.part = 1;
@@ -92,16 +95,20 @@ Coordinates::Coordinates(const HarmonicSystem& system)
     if (++switches_ < elements())
       throw std::invalid_argument("Coordinates: elements with a border must come first");
   }
-  if (size() > most_contacts) throw std::invalid_argument("Coordinates: too many elements");
 }
 
 void Coordinates::receptance(const ContactModes& base, const ContactModes& damper, double frequency,
-                             ContactReceptance& joint) const {
-  joint.set_zero(contacts_);
-  base.add(frequency, joint);
-  if (!has_others() && !spares_base_) return damper.add(frequency, joint);
-  const ContactReceptance of_base = joint;
-  join(of_base, damper.at(frequency), joint);
+                             Each& each, ContactReceptance& joint) const {
+  if (!has_others() && !spares_base_) {
+    joint.set_zero(contacts_);
+    base.add(frequency, joint);
+    return damper.add(frequency, joint);
+  }
+  each.base.set_zero(contacts_);
+  base.add(frequency, each.base);
+  each.damper.set_zero(contacts_);
+  damper.add(frequency, each.damper);
+  join(each.base, each.damper, joint);
 }
 
 void Coordinates::join(const ContactReceptance& of_base, const ContactReceptance& of_damper,
@@ -125,15 +132,14 @@ void Coordinates::add(const ContactMatrix& compliance, bool is_base, ContactMatr
   }
 }
 
-ContactVector Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces,
-                                     Index order) const {
-  ContactVector sum = ContactVector::Zero(contacts_);
+void Coordinates::forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
+                            ContactVector& sum) const {
+  sum.setZero(contacts_);
   for (Index i = 0; i < size(); ++i) {
     const HarmonicVector& force = forces[static_cast<std::size_t>(element_of(i))].harmonics;
     const Index orders = force.size() / element(element_of(i)).coordinates();
     sum((*this)[i].dof) -= (*this)[i].push(is_base) * force((*this)[i].part * orders + order);
   }
-  return sum;
 }
 
 }  // namespace arcslip

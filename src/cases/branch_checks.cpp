@@ -73,6 +73,10 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
+    if (one.kind->is_viscous)
+      section.fail("stability",
+                   fmt::format("not beside element '{}', which is no stiffness; a damping matrix may hold it",
+                               one.kind->name));
   }
   if (!all_odd(system.harmonics))
     section.fail("stability", "not beside even harmonics and the mean, which elements that are not odd need");

@@ -133,7 +133,6 @@ void read_elements(const TomlDocument& document, SystemParameters& system) {
   if (node == nullptr) return;
   if (!node->is_array_of_tables()) document.mismatch(*node, "element", "tables [[element]]");
   const auto contacts = std::max<Index>(1, std::ssize(system.contacts));
-  Index coordinates = contacts + (system.cubic_stiffness != 0 ? contacts : 0);
   for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
     const TomlSection section(document, *node->as_array()->get(i)->as_table(), fmt::format("element[{}]", i));
     PlacedElement placed;
@@ -143,10 +142,6 @@ void read_elements(const TomlDocument& document, SystemParameters& system) {
     check_dofs(section, placed, contacts);
     if (system.fixed_damper && placed.place == PlacedElement::Place::damper)
       section.fail("at", "there is no damper that moves");
-    coordinates += placed.kind->closes ? 2 : 1;
-    if (coordinates > most_contacts)
-      section.fail("kind",
-                   fmt::format("more than {} contacts and coordinates of elements at a node", most_contacts));
     system.others.push_back(std::move(placed));
     check_names(section, system);
   }

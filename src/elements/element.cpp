@@ -26,14 +26,47 @@ void ElementForce::scale(double factor, bool derivatives) {
   if (!derivatives) return;
   by_log_load *= factor;
   by_setting *= factor;
+  by_eta *= factor;
   linear *= factor;
   conjugate *= factor;
+}
+
+void ElementForce::add(const Viscous& viscous, const HarmonicVector& x, bool derivatives) {
+  const auto& [damping, eta, orders] = viscous;
+  if (derivatives) by_eta.setZero(x.size());
+  if (derivatives && damping.first != 0 && by_setting.size() == 0) by_setting.setZero(x.size());
+  for (Index a = 0; a < x.size(); ++a) {
+    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)]);
+    const Complex force = damping.value * eta * rate * x(a);
+    harmonics(a) += force;
+    energy += 0.5 * std::real(force * std::conj(rate * x(a)));  // pi h Im(f conj x)
+    if (!derivatives) continue;
+    linear(a, a) += damping.value * eta * rate;
+    by_eta(a) = damping.value * rate * x(a);
+    if (damping.first != 0) by_setting(a) += damping.first * eta * rate * x(a);
+  }
+}
+
+void ElementForce::add_change(const Viscous& viscous, const HarmonicVector& x, const HarmonicVector& dx,
+                              double deta, double setting) {
+  const auto& [damping, eta, orders] = viscous;
+  by_eta.resize(x.size());
+  for (Index a = 0; a < x.size(); ++a) {
+    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)]);
+    const Complex per_eta = damping.value * rate;  // of linear
+    const Complex per_setting = damping.first * eta * rate;
+    harmonics(a) += per_eta * x(a) * deta;
+    linear(a, a) += per_eta * deta + per_setting * setting;
+    by_eta(a) = per_eta * dx(a) + damping.first * rate * x(a) * setting;
+    if (damping.first != 0) by_setting(a) += per_setting * dx(a) + damping.first * rate * x(a) * deta;
+  }
 }
 
 void ElementForce::add(const ElementForce& change, double part) {
   harmonics += part * change.harmonics;
   by_log_load += part * change.by_log_load;
   by_setting += part * change.by_setting;
+  by_eta += part * change.by_eta;
   linear += part * change.linear;
   conjugate += part * change.conjugate;
 }

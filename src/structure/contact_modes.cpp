@@ -3,22 +3,30 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
 namespace arcslip {
+namespace {
+
+constexpr Index few = 16;  // contacts, of which products by entries are faster than calls
+
+}  // namespace
 
 ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss)
     : contacts_(contacts), modes_(std::move(modes)), loss_(loss) {
-  if (contacts < 1 || contacts > most_contacts)
-    throw std::invalid_argument(
-        fmt::format("ContactModes: from 1 to {} contacts, not {}", most_contacts, contacts));
+  if (contacts < 1)
+    throw std::invalid_argument(fmt::format("ContactModes: 1 contact or more, not {}", contacts));
   for (const ContactMode& mode : modes_) {
     if (mode.shape.size() != contacts)
       throw std::invalid_argument("ContactModes: every shape needs one entry for each contact");
   }
+  if (contacts <= few) return;
+  shapes_.resize(contacts, std::ssize(modes_));
+  for (Index k = 0; k < shapes_.cols(); ++k) shapes_.col(k) = modes_[static_cast<std::size_t>(k)].shape;
 }
 
 ContactModes ContactModes::solved_by(Receptance receptance, double load, ReceptanceWork work) const {
@@ -40,7 +48,11 @@ ContactModes ContactModes::with_driven_motion() const {
 
 void invert(ContactMatrix& a) {
   const Index m = a.rows();
-  std::array<Index, most_contacts> rows;
+  if (m > few) {
+    a = ContactMatrix(a.partialPivLu().inverse());
+    return;
+  }
+  std::array<Index, few> rows;
   for (Index k = 0; k < m; ++k) {
     Index& best = rows[static_cast<std::size_t>(k)] = k;
     for (Index i = k + 1; i < m; ++i) {
@@ -86,6 +98,7 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
     sum.free_eta += response.free_eta;
     return;
   }
+  if (shapes_.size() > 0) return add_many(eta, sum);
   for (const ContactMode& mode : modes_) {
     const ModalDenominator d(eta, mode.frequency, loss_);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
@@ -99,6 +112,23 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
     sum.free += (mode.load * inverse) * mode.shape;
     sum.free_eta += (mode.load * slope) * mode.shape;
   }
+}
+
+void ContactModes::add_many(double eta, ContactReceptance& sum) const {
+  ComplexVector inverse(shapes_.cols());
+  ComplexVector slope(shapes_.cols());
+  ComplexVector load(shapes_.cols());
+  for (Index k = 0; k < shapes_.cols(); ++k) {
+    const ContactMode& mode = modes_[static_cast<std::size_t>(k)];
+    const ModalDenominator d(eta, mode.frequency, loss_);
+    inverse(k) = std::conj(d.value) / std::norm(d.value);
+    slope(k) = -inverse(k) * inverse(k) * d.by_eta;
+    load(k) = mode.load;
+  }
+  sum.compliance.noalias() += shapes_ * inverse.asDiagonal() * shapes_.adjoint();
+  sum.compliance_eta.noalias() += shapes_ * slope.asDiagonal() * shapes_.adjoint();
+  sum.free.noalias() += shapes_ * inverse.cwiseProduct(load);
+  sum.free_eta.noalias() += shapes_ * slope.cwiseProduct(load);
 }
 
 CycleWork ContactModes::work(double eta, const ContactVector& forces) const {

@@ -161,6 +161,46 @@ TEST_CASE("A linear spring of an element is one of the structure", "[cases]") {
   }
 }
 
+TEST_CASE("A dashpot is damping of the structure, in responses, curves of peaks and resonances", "[cases]") {
+  const double more = GENERATE(0.003, 0.2);  // of zeta: C = 2 zeta K
+  const int highest = GENERATE(1, 5);
+  const auto text = [&](double zeta, const std::string& rest) {
+    return fmt::format(
+               "[system]\nmodel = \"spring_mass\"\nbase = {{ mass = [2.0], stiffness = [3.0] }}\n"
+               "contact_stiffness = 1.5\nlimit_per_preload = 0.8\npreload = 0.5\nforce = 1.2\nharmonics = "
+               "{}\n"
+               "damping_kind = \"viscous\"\ndamping = {{ base = {:.17g} }}\n",
+               highest, zeta) +
+           rest;
+  };
+  const std::string dashpot =
+      fmt::format("[[element]]\nkind = \"dashpot\"\nat = \"base\"\ndamping = {:.17g}\n", 2 * more * 3);
+  const std::string task = GENERATE(
+      "[branch]\nparameter = \"eta\"\nfrom = 0.2\nto = 5\n[continuation]\nstop_at = [0.4, 1.2, 1.9]\n",
+      "[branch]\ncurve = \"peak\"\nparameters = [\"eta\", \"P\"]\nwindow = [0.8, 2.0]\nfrom = 0.3\nto = 1.5\n"
+      "[continuation]\nstop_at = [0.5, 1.0]\n");
+  std::array<std::vector<double>, 2> heights;
+  for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
+    const Case input =
+        case_texts::read_text(which == 0 ? text(0.01, dashpot + task) : text(0.01 + more, task));
+    for (const TracedBranch& one : trace(input.branches[0])) {
+      INFO(one.branch.explanation);
+      CHECK(one.branch.complete());
+      for (const continuation::BranchPoint& point : one.branch.points) {
+        if (point.type == continuation::PointType::regular) continue;
+        for (const char* name : {"eta", "P", "Y", "dissipated"})
+          heights[which].push_back(value(one, point, name));
+      }
+    }
+  }
+  REQUIRE(heights[0].size() >= 12);
+  REQUIRE(heights[0].size() == heights[1].size());
+  for (std::size_t i = 0; i < heights[0].size(); ++i) {
+    INFO(i);
+    CHECK_THAT(heights[0][i], WithinRel(heights[1][i], 1e-8));
+  }
+}
+
 TEST_CASE("Microslip takes part in branches, studies and derivatives, and is refused where it has no law") {
   const std::string masses =
       "[system]\nmodel = \"spring_mass\"\nbase = { mass = [1.0], stiffness = [1.0] }\ncontact_stiffness = "

@@ -70,8 +70,12 @@ class Coordinates {
   /// Whether elements act but at the contacts.
   bool has_others() const { return size() > contacts_; }
 
-  /// C of one order, and -x0 as its `free`, with their derivatives.
-  void receptance(const ContactModes& base, const ContactModes& damper, double frequency,
+  /// C of one order, and -x0 as its `free`, with their derivatives; `each` is work space.
+  struct Each {
+    ContactReceptance base;    ///< the structure's own
+    ContactReceptance damper;  ///< the same
+  };
+  void receptance(const ContactModes& base, const ContactModes& damper, double frequency, Each& each,
                   ContactReceptance& joint) const;
 
   /// The same of structures whose responses are known.
@@ -82,7 +86,8 @@ class Coordinates {
   void add(const ContactMatrix& compliance, bool is_base, ContactMatrix& sum) const;
 
   /// Forces on the contact dofs of a structure in one order, -G^T f.
-  ContactVector forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order) const;
+  void forces_on(bool is_base, const std::vector<ElementForce>& forces, Index order,
+                 ContactVector& sum) const;
 
  private:
   std::vector<Coordinate> all_;

@@ -61,6 +61,9 @@ class Structures {
   /// The number of nodes whose forces together are what case files call a force.
   virtual double nodes(const SystemParameters& /*system*/) const { return 1; }
 
+  /// w over eta, in the time that its masses are given in.
+  virtual double circular_frequency() const { return two_pi; }
+
   /// Numbers of its own that may be continued, beside those of all systems.
   virtual std::vector<SystemParameter> parameters(const SystemParameters& /*system*/) const { return {}; }
 

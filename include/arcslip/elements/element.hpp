@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/elements/jet.hpp"
 #include "arcslip/elements/piecewise_law.hpp"
 #include "arcslip/elements/varying_stiffness.hpp"
 #include "arcslip/motion/swing.hpp"
@@ -23,6 +24,7 @@ struct ElementForce {
   HarmonicVector harmonics;      ///< f_h, against x
   HarmonicVector by_log_load;    ///< df_h/d ln(load)
   HarmonicVector by_setting;     ///< df_h by a setting of the element that is continued; empty if none is
+  HarmonicVector by_eta = {};    ///< df_h/deta of what is viscous; empty if nothing is
   ComplexMatrix linear;          ///< harmonics of all coordinates, squared
   ComplexMatrix conjugate;       ///< the same
   double energy = 0;             ///< lost per cycle
@@ -34,6 +36,20 @@ struct ElementForce {
 
   /// By a factor on the force.
   void scale(double factor, bool derivatives);
+
+  /// A force c dx/dt in time t, of which a period is 1/eta; one coordinate.
+  struct Viscous {
+    Jet damping;                  ///< c
+    double eta;                   ///< frequency
+    std::span<const int> orders;  ///< h
+  };
+
+  /// Adds it, under the motion x.
+  void add(const Viscous& viscous, const HarmonicVector& x, bool derivatives);
+
+  /// Adds to the change of a force what is viscous does to derivatives, as x, eta and the setting change.
+  void add_change(const Viscous& viscous, const HarmonicVector& x, const HarmonicVector& dx, double deta,
+                  double setting);
 
   /// Adds so much of a change.
   void add(const ElementForce& change, double part);
@@ -88,6 +104,9 @@ class Element {
   /// where the sizes are those of before.
   virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                      bool derivatives, ElementForce& out) const = 0;
+
+  /// c of a force c dx/dt that acts beside the one that `force` gives, of one coordinate.
+  virtual Jet damping() const { return 0; }
 
   /// A way in which x, ln(load) and a setting that is continued change.
   struct Way {

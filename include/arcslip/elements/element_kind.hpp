@@ -20,6 +20,7 @@ struct ElementKind {
   struct Values {
     std::vector<Jet> settings;   ///< in their order, with derivatives by one of them if it is continued
     double usual_stiffness = 1;  ///< the static one that its coordinate meets, > 0
+    double rate = two_pi;        ///< w over eta, in the time that the structure's masses are given in
   };
 
   std::string name;     ///< what case files call it
@@ -32,6 +33,7 @@ struct ElementKind {
   std::vector<Value> settings;                                        ///< all of them
   std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values
   bool has_memory = false;       ///< whether its force follows from the way that the motion has taken
+  bool is_viscous = false;       ///< whether its force follows from the velocity
   bool is_odd = true;            ///< whether an odd motion meets an odd force
   bool takes_any_orders = true;  ///< whether even orders and 0 may be balanced beside it
   bool closes = false;           ///< whether it acts along a second, closing coordinate

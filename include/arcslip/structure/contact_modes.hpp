@@ -15,13 +15,12 @@
 
 namespace arcslip {
 
-/// Of a sector, one of them perhaps an output; vectors and matrices of contacts live on the stack.
-inline constexpr int most_contacts = 13;
 /// One entry for each contact, and one row and column.
-using ContactVector = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, most_contacts, 1>;
-using ContactMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, most_contacts, most_contacts>;
+using ContactVector = ComplexVector;
+using ContactMatrix = ComplexMatrix;
 
-/// Inverts in place, by elimination with partial pivoting: calls would cost more than arithmetic.
+/// Inverts in place, with partial pivoting. Allocates nothing for up to 16 rows, of which calls would cost
+/// more than arithmetic.
 void invert(ContactMatrix& a);
 
 /// Response at m contacts for a given eta, with its derivatives in eta.
@@ -74,8 +73,7 @@ struct ContactMode {
 /// Immutable; may be used from several threads.
 class ContactModes {
  public:
-  /// All shapes have `contacts` entries. Throws std::invalid_argument where they do not, or for more contacts
-  /// than `most_contacts`.
+  /// All shapes have `contacts` >= 1 entries. Throws std::invalid_argument where they do not.
   ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss);
 
   /// The same structure with its response by `receptance` under this factor of its load, whatever its
@@ -117,8 +115,11 @@ class ContactModes {
   }  ///< whether its response is not that of the modes
 
  private:
+  void add_many(double eta, ContactReceptance& sum) const;
+
   Index contacts_;
   std::vector<ContactMode> modes_;
+  ComplexMatrix shapes_;  // of the modes, contacts x modes, where there are many contacts
   Loss loss_;
   Receptance receptance_;  // in place of the sum, if there is one
   ReceptanceWork receptance_work_;

@@ -74,6 +74,8 @@ class SpringMass : public Structures {
     return {.base_per_zeta = loss, .damper_per_zeta = loss};
   }
 
+  double circular_frequency() const override { return 1; }
+
  private:
   SpringMassChain base_;
   std::optional<SpringMassChain> damper_;

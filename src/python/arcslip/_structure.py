@@ -44,8 +44,8 @@ class Structure:
         for key, function in functions.items():
             if not callable(function) and (key == "base" or function is not None):
                 raise TypeError(f"structure '{name}': {key}: expected a function, got {function!r}")
-        if contacts != int(contacts) or not 1 <= contacts <= 12:
-            raise ValueError(f"structure '{name}': contacts: expected an integer from 1 to 12, got {contacts!r}")
+        if contacts != int(contacts) or contacts < 1:
+            raise ValueError(f"structure '{name}': contacts: expected an integer > 0, got {contacts!r}")
         self.name = name
         self.base = base
         self.damper = damper

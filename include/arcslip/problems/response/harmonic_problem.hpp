@@ -202,6 +202,10 @@ class HarmonicProblem : public continuation::Problem {
            force_factor(element, u, p);
   }
 
+  /// What an element's force has beside what follows from its displacement, if there is any.
+  std::optional<ElementForce::Viscous> viscous_of(const Element& element, const Vector& u,
+                                                  const Vector& p) const;
+
   /// Where a harmonic of a coordinate stands in the vectors of its element's force.
   Index place(Index coordinate, Index order) const {
     return coordinates_[coordinate].part * harmonics() + order;
@@ -231,7 +235,17 @@ class HarmonicProblem : public continuation::Problem {
   std::vector<Quantity> quantities_;  ///< the observables
 
  private:
-  struct Forces;
+  /// Forces of all elements with what they were found for, and what quantities are found by: work space of a
+  /// thread.
+  struct Forces {
+    std::vector<int> orders;
+    Vector unknowns;
+    Vector parameters;
+    continuation::Regime regime;
+    std::vector<ElementForce> of_elements;
+    Response response;
+    ContactVector on_structure;
+  };
   static Forces& last_forces();
   void set_damping(bool is_base, const Vector& u, const Vector& p, Variation& here, Variation& by_varied,
                    Variation& by_damping) const;

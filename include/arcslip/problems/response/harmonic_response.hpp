@@ -96,13 +96,15 @@ class HarmonicResponse : public HarmonicProblem {
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
   struct Order {
     Index which;
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_contacts, 1> stiffness;  // K
+    Vector stiffness;         // K
     ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
     ContactVector free_by_varied;
-    ContactMatrix inverse;                 // (1 + C_h K)^{-1}
-    double weight;                         // 1/sqrt(1 + |inverse|^2)
-    ContactVector f, gap, held, residual;  // work space
+    ContactMatrix inverse;   // (1 + C_h K)^{-1}
+    double weight;           // 1/sqrt(1 + |inverse|^2)
+    Coordinates::Each each;  // work space
+    ContactVector f, gap, held, residual;
+    ContactMatrix product, turned;
   };
   void set_order(Index which, const Vector& p, const continuation::Regime& regime, Order& order) const;
   void set_varied(Order& order, double frequency_value, const Vector& p) const;
