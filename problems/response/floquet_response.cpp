@@ -51,47 +51,96 @@ int other_highest(const SystemParameters& parameters) {
 
 }  // namespace
 
-std::atomic<long> FloquetResponse::made_ = 0;
+DisturbedRing::DisturbedRing(HarmonicSystem system, const RingWaves& waves)
+    : system_(std::move(system)), waves_(waves) {
+  for (const Index wave : RingDisturbances::waves(waves.wave_number(), waves.nodes(), system_.orders.back()))
+    under_.emplace(wave, waves.structures(wave));
+  const RingWaves known(waves.wave_number(), waves.nodes(), [this](Index wave) { return under_.at(wave); });
+  given_ = std::make_shared<const RingDisturbances>(system_, known);
+}
 
-FloquetResponse::FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
-                                 std::shared_ptr<const FloquetResponse> finer)
-    : HarmonicResponse(system), disturbances_(system, waves), finer_(std::move(finer)) {}
+RingDisturbances DisturbedRing::damped(double zeta) const {
+  const Loss loss = system_.base_loss_fixed + zeta * system_.base_loss_per_zeta;
+  HarmonicSystem system = system_;
+  for (ContactModes& base : system.base) base = base.with(loss);
+  const RingWaves waves(waves_.wave_number(), waves_.nodes(), [this, &loss](Index wave) {
+    RingWaves::Structures under = under_.at(wave);
+    under.base = under.base.with(loss);
+    return under;
+  });
+  return {system, waves};
+}
 
-FloquetResponse::FloquetResponse(const HarmonicSystem& system, const HarmonicSystem& in_modes,
-                                 const RingWaves& waves, std::shared_ptr<const FloquetResponse> finer)
-    : HarmonicResponse(system),
-      disturbances_(in_modes, waves),
-      is_in_modes_(false),
-      finer_(std::move(finer)) {}
+template <class Motion>
+std::atomic<long> FloquetOf<Motion>::made_ = 0;
 
-std::vector<StickPattern> FloquetResponse::patterns(const Vector& u, const Vector& p,
-                                                    const continuation::Regime& regime) const {
+template <class Motion>
+FloquetOf<Motion>::FloquetOf(const HarmonicSystem& system, const RingWaves& waves,
+                             std::shared_ptr<const FloquetOf> finer)
+    : Motion(system), ring_(system, waves), finer_(std::move(finer)) {}
+
+template <class Motion>
+FloquetOf<Motion>::FloquetOf(const HarmonicSystem& system, const HarmonicSystem& in_modes,
+                             const RingWaves& waves, std::shared_ptr<const FloquetOf> finer)
+    : Motion(system), ring_(in_modes, waves), is_in_modes_(false), finer_(std::move(finer)) {}
+
+/// Calls `use` with what disturbances run through at these parameters.
+template <class Motion>
+template <class Use>
+auto FloquetOf<Motion>::with_ring(const Vector& p, const Use& use) const {
+  if constexpr (is_cycle) {
+    return use(ring_.damped(p(Motion::zeta)));
+  } else {
+    return use(ring_.given());
+  }
+}
+
+template <class Motion>
+std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vector& p,
+                                                      const continuation::Regime& regime) const {
+  const std::vector<int>& orders = this->system().orders;
   std::vector<StickPattern> all;
-  for (Index i = 0; i < contacts(); ++i)
-    all.push_back(stick_pattern(system().orders, motion(u, i), slip_threshold(i, p), slips(regime, i)));
-  for (Index i = contacts(); i < coordinates_.size(); ++i)
-    all.push_back({false, {}, coordinates_.element(i).stiffness_in_time(system().orders, motion(u, i))});
+  for (Index i = 0; i < this->contacts(); ++i) {
+    all.push_back(stick_pattern(orders, HarmonicProblem::motion(u, p, i),
+                                HarmonicProblem::slip_threshold(i, u, p), slips(regime, i)));
+  }
+  for (Index i = this->contacts(); i < this->coordinates(); ++i) {
+    const Element& element = this->coordinates_.element(i);
+    all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, i))});
+  }
+  if (!is_cycle) return all;
+  const std::vector<ElementForce>& forces = this->forces(u, p, regime, false);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].free_force.setZero(orders.back() + 1);
+    for (std::size_t a = 0; a < orders.size(); ++a)
+      all[i].free_force(orders[a]) = forces[i].harmonics(static_cast<Index>(a));
+  }
   return all;
 }
 
-RingDisturbances::Disturbances FloquetResponse::found(const Vector& u, const Vector& p,
-                                                      const continuation::Regime& regime,
-                                                      std::span<const StickPattern> contacts,
-                                                      bool active) const {
-  RingDisturbances::Disturbances found = disturbances_.at(p(eta), contacts, active);
+template <class Motion>
+RingDisturbances::Disturbances FloquetOf<Motion>::found(const RingDisturbances& ring, const Vector& u,
+                                                        const Vector& p, const continuation::Regime& regime,
+                                                        std::span<const StickPattern> contacts,
+                                                        bool active) const {
+  RingDisturbances::Disturbances found = ring.at(this->frequency(u, p), contacts, active);
   const bool may_fold =
       std::any_of(found.all.begin(), found.all.end(), [](const auto& one) { return one.is_own; });
-  if ((disturbances_.is_balanced() && is_in_modes_) || !may_fold) return found;
-  Matrix jacobian(size(), size());
+  if ((ring.is_balanced() && is_in_modes_) || !may_fold) return found;
+  Matrix jacobian(this->size(), this->size());
   continuation::Evaluation out;
   out.jacobian = &jacobian;
-  if (evaluate(u, p, regime, out)) make_odd(orientation(jacobian) < 0, found.all);
+  // Of a cycle the determinant is that of all disturbances over the exponent of its velocity, with the first
+  // two columns exchanged.
+  const int odd = is_cycle ? 1 : -1;
+  if (this->evaluate(u, p, regime, out)) make_odd(orientation(jacobian) == odd, found.all);
   return found;
 }
 
 /// What was found where a thread last looked: eigenvalues and test functions are asked for one after the
 /// other.
-struct FloquetResponse::Last {
+template <class Motion>
+struct FloquetOf<Motion>::Last {
   long problem = 0;  ///< its number
   Vector unknowns;
   Vector parameters;
@@ -99,58 +148,74 @@ struct FloquetResponse::Last {
   RingDisturbances::Disturbances active;
 };
 
-const FloquetResponse::Last& FloquetResponse::last(const Vector& u, const Vector& p,
-                                                   const continuation::Regime& regime) const {
+template <class Motion>
+auto FloquetOf<Motion>::last(const Vector& u, const Vector& p, const continuation::Regime& regime) const
+    -> const Last& {
   thread_local Last last;
   const bool known =
       last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
-  if (!known) last = {number_, u, p, regime, found(u, p, regime, patterns(u, p, regime), true)};
+  if (known) return last;
+  last = {number_, u, p, regime, with_ring(p, [&](const RingDisturbances& ring) {
+            return found(ring, u, p, regime, patterns(u, p, regime), true);
+          })};
   return last;
 }
 
-bool FloquetResponse::eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                                  ComplexVector& values) const {
+template <class Motion>
+bool FloquetOf<Motion>::eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                    ComplexVector& values) const {
   const auto& all = last(u, p, regime).active.all;
   values.resize(std::ssize(all));
   std::transform(all.begin(), all.end(), values.begin(), [](const auto& one) { return one.exponent; });
   return true;
 }
 
-std::vector<PointType> FloquetResponse::test_types() const {
-  return std::vector<PointType>(disturbances_.symmetries(), PointType::symmetry_breaking);
+template <class Motion>
+std::vector<PointType> FloquetOf<Motion>::test_types() const {
+  return std::vector<PointType>(ring_.given().symmetries(), PointType::symmetry_breaking);
 }
 
-void FloquetResponse::test(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                           Vector& values) const {
+template <class Motion>
+void FloquetOf<Motion>::test(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                             Vector& values) const {
   const std::vector<double>& all = last(u, p, regime).active.symmetries;
   values = Vector::Map(all.data(), std::ssize(all));
 }
 
-std::vector<RingDisturbances::Disturbance> FloquetResponse::disturbances(
+template <class Motion>
+std::vector<RingDisturbances::Disturbance> FloquetOf<Motion>::disturbances(
     const Vector& u, const Vector& p, const continuation::Regime& regime) const {
-  return found(u, p, regime, patterns(u, p, regime), false).all;
-}
-
-FloquetResponse::Worst FloquetResponse::worst(const Vector& u, const Vector& p,
-                                              const continuation::Regime& regime) const {
-  const std::vector<StickPattern> contacts = patterns(u, p, regime);
-  const auto all = found(u, p, regime, contacts, false).all;
-  const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.exponent.real() < b.exponent.real();
+  return with_ring(p, [&](const RingDisturbances& ring) {
+    return found(ring, u, p, regime, patterns(u, p, regime), false).all;
   });
-  if (most == all.end()) return {0, 0};
-  return {std::exp(two_pi * most->exponent.real() / p(eta)), disturbances_.wave_of(*most, p(eta), contacts)};
 }
 
-std::vector<continuation::Observable> FloquetResponse::observables() const {
-  std::vector<continuation::Observable> all = HarmonicResponse::observables();
+template <class Motion>
+Floquet::Worst FloquetOf<Motion>::worst(const Vector& u, const Vector& p,
+                                        const continuation::Regime& regime) const {
+  return with_ring(p, [&](const RingDisturbances& ring) -> Worst {
+    const std::vector<StickPattern> contacts = patterns(u, p, regime);
+    const auto all = found(ring, u, p, regime, contacts, false).all;
+    const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.exponent.real() < b.exponent.real();
+    });
+    if (most == all.end()) return {0, 0};
+    const double turns = this->frequency(u, p);
+    return {std::exp(two_pi * most->exponent.real() / turns), ring.wave_of(*most, turns, contacts)};
+  });
+}
+
+template <class Motion>
+std::vector<continuation::Observable> FloquetOf<Motion>::observables() const {
+  std::vector<continuation::Observable> all = Motion::observables();
   for (const char* name : {"growth", "growth_error", "worst_wave", "stable"}) all.push_back({name});
   return all;
 }
 
-void FloquetResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                              Vector& values) const {
-  HarmonicResponse::observe(u, p, regime, values);
+template <class Motion>
+void FloquetOf<Motion>::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                Vector& values) const {
+  Motion::observe(u, p, regime, values);
   const Worst found = worst(u, p, regime);
   const double error = growth_error(u, p, regime, found.growth);
   const double stable = found.growth + error <= 1 ? 1 : found.growth - error > 1 ? 0 : none;
@@ -160,43 +225,58 @@ void FloquetResponse::observe(const Vector& u, const Vector& p, const continuati
 }
 
 /// What is left out falls as h^-3, though not from each harmonic to the next: twice what that gives.
-double FloquetResponse::growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                                     double growth) const {
+template <class Motion>
+double FloquetOf<Motion>::growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                       double growth) const {
   if (finer_ == nullptr) return none;
-  if (all_stick(regime) && !coordinates_.has_others()) return 0;
+  if (all_stick(regime) && !this->coordinates_.has_others()) return 0;
   const std::optional<Guess> at = solved_in(*finer_, *this, {u, p, regime});
   if (!at) return none;
   const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;
-  const double ratio = static_cast<double>(system().orders.back()) / finer_->system().orders.back();
+  const double ratio = static_cast<double>(this->system().orders.back()) / finer_->system().orders.back();
   if (growth == other) return 0;
   return 2 * std::abs(growth - other) / std::abs(1 - std::pow(ratio, 3));
 }
 
+/// A disturbance that is told from others by how it turns.
+template <class Motion>
+struct FloquetOf<Motion>::Followed {
+  double rate;
+  Complex turned;
+};
+
+/// The one that turns most nearly so or, without that, is nearest to the imaginary axis.
+template <class Motion>
+auto FloquetOf<Motion>::nearest(const Guess& at, std::optional<Complex> turned) const
+    -> std::optional<Followed> {
+  const auto all = disturbances(at.unknowns, at.parameters, at.regime);
+  const double turns = this->frequency(at.unknowns, at.parameters);
+  const auto distance = [&](const RingDisturbances::Disturbance& one) {
+    return turned ? std::abs(ring_.given().turned(one, turns) - *turned) : std::abs(one.exponent.real());
+  };
+  const auto found = std::min_element(
+      all.begin(), all.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  if (found == all.end()) return std::nullopt;
+  return Followed{found->exponent.real(), ring_.given().turned(*found, turns)};
+}
+
 /// By secants.
-std::optional<double> FloquetResponse::moved_by(const Guess& at, Index parameter) const {
+template <class Motion>
+std::optional<double> FloquetOf<Motion>::moved_by(const Guess& at, Index parameter) const {
   if (finer_ == nullptr) return std::nullopt;
-  const auto own = disturbances(at.unknowns, at.parameters, at.regime);
-  const auto on_axis = std::min_element(own.begin(), own.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.exponent.real()) < std::abs(b.exponent.real());
-  });
-  if (on_axis == own.end()) return std::nullopt;
-  Complex nu = disturbances_.turned(*on_axis, at.parameters(eta));
+  std::optional<Followed> followed = nearest(at, std::nullopt);
+  if (!followed) return std::nullopt;
   std::optional<Guess> finer = solved_in(*finer_, *this, at);
   const double start = at.parameters(parameter);
   double here = start;
   double rate_before = 0;
   double before = 0;
   for (int round = 0; finer && round < 12; ++round) {
-    const auto all = finer_->disturbances(finer->unknowns, finer->parameters, finer->regime);
-    const auto same = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-      return std::abs(finer_->disturbances_.turned(a, finer->parameters(eta)) - nu) <
-             std::abs(finer_->disturbances_.turned(b, finer->parameters(eta)) - nu);
-    });
-    nu = finer_->disturbances_.turned(*same, finer->parameters(eta));
-    const double rate = same->exponent.real();
+    followed = finer_->nearest(*finer, followed->turned);
+    const double rate = followed->rate;
     const double step = round == 0 ? 1e-5 * start : -rate * (here - before) / (rate - rate_before);
-    if (rate == 0 || (round > 0 && std::abs(step) < 1e-10 * start)) return here - start;
-    if (!(std::abs(here + step - start) < 0.1 * start)) return std::nullopt;
+    if (rate == 0 || (round > 0 && std::abs(step) < 1e-10 * std::abs(start))) return here - start;
+    if (!(std::abs(here + step - start) < 0.1 * std::abs(start))) return std::nullopt;
     before = here;
     rate_before = rate;
     here += step;
@@ -206,6 +286,9 @@ std::optional<double> FloquetResponse::moved_by(const Guess& at, Index parameter
   return std::nullopt;
 }
 
+template class FloquetOf<HarmonicResponse>;
+template class FloquetOf<HarmonicCycle>;
+
 std::set<Index> disturbed_waves(const SystemParameters& parameters) {
   std::set<Index> all;
   for (const int highest : {parameters.harmonics.back(), other_highest(parameters)})
@@ -213,20 +296,32 @@ std::set<Index> disturbed_waves(const SystemParameters& parameters) {
   return all;
 }
 
-std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
+namespace {
+
+template <class Problem>
+std::shared_ptr<Problem> build_floquet(const SystemParameters& parameters) {
   const std::shared_ptr<const Structures> modal = structures_of(parameters).in_modes();
-  const auto build = [&](const SystemParameters& one, std::shared_ptr<const FloquetResponse> finer) {
+  const auto build = [&](const SystemParameters& one, std::shared_ptr<const Problem> finer) {
     SystemParameters in_modes = one;
     if (modal) in_modes.structures = modal;
     const RingWaves waves = ring_waves(in_modes, one.harmonics.back() + 1);
     const HarmonicSystem system = build_harmonic_system(one);
-    if (!modal) return std::make_shared<FloquetResponse>(system, waves, std::move(finer));
-    return std::make_shared<FloquetResponse>(system, build_harmonic_system(in_modes), waves,
-                                             std::move(finer));
+    if (!modal) return std::make_shared<Problem>(system, waves, std::move(finer));
+    return std::make_shared<Problem>(system, build_harmonic_system(in_modes), waves, std::move(finer));
   };
   SystemParameters other = parameters;
   other.harmonics = odd_up_to(other_highest(parameters));
   return build(parameters, build(other, nullptr));
+}
+
+}  // namespace
+
+std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters) {
+  return build_floquet<FloquetResponse>(parameters);
+}
+
+std::shared_ptr<FloquetCycle> build_floquet_cycle(const SystemParameters& parameters) {
+  return build_floquet<FloquetCycle>(parameters);
 }
 
 }  // namespace arcslip::problems

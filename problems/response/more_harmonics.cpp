@@ -8,7 +8,7 @@ namespace arcslip::problems {
 
 using continuation::Guess;
 
-Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicResponse& to) {
+Guess carried(const HarmonicProblem& from, const Guess& at, const HarmonicProblem& to) {
   Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
   for (Index i = 0; i < from.coordinates(); ++i) {
     for (Index a = 0; a < from.harmonics(); ++a) {
@@ -23,7 +23,7 @@ Guess carried(const HarmonicResponse& from, const Guess& at, const HarmonicRespo
   return guess;
 }
 
-std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicResponse& from, const Guess& at) {
+std::optional<Guess> solved_in(const HarmonicProblem& to, const HarmonicProblem& from, const Guess& at) {
   Guess guess = carried(from, at, to);
   for (Index tries = 0; tries <= to.switch_count(); ++tries) {
     const continuation::Solution near = continuation::solve(to, guess);
@@ -31,7 +31,9 @@ std::optional<Guess> solved_in(const HarmonicResponse& to, const HarmonicRespons
     guess.unknowns = near.unknowns;
     const int border = to.crossed_border(guess);
     if (border < 0) return guess;
-    guess.regime = *to.regime_beyond(guess.regime, border);
+    const std::optional<continuation::Regime> beyond = to.regime_beyond(guess.regime, border);
+    if (!beyond) return std::nullopt;
+    guess.regime = *beyond;
   }
   return std::nullopt;
 }

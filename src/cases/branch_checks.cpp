@@ -69,7 +69,8 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
     section.fail("stability", fmt::format("over eta, P, F and P_2, not over {}, with which the disturbances' "
                                           "own waves would change",
                                           system.varied));
-  if (!problem.response->in_time) section.fail("stability", "only for the forced response");
+  if (const std::string& why = problem.response->not_disturbed; !why.empty())
+    section.fail("stability", fmt::format("not of {}, {}", problem.response->title, why));
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));

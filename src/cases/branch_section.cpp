@@ -250,7 +250,7 @@ std::vector<BranchKey> keys_of_ways() {
                          "observables whose peaks and troughs are located; of a curve of these the one",
                          read_extrema, needed("`[\"Y\"]` of forced responses", always)),
       BranchKey::flag("stability", at(&CaseBranch::problem, &ProblemRequest::stability),
-                      "growth of disturbances of a forced response in every wave")};
+                      "growth of disturbances in every wave, of forced responses and limit cycles")};
 }
 
 }  // namespace

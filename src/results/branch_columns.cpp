@@ -22,7 +22,7 @@ Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
 void Columns::observe(const continuation::BranchPoint& point) {
   if (without_verdict_ == nullptr)
     return problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
-  without_verdict_->HarmonicResponse::observe(point.unknowns, point.parameters, point.regime, observed_);
+  without_verdict_->observe_motion(point.unknowns, point.parameters, point.regime, observed_);
   const Index known = observed_.size();
   observed_.conservativeResize(static_cast<Index>(names_.size()) - parameters_);
   observed_.tail(observed_.size() - known).setConstant(std::nan(""));

@@ -13,7 +13,7 @@ namespace {
 using continuation::BranchPoint;
 using continuation::PointType;
 
-const problems::FloquetResponse* response(const TracedBranch& traced) {
+const problems::Floquet* response(const TracedBranch& traced) {
   return traced.curve ? nullptr : traced.base.disturbed.get();
 }
 
@@ -24,15 +24,15 @@ bool is_change(const BranchPoint& point) {
 }  // namespace
 
 std::optional<double> moved_by(const TracedBranch& traced, const BranchPoint& point) {
-  const problems::FloquetResponse* problem = response(traced);
+  const problems::Floquet* problem = response(traced);
   if (problem == nullptr || !is_change(point)) return std::nullopt;
   return problem->moved_by(
       {point.unknowns, point.parameters, point.regime, {}},
-      continuation::index_of(problem->parameter_names(), traced.request->options.parameter));
+      continuation::index_of(traced.base.problem->parameter_names(), traced.request->options.parameter));
 }
 
 std::string describe_stability(const TracedBranch& traced) {
-  const problems::FloquetResponse* problem = response(traced);
+  const problems::Floquet* problem = response(traced);
   if (problem == nullptr) return "";
   int changes = 0;
   int lost = 0;

@@ -7,6 +7,7 @@
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
 #include "time/kernel.hpp"
+#include "time/own_velocity.hpp"
 
 namespace arcslip {
 namespace {
@@ -204,6 +205,19 @@ Matrix DisturbanceFlow::drifts(Index size, std::span<const StickPattern> element
   return found;
 }
 
+/// That of a motion whose phase is free. Sliders keep their places in the frame that moves with it.
+Matrix DisturbanceFlow::velocity(Index size, double eta, std::span<const StickPattern> elements) const {
+  if (!is_free(elements) || orders_.front() == 0) return {size, 0};
+  Matrix found = Matrix::Zero(size, 1);
+  for (const Coordinate& one : coordinates_) {
+    const int h = orders_[static_cast<std::size_t>(one.order)];
+    const Complex p = own_velocity(one.mode, h, eta, elements);
+    const Complex v = Complex(0, h * eta / std::max(one.mode.frequency, eta)) * p;
+    found.col(0).segment<4>(one.place) << p.real(), p.imag(), v.real(), v.imag();
+  }
+  return found;
+}
+
 /// rho_h of each contact, by `size` states.
 ComplexMatrix DisturbanceFlow::relative_motion(Index size) const {
   const Index orders = std::ssize(orders_);
@@ -246,7 +260,11 @@ Matrix DisturbanceFlow::matrix(double eta, std::span<const StickPattern> element
 
 ComplexVector DisturbanceFlow::exponents(double eta, std::span<const StickPattern> elements) const {
   const Matrix flow = matrix(eta, elements);
-  ComplexVector found = spectrum(deflated(flow, drifts(flow.rows(), elements)));
+  const Matrix rigid = drifts(flow.rows(), elements);
+  const Matrix own = velocity(flow.rows(), eta, elements);
+  Matrix lasting(flow.rows(), rigid.cols() + own.cols());
+  lasting << rigid, own;
+  ComplexVector found = spectrum(deflated(flow, lasting));
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * flow.norm();
   for (Complex& sigma : found) {
     if (std::abs(sigma.real()) < rounding) sigma.real(0);

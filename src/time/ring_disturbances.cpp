@@ -160,7 +160,7 @@ std::size_t RingDisturbances::symmetries() const {
 void RingDisturbances::add(Index which, double eta, std::span<const StickPattern> elements,
                            Disturbances& found) const {
   const Cell& cell = cells_[static_cast<std::size_t>(which)];
-  const std::vector<Complex> exponents = cell.flow.exponents(eta, elements);
+  const std::vector<Complex> exponents = cell.flow.exponents(eta, elements, cell.is_own);
   const double edge = eta * static_cast<double>(cell.flow.nodes());
   for (const Complex& sigma : exponents) {
     if (cell.flow.kind() == TurnedFlow::Kind::general) {

@@ -77,6 +77,13 @@ TEST_CASE("A parameter of the system may be continued in place of eta and P") {
   CHECK_THAT(
       case_texts::error_of(system_text + replaced(over_force, "\"F\"", "\"K_FD\"") + "stability = true\n"),
       ContainsSubstring("branch.stability: over eta, P, F and P_2, not over K_FD"));
+  CHECK_THAT(case_texts::error_of(system_text +
+                                  replaced(over_force, "[branch]\n", "[branch]\nresponse = \"one_way\"\n") +
+                                  "stability = true\n"),
+             ContainsSubstring("branch.stability: not of one-way responses, whose base no disturbance"));
+  CHECK_THAT(case_texts::error_of(system_text + "[branch]\nresponse = \"nonlinear_mode\"\nparameter = \"R\"\n"
+                                                "eta = 1.5\nfrom = 0.1\nto = 1\nstability = true\n"),
+             ContainsSubstring("branch.stability: not of nonlinear modes, which a damping made up for them"));
   CHECK_THAT(case_texts::error_of(system_text + replaced(over_force, "from = 0.5", "from = -0.5")),
              ContainsSubstring("branch.from: expected a finite number > 0, got -0.5"));
   CHECK_THAT(case_texts::error_of(system_text + "[branch]\ncurve = \"fold\"\nparameters = [\"K_FD\", \"F\"]\n"

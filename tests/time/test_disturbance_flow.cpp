@@ -208,7 +208,7 @@ TEST_CASE("Stability of what has no exponents is refused in one line", "[stabili
   const auto mistake = GENERATE(values<Mistake>({
       {"true", "1", ":12:13", "branch.stability", "true or false", "1"},
       {"base = 0.01", "kind = \"structural\", base = 0.01", ":12:13", "branch.stability", "viscous", ""},
-      {"to = 2.4", "to = 2.4\nresponse = \"one_way\"", ":12:13", "branch.stability", "forced response", ""},
+      {"to = 2.4", "to = 2.4\nresponse = \"one_way\"", ":12:13", "branch.stability", "one-way responses", ""},
   }));
   CHECK_NOTHROW(read_case(folder.write("case.toml", text)));
   const std::string path = folder.write("case.toml", replaced(text, mistake.from, mistake.to));

@@ -81,7 +81,7 @@ std::string driven_case(Index wave_number, Index elements, int highest, const st
 
 /// The multipliers of all nodes at a point.
 RingStability in_time(const TracedBranch& traced, const BranchPoint& point) {
-  const FloquetResponse& problem = *traced.base.disturbed;
+  const auto& problem = dynamic_cast<const FloquetResponse&>(*traced.base.disturbed);
   const auto harmonics =
       problems::contact_harmonics(problem, {point.unknowns, point.parameters, point.regime, {}});
   RingMotion motion(build_ring(traced.request->problem.system), point.parameters(0), point.parameters(1));
@@ -159,7 +159,7 @@ TEST_CASE("Where n and N have no common factor waves of n, 2n, ... lengths are a
 
 TEST_CASE("A point at which stability changes says how far more harmonics move it", "[stability]") {
   const Traced run(driven_case(2, 6, 9, "from = 3.3\nto = 3.45\n"));
-  const FloquetResponse& problem = *run.traced.base.disturbed;
+  const auto& problem = dynamic_cast<const FloquetResponse&>(*run.traced.base.disturbed);
   const BranchPoint last = points(run.traced, PointType::neimark_sacker).back();
   const auto moved = problem.moved_by({last.unknowns, last.parameters, last.regime, {}}, 0);
   REQUIRE(moved);

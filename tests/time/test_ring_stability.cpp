@@ -7,6 +7,7 @@
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/ring_stability.hpp"
 #include "catch.hpp"
+#include "monodromy.hpp"
 #include "ring_cases.hpp"
 
 using namespace arcslip;
@@ -41,19 +42,6 @@ Matrix brute_monodromy(RingMotion& motion, const RingState& start) {
   }
   derivative.middleRows(coordinates, coordinates) /= motion.frequency();
   return derivative;
-}
-
-/// The largest distance of one of `wanted` from the nearest of `found`, which it takes.
-double worst_match(const ComplexVector& wanted, ComplexVector found) {
-  double worst = 0;
-  for (const Complex& value : wanted) {
-    if (found.size() == 0) return std::numeric_limits<double>::infinity();
-    Index nearest = 0;
-    worst = std::max(worst, (found.array() - value).abs().minCoeff(&nearest));
-    found(nearest) = found(found.size() - 1);
-    found.conservativeResize(found.size() - 1);
-  }
-  return worst;
 }
 
 ComplexVector beyond(const ComplexVector& values, double modulus) {

@@ -15,7 +15,7 @@
 namespace arcslip {
 
 namespace problems {
-class FloquetResponse;
+class Floquet;
 class ForcedResponse;
 }  // namespace problems
 
@@ -33,8 +33,7 @@ struct Built {
   Guess guess;                                                         ///< of its first point
   std::vector<int> harmonics = {1};                                    ///< in which it balances
   std::shared_ptr<const problems::ForcedResponse> enclosed = nullptr;  ///< itself, if branches can be proven
-  std::shared_ptr<const problems::FloquetResponse> disturbed =
-      nullptr;  ///< itself, if it knows its stability
+  std::shared_ptr<const problems::Floquet> disturbed = nullptr;        ///< itself, if it knows its stability
 };
 
 /// A kind of response.
@@ -46,11 +45,12 @@ struct ResponseKind {
   std::string title;                    ///< of many, in messages
   std::vector<std::string> parameters;  ///< that may be continued; the first is held where P is not
   Frequency frequency;                  ///< what its frequency is
-  std::string extremum;    ///< the observable whose extrema are looked for unless others are named, or ""
-  bool one_way = false;    ///< whether contacts spare the base
-  bool in_time = false;    ///< whether the ring in time can be held against it, and it may be disturbed
-  std::string not_proven;  ///< why no branch of it is certified, or ""
-  std::string remark;      ///< what `arcslip check` says of it after the range, or ""
+  std::string extremum;       ///< the observable whose extrema are looked for unless others are named, or ""
+  bool one_way = false;       ///< whether contacts spare the base
+  bool in_time = false;       ///< whether the ring in time can be held against it
+  std::string not_disturbed;  ///< why no disturbances of it are followed, or ""
+  std::string not_proven;     ///< why no branch of it is certified, or ""
+  std::string remark;         ///< what `arcslip check` says of it after the range, or ""
   std::function<Built(const ProblemRequest&)> build;  ///< throws std::invalid_argument
 
   /// Whether its frequency is an unknown.

@@ -41,7 +41,8 @@ class DisturbanceFlow {
   /// `elements`: of each contact, then of each further coordinate.
   /// sigma, in any order: a disturbance grows by |mu| = e^{2 pi Re sigma/eta} in a period. Real parts within
   /// rounding of 0 are 0. Sliders of contacts that do not slip are constants of the motion and left out, as
-  /// is the neutral drift of base against damper as rigid bodies where all contacts slip.
+  /// is the neutral drift of base against damper as rigid bodies where all contacts slip, and the velocity of
+  /// a motion that no load drives.
   ComplexVector exponents(double eta, std::span<const StickPattern> elements) const;
 
   /// The wave round a ring that the disturbance with this exponent mostly is, as disturbed_wave.hpp says.
@@ -56,6 +57,7 @@ class DisturbanceFlow {
   };
   Index parts(Index order) const { return orders_[static_cast<std::size_t>(order)] == 0 ? 1 : 2; }
   Matrix drifts(Index size, std::span<const StickPattern> elements) const;
+  Matrix velocity(Index size, double eta, std::span<const StickPattern> elements) const;
 
   Matrix matrix(double eta, std::span<const StickPattern> elements) const;
   ComplexMatrix relative_motion(Index size) const;

@@ -18,6 +18,9 @@ struct StickPattern {
   /// least, for sliders rest over no longer a time than one arc lasts.
   std::vector<HysteresisLoop::Arc> arcs;
   VaryingStiffness stiffness = {};  ///< of a smooth element; of a contact that sticks empty, for its spring
+  /// f_h at h = 0, 1, ..., of a motion that no load drives, whose phase is free: its velocity is a
+  /// disturbance that lasts, and left out. Else empty.
+  ComplexVector free_force = {};
 };
 
 /// Of a contact whose motion has these harmonics.

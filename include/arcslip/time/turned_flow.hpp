@@ -64,8 +64,9 @@ class TurnedFlow {
   /// sigma, lambda = 2 pi sigma, with |Im sigma| <= eta M; of real nu the imaginary part is just 0 or eta M,
   /// of those on the unit circle to rounding the real part 0. In descending order of real parts, without
   /// those of sliders that forget themselves, |nu| < 1e-13, and of rigid motions that all sliders follow,
-  /// which nothing resists.
-  std::vector<Complex> exponents(double eta, std::span<const StickPattern> elements) const;
+  /// which nothing resists; `own`: the response is one of these waves, and where no load drives it that of
+  /// its velocity is left out.
+  std::vector<Complex> exponents(double eta, std::span<const StickPattern> elements, bool own = false) const;
 
   /// The wave, of 0 .. N - 1, that the disturbance with this exponent mostly is, as disturbed_wave.hpp says;
   /// `ring`: N.

@@ -31,6 +31,7 @@ ResponseKind forced_response() {
           .frequency = ResponseKind::Frequency::parameter,
           .extremum = "Y",
           .in_time = true,
+          .not_disturbed = "",
           .not_proven = "",
           .remark = "",
           .build = build_forced};

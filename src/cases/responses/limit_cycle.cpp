@@ -2,13 +2,19 @@
 
 #include "arcslip/problems/response/limit_cycle.hpp"
 
-#include "arcslip/problems/response/harmonic_cycle.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
 #include "cases/built.hpp"
 
 namespace arcslip {
 namespace {
 
 Built build_limit_cycle(const ProblemRequest& request) {
+  if (request.stability) {
+    const auto problem = problems::build_floquet_cycle(request.system);
+    Built built = built_in_harmonics<problems::HarmonicCycle>(problem);
+    built.disturbed = problem;
+    return built;
+  }
   if (needs_balance(request.system, request.harmonics_tolerance))
     return built_in_harmonics(
         std::make_shared<const problems::HarmonicCycle>(build_harmonic_system(request.system)));
@@ -24,6 +30,7 @@ ResponseKind limit_cycle_response() {
           .parameters = free_parameters("zeta_B"),
           .frequency = ResponseKind::Frequency::own,
           .extremum = "",
+          .not_disturbed = "",
           .not_proven = "whose frequency is a second unknown",
           .remark = "limit cycle",
           .build = build_limit_cycle};

@@ -23,6 +23,7 @@ ResponseKind nonlinear_mode_response() {
           .parameters = free_parameters("R"),
           .frequency = ResponseKind::Frequency::guessed,
           .extremum = "zeta",
+          .not_disturbed = "which a damping made up for them keeps periodic, and any disturbance with them",
           .not_proven = "whose frequency and damping are unknowns beside R",
           .remark = "nonlinear mode",
           .build = build_nonlinear_mode};

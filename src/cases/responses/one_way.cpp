@@ -24,6 +24,7 @@ ResponseKind one_way_response() {
           .frequency = ResponseKind::Frequency::parameter,
           .extremum = "Y",
           .one_way = true,
+          .not_disturbed = "whose base no disturbance of the damper moves",
           .not_proven = "from which the base's compliance, part of what it encloses, is left out",
           .remark = "base as if alone",
           .build = build_one_way};

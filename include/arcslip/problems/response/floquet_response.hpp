@@ -1,40 +1,94 @@
 #pragma once
 
-// Forced response that knows its stability: the exponents of all disturbances (ring_disturbances.hpp) are the
-// eigenvalues that the engine counts along the branch. A pair crosses the imaginary axis where a vibration
-// with a second frequency branches off, and a real one zero at a fold; but where the response that branches
-// off repeats itself otherwise than this one, node by node or half period by half period, it is a point where
-// this symmetry breaks. No multiplier passes -1: that of a period is the square of that of half a period,
-// which the response does twice with turned signs, and so would need a pair at +-j.
+// Forced responses and limit cycles that know their stability: the exponents of all disturbances
+// (ring_disturbances.hpp) are the eigenvalues that the engine counts along the branch. A pair crosses the
+// imaginary axis where a vibration with a second frequency branches off, and a real one zero at a fold; but
+// where the response that branches off repeats itself otherwise than this one, node by node or half period
+// by half period, it is a point where this symmetry breaks. No multiplier passes -1: that of a period is the
+// square of that of half a period, which the response does twice with turned signs, and so would need a pair
+// at +-j. A limit cycle's own velocity, whose multiplier is 1, does not count.
 //
 // At a fold the balance of harmonics is singular. Exponents taken exactly vanish there but for what the
 // harmonics leave out, or a reduction to modes; so that they change their number where the branch turns, the
 // sign of the determinant decides on that of the one nearest to zero.
 
 #include <atomic>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/problems/response/harmonic_cycle.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/time/ring_disturbances.hpp"
 
 namespace arcslip::problems {
 
-/// A response in harmonics with the exponents of its disturbances.
-class FloquetResponse : public HarmonicResponse {
+/// A problem in harmonics with the exponents of its disturbances.
+class Floquet {
  public:
-  /// Observables beside those of HarmonicResponse, at their end: `growth`, the largest |mu| of a period;
+  virtual ~Floquet() = default;
+
+  /// Those of all cells.
+  virtual std::vector<RingDisturbances::Disturbance> disturbances(
+      const Vector& u, const Vector& p, const continuation::Regime& regime) const = 0;
+
+  /// The largest |mu| of a period, and the wave that this disturbance mostly is.
+  struct Worst {
+    double growth;  ///< |mu|
+    Index wave;     ///< of 0 .. N - 1
+  };
+  /// Of all cells.
+  virtual Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const = 0;
+
+  /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has
+  /// it there in the harmonics of `finer`; none without them, and where no such place is found.
+  virtual std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const = 0;
+
+  /// The highest of those harmonics; 0 without them.
+  virtual int finer_highest() const = 0;
+
+  /// All observables of the motion, but not what is told of its stability.
+  virtual void observe_motion(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              Vector& values) const = 0;
+};
+
+/// What disturbances of a motion run through: the same at every point of a forced response, and with the
+/// base's damping zeta_B of a limit cycle.
+class DisturbedRing {
+ public:
+  /// Of the motion in the harmonics of `system`; asks `waves` for all structures at once.
+  DisturbedRing(HarmonicSystem system, const RingWaves& waves);
+
+  /// As they were given.
+  const RingDisturbances& given() const { return *given_; }
+
+  /// With another zeta_B.
+  RingDisturbances damped(double zeta) const;
+
+ private:
+  HarmonicSystem system_;
+  RingWaves waves_;
+  std::map<Index, RingWaves::Structures> under_;
+  std::shared_ptr<const RingDisturbances> given_;
+};
+
+/// Of HarmonicResponse or HarmonicCycle.
+template <class Motion>
+class FloquetOf : public Motion, public Floquet {
+ public:
+  /// Observables beside those of Motion, at their end: `growth`, the largest |mu| of a period;
   /// `growth_error`, how far it is, estimated by the response in the harmonics of `finer`, from what all
   /// harmonics give, NaN without it and where there is no such response; `worst_wave`, of Worst;
   /// `stable`, 1 or 0 where the error leaves no doubt, else NaN. Throws std::invalid_argument as
-  /// HarmonicResponse and RingDisturbances do.
-  FloquetResponse(const HarmonicSystem& system, const RingWaves& waves,
-                  std::shared_ptr<const FloquetResponse> finer = nullptr);
+  /// Motion and RingDisturbances do.
+  FloquetOf(const HarmonicSystem& system, const RingWaves& waves,
+            std::shared_ptr<const FloquetOf> finer = nullptr);
 
   /// Of a system whose response is not a sum over modes; `in_modes`: the same one as such, good to some
   /// tolerance, for disturbances.
-  FloquetResponse(const HarmonicSystem& system, const HarmonicSystem& in_modes, const RingWaves& waves,
-                  std::shared_ptr<const FloquetResponse> finer);
+  FloquetOf(const HarmonicSystem& system, const HarmonicSystem& in_modes, const RingWaves& waves,
+            std::shared_ptr<const FloquetOf> finer);
 
   /// sigma, lambda = 2 pi sigma, of all cells of waves in which something may grow.
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -47,50 +101,56 @@ class FloquetResponse : public HarmonicResponse {
             Vector& values) const override;
 
   std::vector<continuation::Observable> observables() const override;
-  using HarmonicResponse::observe;
+  using Motion::observe;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
 
-  /// Those of all cells.
   std::vector<RingDisturbances::Disturbance> disturbances(const Vector& u, const Vector& p,
-                                                          const continuation::Regime& regime) const;
-
-  /// The largest |mu| of a period, and the wave that this disturbance mostly is.
-  struct Worst {
-    double growth;  ///< |mu|
-    Index wave;     ///< of 0 .. N - 1
-  };
-  /// Of all cells.
-  Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
-
-  /// How far from here, in a parameter, the disturbance whose exponent is nearest to the imaginary axis has
-  /// it there in the harmonics of `finer`; none without them, and where no such place is found.
-  std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const;
-
-  /// The highest of those harmonics; 0 without them.
-  int finer_highest() const { return finer_ ? finer_->system().orders.back() : 0; }
+                                                          const continuation::Regime& regime) const override;
+  Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const override;
+  std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const override;
+  int finer_highest() const override { return finer_ ? finer_->system().orders.back() : 0; }
+  void observe_motion(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                      Vector& values) const override {
+    Motion::observe(u, p, regime, values);
+  }
 
  private:
+  static constexpr bool is_cycle = std::is_base_of_v<FreeVibration, Motion>;
+
   std::vector<StickPattern> patterns(const Vector& u, const Vector& p,
                                      const continuation::Regime& regime) const;
-  RingDisturbances::Disturbances found(const Vector& u, const Vector& p, const continuation::Regime& regime,
+  RingDisturbances::Disturbances found(const RingDisturbances& ring, const Vector& u, const Vector& p,
+                                       const continuation::Regime& regime,
                                        std::span<const StickPattern> contacts, bool active) const;
+  template <class Use>
+  auto with_ring(const Vector& p, const Use& use) const;
   struct Last;
   const Last& last(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
   double growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,
                       double growth) const;
+  struct Followed;
+  std::optional<Followed> nearest(const continuation::Guess& at, std::optional<Complex> turned) const;
 
-  RingDisturbances disturbances_;
+  DisturbedRing ring_;
   bool is_in_modes_ = true;  ///< as disturbances are
-  std::shared_ptr<const FloquetResponse> finer_;
+  std::shared_ptr<const FloquetOf> finer_;
   static std::atomic<long> made_;
   const long number_ = ++made_;  ///< of no other one, also at an address that is used anew
 };
 
+using FloquetResponse = FloquetOf<HarmonicResponse>;
+using FloquetCycle = FloquetOf<HarmonicCycle>;
+
+extern template class FloquetOf<HarmonicResponse>;
+extern template class FloquetOf<HarmonicCycle>;
+
 /// The numbers of waves, 0 .. N/2, under which it and the response by which it tells its error are disturbed.
 std::set<Index> disturbed_waves(const SystemParameters& parameters);
 
-/// The response of `parameters`, and that in more harmonics by which it tells its error. Throws SectorError.
+/// The response or the cycle of `parameters`, and that in more harmonics by which it tells its error. Throws
+/// SectorError.
 std::shared_ptr<FloquetResponse> build_floquet_response(const SystemParameters& parameters);
+std::shared_ptr<FloquetCycle> build_floquet_cycle(const SystemParameters& parameters);
 
 }  // namespace arcslip::problems

@@ -4,18 +4,18 @@
 
 #include <optional>
 
-#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/response/harmonic_problem.hpp"
 
 namespace arcslip::problems {
 
 /// The same motion in the harmonics of another problem, those that are new being zero.
-continuation::Guess carried(const HarmonicResponse& from, const continuation::Guess& at,
-                            const HarmonicResponse& to);
+continuation::Guess carried(const HarmonicProblem& from, const continuation::Guess& at,
+                            const HarmonicProblem& to);
 
 /// The response of `to` at the same parameters to which Newton's method comes from there, in the regime in
 /// which it finds its contacts; none where it comes to none.
-[[nodiscard]] std::optional<continuation::Guess> solved_in(const HarmonicResponse& to,
-                                                           const HarmonicResponse& from,
+[[nodiscard]] std::optional<continuation::Guess> solved_in(const HarmonicProblem& to,
+                                                           const HarmonicProblem& from,
                                                            const continuation::Guess& at);
 
 }  // namespace arcslip::problems
