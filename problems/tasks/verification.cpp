@@ -69,41 +69,73 @@ struct TimedResponse {
 
 TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& at) {
   constexpr double settled = 1e-9;
+  constexpr double sought = 1e-11;
   const double eta = at.parameters(HarmonicResponse::eta);
   RingMotion motion(ring, eta, at.parameters(HarmonicResponse::preload));
-  const SettledMotion found = shoot(motion, motion.travelling(contact_harmonics(problem, at)));
+  const SettledMotion found = shoot(motion, motion.travelling(ring_harmonics(problem, at)), sought);
   if (!(found.error < settled)) return {};
   const double growth = floquet_stability(motion, found.state).growth();
-  RingState state = found.state;
-  HarmonicRecord record(motion, {1});
-  motion.advance(state, motion.period(), &record);
+  HarmonicRecord record(motion, {1}, true);
+  next_state(motion, found.state, &record);
   return {std::abs(record.base()(0)), growth};
 }
 
-/// The ring in full under the harmonics of its load up to a highest one, where it is one of rods or beams
-/// that can be assembled.
-std::optional<Ring> assembled(SystemParameters parameters, int highest) {
-  parameters.harmonics = orders_up_to(highest, parameters);
-  try {
-    return build_ring(parameters);
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
+/// The ring in full under the harmonics of its load up to a highest one, or the reason why it has none.
+class AllNodes {
+ public:
+  AllNodes(const SystemParameters& parameters, int highest) : parameters_(parameters) {
+    parameters_.harmonics = orders_up_to(highest, parameters);
+    if (parameters.varied.empty()) assemble(parameters_);
   }
-}
+
+  const std::string& reason() const { return reason_; }
+
+  /// Y_1 and growth from a response on; NaN where there is no ring or it does not settle.
+  TimedResponse at(const HarmonicResponse& problem, const Guess& at) {
+    if (!parameters_.varied.empty())
+      assemble(with_parameter(parameters_, parameters_.varied, at.parameters(HarmonicResponse::further)));
+    if (!ring_) return {};
+    try {
+      return in_time(*ring_, problem, at);
+    } catch (const std::runtime_error&) {  // elements that change without end
+      return {};
+    }
+  }
+
+ private:
+  void assemble(const SystemParameters& parameters) {
+    ring_.reset();
+    try {
+      ring_ = build_ring(parameters);
+    } catch (const std::invalid_argument& error) {
+      reason_ = error.what();
+    }
+  }
+
+  SystemParameters parameters_;
+  std::optional<Ring> ring_;
+  std::string reason_;
+};
 
 }  // namespace
 
-std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem, const Guess& at) {
-  const HarmonicResponse::ElementForces forces =
-      problem.element_forces(at.unknowns, at.parameters, at.regime);
-  const HarmonicVector r = problem.motion(at.unknowns, 0);
-  const HarmonicVector friction = problem.element_force(0, at.unknowns, at.parameters, at.regime);
-  const std::vector<int>& orders = problem.system().orders;
-  std::vector<ContactHarmonic> harmonics;
-  for (std::size_t a = 0; a < orders.size(); ++a)
-    harmonics.push_back({orders[a], r(static_cast<Index>(a)), friction(static_cast<Index>(a)),
-                         forces.base[a](0) - friction(static_cast<Index>(a)),
-                         forces.damper[a](0) + friction(static_cast<Index>(a))});
+std::vector<RingHarmonic> ring_harmonics(const HarmonicResponse& problem, const Guess& at) {
+  const Index coordinates = problem.coordinates();
+  const Index orders = problem.harmonics();
+  std::vector<RingHarmonic> harmonics;
+  for (const int order : problem.system().orders)
+    harmonics.push_back({order, ComplexVector(coordinates), ComplexVector(coordinates)});
+  Index c = 0;
+  for (Index element = 0; c < coordinates; ++element) {
+    const HarmonicVector force = problem.element_force(element, at.unknowns, at.parameters, at.regime);
+    for (Index part = 0; part * orders < force.size(); ++part, ++c) {
+      const HarmonicVector x = problem.motion(at.unknowns, c);
+      for (Index a = 0; a < orders; ++a) {
+        harmonics[static_cast<std::size_t>(a)].motion(c) = x(a);
+        harmonics[static_cast<std::size_t>(a)].force(c) = force(part * orders + a);
+      }
+    }
+  }
   return harmonics;
 }
 
@@ -133,7 +165,8 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
       orders_up_to(std::min(2 * highest_order(orders) + 13, 2 * most_harmonics - 1), parameters);
   const int highest = highest_order(wide);
   const HarmonicResponse more = balanced(parameters, wide);
-  std::optional<Ring> ring = options.in_time ? assembled(parameters, highest) : std::nullopt;
+  std::optional<AllNodes> ring;
+  if (options.in_time) ring.emplace(parameters, highest);
   std::vector<Verification> all;
   const std::vector<std::size_t> points = chosen(branch, options);
   for (const std::size_t i : points) {
@@ -144,17 +177,14 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     const std::optional<Guess> better = solved(more, carried(problem, at, more));
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {
-      if (!parameters.varied.empty())
-        ring = assembled(
-            with_parameter(parameters, parameters.varied, point.parameters(HarmonicResponse::further)),
-            highest);
-      const TimedResponse timed = better ? in_time(*ring, more, *better) : in_time(*ring, problem, at);
+      const TimedResponse timed = better ? ring->at(more, *better) : ring->at(problem, at);
       one.Y_time = timed.Y;
       one.growth = timed.growth;
     }
     all.push_back(one);
     if (options.found) options.found(one);
   }
+  if (ring && !ring->reason().empty() && options.refused) options.refused(ring->reason());
   return all;
 }
 

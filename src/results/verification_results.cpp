@@ -47,6 +47,7 @@ VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::
     verified.chosen = chosen;
     return progress(point, chosen);
   };
+  options.refused = [&](const std::string& why) { verified.untimed = why; };
   verified.points =
       problems::verify(traced.request->problem.system, traced.base.harmonics, traced.branch, options);
   return verified;
@@ -88,6 +89,8 @@ std::string describe_verification(const VerifiedBranch& branch) {
   if (timed > 0) {
     text += fmt::format("; {} integrated in time: by {}; disturbances grow by at most {:.6g} a period", timed,
                         largest(branch, &Verification::Y_time), growth);
+  } else if (!branch.untimed.empty()) {
+    text += "; not integrated in time: " + branch.untimed;
   }
   return text + "\n";
 }

@@ -12,7 +12,8 @@ struct VerifiedBranch {
   std::size_t number;
   const TracedBranch* traced;
   std::vector<problems::Verification> points;
-  std::size_t chosen;  ///< how many were to be solved
+  std::size_t chosen;     ///< how many were to be solved
+  std::string untimed{};  ///< why none was integrated in time, if that cannot be
 
   bool is_complete() const { return points.size() == chosen; }
 };

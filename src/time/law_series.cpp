@@ -1,36 +1,18 @@
 #include "time/law_series.hpp"
 
-#include <cstdlib>
+#include <algorithm>
 
 namespace arcslip {
 
-std::vector<int> zones_of(const PiecewiseLaw& law, const Vector& displacements, const Vector& direction,
-                          const Vector& loose) {
-  std::vector<int> zones;
-  for (Index i = 0; i < displacements.size(); ++i) {
-    const double x = displacements(i);
-    int zone = law.zone_at(x);
-    const auto [low, high] = law.ends(zone);
-    if (direction(i) > 0 && high - x <= loose(i)) {
-      ++zone;
-    } else if (direction(i) < 0 && x - low <= loose(i)) {
-      --zone;
-    }
-    zones.push_back(zone);
-  }
-  return zones;
-}
-
-LawSeries::LawSeries(const PiecewiseLaw& law, const std::vector<int>& zones, Index order)
-    : coefficients_(Matrix::Zero(std::ssize(zones), law.degree() + 1)) {
+LawSeries::LawSeries(const std::vector<std::vector<double>>& powers, Index terms) {
+  std::size_t degree = 1;
+  for (const std::vector<double>& one : powers) degree = std::max(degree, one.size());
+  coefficients_ = Matrix::Zero(std::ssize(powers), static_cast<Index>(degree));
   for (Index i = 0; i < coefficients_.rows(); ++i) {
-    const int zone = zones[static_cast<std::size_t>(i)];
-    const auto& of_distance = law.pieces()[static_cast<std::size_t>(std::abs(zone))].coefficients;
-    for (Index k = 0; k < std::ssize(of_distance); ++k)
-      coefficients_(i, k) =
-          (zone < 0 && k % 2 == 0 ? -1 : 1) * of_distance[static_cast<std::size_t>(k)].value;
+    const std::vector<double>& one = powers[static_cast<std::size_t>(i)];
+    for (Index k = 0; k < std::ssize(one); ++k) coefficients_(i, k) = one[static_cast<std::size_t>(k)];
   }
-  powers_.assign(static_cast<std::size_t>(std::max(1, law.degree())), Matrix(std::ssize(zones), order + 1));
+  powers_.assign(degree, Matrix(std::ssize(powers), terms));
 }
 
 void LawSeries::take(const Vector& displacements) {
@@ -51,14 +33,14 @@ Vector LawSeries::power(Index k) const {
 
 Vector LawSeries::force() const {
   Vector sum = Vector::Zero(coefficients_.rows());
-  for (Index k = 0; k < coefficients_.cols(); ++k) sum += coefficients_.col(k).cwiseProduct(power(k));
+  for (Index k = 0; k < coefficients_.cols(); ++k) sum += coefficients_.col(k).cwiseProduct(power(k + 1));
   return sum;
 }
 
 Vector LawSeries::slope() const {
   Vector sum = Vector::Zero(coefficients_.rows());
-  for (Index k = 1; k < coefficients_.cols(); ++k)
-    sum += static_cast<double>(k) * coefficients_.col(k).cwiseProduct(power(k - 1));
+  for (Index k = 0; k < coefficients_.cols(); ++k)
+    sum += static_cast<double>(k + 1) * coefficients_.col(k).cwiseProduct(power(k));
   return sum;
 }
 

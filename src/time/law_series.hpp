@@ -1,22 +1,17 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "arcslip/elements/piecewise_law.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip {
 
-/// The zones of a law at displacements; `direction` decides within `loose` of an end.
-std::vector<int> zones_of(const PiecewiseLaw& law, const Vector& displacements, const Vector& direction,
-                          const Vector& loose);
-
-/// Force and stiffness of elements of one law as Taylor series in time, term by term as those of their
-/// displacements become known.
+/// sum_k c_k x^k, k >= 1, and its slope as Taylor series in time, term by term as those of x become known.
 class LawSeries {
  public:
-  /// Of nodes in these zones, up to `order`.
-  LawSeries(const PiecewiseLaw& law, const std::vector<int>& zones, Index order);
+  /// The c_k of each displacement, and how many terms there may be.
+  LawSeries(const std::vector<std::vector<double>>& powers, Index terms);
 
   /// Takes the next term of the displacements.
   void take(const Vector& displacements);
@@ -28,8 +23,8 @@ class LawSeries {
  private:
   Vector power(Index k) const;
 
-  Matrix coefficients_;         ///< nodes x (degree + 1), of x
-  std::vector<Matrix> powers_;  ///< x, x^2, ...: nodes x (order + 1)
+  Matrix coefficients_;         ///< displacements x degree, of x^1, ...
+  std::vector<Matrix> powers_;  ///< x, x^2, ...: displacements x terms
   Index last_ = -1;
 };
 

@@ -1,252 +1,302 @@
 #include "arcslip/time/ring.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
-#include "arcslip/assembly/reduced_pair.hpp"
+#include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/structures.hpp"
+#include "arcslip/motion/swing.hpp"
+#include "arcslip/time/ring_law.hpp"
+#include "arcslip/time/ring_waves.hpp"
 
 namespace arcslip {
 namespace {
 
-// The lowest stiffness of a ring of beams is some N^-4 of the largest: long double keeps it to rounding.
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
-/// Modes of one structure, scaled to unit modal mass; the first one is its rigid motion.
-struct Modes {
-  LongVector stiffness;
-  LongMatrix shapes;  ///< dofs x modes
-  LongMatrix turn;    ///< modes x modes
-  long double mass;   ///< of the whole structure
+/// Modes of one frequency and damping, as elements, load and the base's contact see them.
+struct Group {
+  double frequency;
+  double damping;
+  ComplexMatrix shapes;  ///< coordinates x modes
+  ComplexVector base;    ///< modes: of the first contact dof
+  ComplexVector load;    ///< modes
 };
 
-LongMatrix assemble(const PreciseMatrix& element, Index nodes) {
-  const Index dofs = element.rows() / 2;  // of one node
-  const LongMatrix block = element.cast<long double>();
-  LongMatrix whole = LongMatrix::Zero(nodes * dofs, nodes * dofs);
-  for (Index i = 0; i < nodes; ++i) {
-    const Index place[] = {i * dofs, (i + 1) % nodes * dofs};
-    for (Index a : {0, 1}) {
-      for (Index b : {0, 1}) {
-        whole.block(place[a], place[b], dofs, dofs) += block.block(a * dofs, b * dofs, dofs, dofs);
+using Rows = std::vector<Coordinate>;
+
+void add_modes(const ContactModes& structure, bool is_base, const Rows& rows, std::vector<Group>& groups) {
+  constexpr double alike = 1e-9;  // well above what is left of equal frequencies by their computation
+  const Loss& loss = structure.loss();
+  if (structure.is_solved() || loss.structural != 0)
+    throw std::invalid_argument("motion in time needs modes, with viscous or modal damping");
+  for (const ContactMode& mode : structure.modes()) {
+    const double damping = two_pi * loss.part_eta(mode.frequency);
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
+      return std::abs(one.frequency - mode.frequency) <= alike * mode.frequency &&
+             std::abs(one.damping - damping) <= alike * std::abs(damping);
+    });
+    if (group == groups.end()) group = groups.insert(group, {mode.frequency, damping, {}, {}, {}});
+    const Index last = group->load.size();
+    group->shapes.conservativeResize(std::ssize(rows), last + 1);
+    for (Index c = 0; c < std::ssize(rows); ++c) {
+      const Coordinate& row = rows[static_cast<std::size_t>(c)];
+      group->shapes(c, last) = two_pi * row.move(is_base) * mode.shape(row.dof);
+    }
+    group->base.conservativeResize(last + 1);
+    group->base(last) = is_base ? two_pi * mode.shape(0) : 0;
+    group->load.conservativeResize(last + 1);
+    group->load(last) = is_base ? two_pi * mode.load : 0;
+  }
+}
+
+std::vector<Group> groups_of(const ContactModes& base, const ContactModes& damper, const Rows& rows) {
+  std::vector<Group> groups;
+  add_modes(base, true, rows, groups);
+  add_modes(damper, false, rows, groups);
+  return groups;
+}
+
+/// Leaves out what moves the elements by less than rounding, at rates far above the slowest one.
+void drop_unnoticeable(std::vector<Group>& groups) {
+  constexpr double fast = 1e5;  // over the slowest one
+  constexpr double stiff = 1e-13;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Group& one : groups) {
+    if (one.frequency > 0) slowest = std::min(slowest, one.frequency);
+  }
+  if (std::isinf(slowest)) return;
+  const auto flexibility = [&](const Group& one) {
+    return one.shapes.squaredNorm() / (one.frequency * one.frequency + slowest * slowest);
+  };
+  double most = 0;
+  for (const Group& one : groups) most = std::max(most, flexibility(one));
+  std::erase_if(groups, [&](const Group& one) {
+    return one.frequency > fast * slowest && flexibility(one) <= stiff * most;
+  });
+}
+
+/// The axes of a group: shapes = axes parts, real ones of a wave that is its own conjugate.
+struct Axes {
+  ComplexMatrix shapes;  ///< coordinates x axes, orthogonal
+  ComplexMatrix parts(const ComplexMatrix& of) const {
+    const Vector squares = shapes.colwise().squaredNorm();
+    return squares.cwiseInverse().asDiagonal() * (shapes.adjoint() * of);
+  }
+};
+
+Axes axes_of(const Group& group, bool real) {
+  constexpr double negligible = 1e-10;
+  const auto kept = [](const auto& svd, Index most) {
+    const auto& sizes = svd.singularValues();
+    Index rank = 0;
+    while (rank < std::min(most, sizes.size()) && sizes(rank) > 0 && sizes(rank) > negligible * sizes(0))
+      ++rank;
+    return ComplexMatrix(svd.matrixU().leftCols(rank) * sizes.head(rank).asDiagonal());
+  };
+  if (!real)
+    return {kept(Eigen::JacobiSVD<ComplexMatrix>(group.shapes, Eigen::ComputeThinU), group.load.size())};
+  Matrix both(group.shapes.rows(), 2 * group.shapes.cols());
+  both << group.shapes.real(), group.shapes.imag();
+  return {kept(Eigen::JacobiSVD<Matrix>(both, Eigen::ComputeThinU), group.load.size())};
+}
+
+/// One axis of a group, as one or two coordinates of the ring.
+struct Place {
+  Index wave;
+  std::size_t group;
+  Index first;  ///< coordinate of its first axis
+};
+
+/// Puts together the ring's coordinates, wave by wave.
+class Builder {
+ public:
+  Builder(Ring& ring, const SystemParameters& parameters, Rows rows)
+      : ring_(ring), parameters_(parameters), rows_(std::move(rows)) {}
+
+  void add_wave(Index wave, const RingWaves::Structures& structures) {
+    std::vector<Group> groups = groups_of(structures.base, structures.damper, rows_);
+    drop_unnoticeable(groups);
+    for (const Group& group : groups) {
+      const Axes found = axes_of(group, is_real(wave));
+      const ComplexVector base = found.parts(group.shapes).conjugate() * group.base;
+      known_[wave].push_back({group.frequency, group.damping, found, base, size_});
+      const Kept& kept = known_[wave].back();
+      // Rigid motions that move no element would be defective; others by themselves tell of stability.
+      const Index axes = group.frequency > 0 ? group.load.size() : kept.axes.shapes.cols();
+      for (Index k = 0; k < axes; ++k) {
+        const Index count = is_real(wave) ? 1 : 2;
+        for (Index part = 0; part < count; ++part) {
+          stiffness_.push_back(std::pow(two_pi * group.frequency, 2));
+          damping_.push_back(group.damping);
+          ring_.wave.push_back(wave);
+          ring_.beside.push_back(count == 1 ? size_ : size_ + 1 - 2 * part);
+          ++size_;
+        }
       }
     }
   }
-  return whole;
-}
 
-/// Rows of `whole` moved so that those of node i are the ones of node i + 1.
-LongMatrix turned(const LongMatrix& whole, Index dofs) {
-  LongMatrix next(whole.rows(), whole.cols());
-  next.topRows(whole.rows() - dofs) = whole.bottomRows(whole.rows() - dofs);
-  next.bottomRows(dofs) = whole.topRows(dofs);
-  return next;
-}
-
-Modes modes_of(const ChainElement& element, Index nodes) {
-  const Index dofs = element.mass.rows() / 2;
-  const LongMatrix mass = assemble(element.mass, nodes);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<LongMatrix> solver(assemble(element.stiffness, nodes), mass);
-  Modes modes{solver.eigenvalues(), solver.eigenvectors(), {}, 0};
-  LongVector rigid = LongVector::Zero(mass.rows());
-  for (Index i = 0; i < nodes; ++i) rigid(i * dofs) = 1;
-  modes.mass = rigid.dot(mass * rigid);
-  modes.stiffness(0) = 0;
-  modes.shapes.col(0) = rigid / std::sqrt(modes.mass);
-  modes.turn = modes.shapes.transpose() * mass * turned(modes.shapes, dofs);
-  return modes;
-}
-
-/// Every J-th row: the contact dofs.
-Matrix at_contacts(const LongMatrix& shapes, Index nodes) {
-  const Index dofs = shapes.rows() / nodes;
-  Matrix rows(nodes, shapes.cols());
-  for (Index i = 0; i < nodes; ++i) rows.row(i) = shapes.row(i * dofs).cast<double>();
-  return rows;
-}
-
-/// F of all nodes for the load of node 1.
-ComplexVector travelling(const PreciseComplexVector& first, Index wave_number, Index nodes) {
-  const Index dofs = first.size();
-  ComplexVector load(nodes * dofs);
-  for (Index i = 0; i < nodes; ++i) {
-    const double lag = two_pi * static_cast<double>(wave_number * i % nodes) / static_cast<double>(nodes);
-    for (Index d = 0; d < dofs; ++d) {
-      const Complex at_first(static_cast<double>(first(d).real()), static_cast<double>(first(d).imag()));
-      load(i * dofs + d) = at_first * std::polar(1.0, -lag);
+  /// Once all waves are there.
+  void finish() {
+    ring_.stiffness = Vector::Map(stiffness_.data(), size_);
+    ring_.damping = Vector::Map(damping_.data(), size_);
+    const Index nodes = ring_.nodes();
+    ring_.motion = Matrix::Zero(nodes * std::ssize(rows_), size_);
+    ring_.base = Matrix::Zero(nodes, size_);
+    for (const auto& [wave, all] : known_) {
+      for (const Kept& kept : all) {
+        Index place = kept.first;
+        for (Index k = 0; k < kept.axes.shapes.cols(); ++k, place += is_real(wave) ? 1 : 2) {
+          for (Index c = 0; c < std::ssize(rows_); ++c)
+            fill(wave, place, kept.axes.shapes(c, k), ring_.motion.middleRows(c * nodes, nodes));
+          fill(wave, place, kept.base(k), ring_.base);
+        }
+      }
     }
   }
-  return load;
-}
 
-void refuse_what_is_not_viscous(const SystemParameters& parameters) {
-  if (parameters.structures) {
-    throw std::invalid_argument("build_ring: rods or beams are needed");
+  void add_load(int order) {
+    SystemParameters of_order = in_order(parameters_, order);
+    if (of_order.force == 0) return;
+    of_order.eta_low = parameters_.eta_low;  // the same modes as the ring has
+    of_order.eta_high = parameters_.eta_high * highest_order(parameters_.harmonics);
+    const Index nodes = ring_.nodes();
+    const Index forward = of_order.wave_number % nodes;
+    const Index wave = std::min(forward, nodes - forward);
+    const bool backward = forward != wave;
+    const ContactSystem system = build_wave(of_order);
+    RingLoad load{order, ComplexVector::Zero(size_)};
+    const Rows base_rows = rows_;
+    for (const Group& group : groups_of(system.base, system.damper, base_rows)) {
+      const auto& all = known_[wave];
+      const auto kept = std::find_if(all.begin(), all.end(), [&](const Kept& one) {
+        return std::abs(one.frequency - group.frequency) <= 1e-8 * group.frequency &&
+               std::abs(one.damping - group.damping) <= 1e-8 * std::abs(group.damping);
+      });
+      ComplexMatrix parts(0, group.load.size());
+      if (kept != all.end()) {
+        const Axes axes{backward ? kept->axes.shapes.conjugate().eval() : kept->axes.shapes};
+        parts = axes.parts(group.shapes);
+        const ComplexVector amplitude = parts * group.load;
+        for (Index k = 0; k < amplitude.size(); ++k) push(wave, backward, kept->first, k, amplitude(k), load);
+      }
+      const ComplexVector rest = group.load - parts.adjoint() * (parts * group.load);
+      const Complex residue = group.base.transpose() * rest;
+      if (std::abs(residue) > 1e-14 * group.base.norm() * group.load.norm())
+        ring_.unseen.push_back({order, residue, std::pow(two_pi * group.frequency, 2), group.damping});
+    }
+    ring_.loads.push_back(std::move(load));
   }
-  if (parameters.base_damping_kind != DampingKind::viscous) {
-    throw std::invalid_argument("build_ring: motion in time needs viscous damping, not " +
-                                to_string(parameters.base_damping_kind));
-  }
-}
 
-/// The load's harmonics on the base's modes.
-std::vector<RingLoad> loads_on(const SystemParameters& parameters, const Modes& modes) {
-  const Index nodes = parameters.elements;
-  std::vector<RingLoad> loads;
-  for (const int h : parameters.harmonics) {
-    SystemParameters wave = parameters;
-    wave.wave_number = h * parameters.wave_number % nodes;
-    wave.force = parameters.force * parameters.excitation.share(h);
-    if (wave.force == 0) continue;
-    if (wave.wave_number == 0)
-      throw std::invalid_argument("build_ring: a harmonic of the load that pushes all nodes alike");
-    loads.push_back({h, modes.shapes.cast<double>().transpose() *
-                            travelling(reduce(wave).base.load, wave.wave_number, nodes)});
-    loads.back().amplitude(0) = 0;  // a travelling load has no mean
-  }
-  return loads;
-}
-
-/// The base's modes: all there is where the damper is held.
-Ring ring_of_base(const SystemParameters& parameters, const Modes& modes) {
-  const Index nodes = parameters.elements;
-  Ring ring;
-  ring.stiffness = modes.stiffness.cast<double>();
-  ring.damping = base_damping_factor(parameters) / (two_pi)*ring.stiffness;
-  ring.loads = loads_on(parameters, modes);
-  ring.base = at_contacts(modes.shapes, nodes);
-  ring.damper = Matrix::Zero(nodes, ring.base.cols());
-  ring.turn = modes.turn.cast<double>();
-  ring.wave_number = parameters.wave_number;
-  ring.contact_stiffness = parameters.interface_stiffness / static_cast<double>(nodes);
-  ring.slip_per_preload = parameters.stiffness_ratio() / parameters.interface_stiffness;
-  ring.preload_growth = parameters.preload_growth;
-  return ring;
-}
-
-/// Adds the damper's modes. The two rigid motions become the one of base against damper, the first
-/// coordinate.
-void join_damper(Ring& ring, const Modes& base, const Modes& damper, double damping_factor) {
-  const Index nodes = ring.base.rows();
-  const Index own = ring.base.cols();
-  const Index elastic = damper.shapes.cols() - 1;
-  const Index all = own + elastic;
-  const auto ratio = static_cast<double>(std::sqrt(damper.mass / base.mass));
-  const auto scale = static_cast<double>(1 / std::sqrt(damper.mass + base.mass));
-
-  ring.stiffness.conservativeResize(all);
-  ring.stiffness.tail(elastic) = damper.stiffness.tail(elastic).cast<double>();
-  ring.damping.conservativeResize(all);
-  ring.damping.tail(elastic) = damping_factor / (two_pi)*ring.stiffness.tail(elastic);
-  for (RingLoad& load : ring.loads) {
-    load.amplitude.conservativeResize(all);
-    load.amplitude.tail(elastic).setZero();
-  }
-  ring.base.conservativeResize(nodes, all);
-  ring.base.rightCols(elastic).setZero();
-  ring.base.col(0).setConstant(-ratio * scale);
-  ring.damper = Matrix::Zero(nodes, all);
-  ring.damper.rightCols(elastic) = at_contacts(damper.shapes, nodes).rightCols(elastic);
-  ring.damper.col(0).setConstant(scale / ratio);
-  Matrix turn = Matrix::Zero(all, all);
-  turn.topLeftCorner(own, own) = ring.turn;
-  turn.bottomRightCorner(elastic, elastic) = damper.turn.bottomRightCorner(elastic, elastic).cast<double>();
-  ring.turn = turn;
-}
-
-/// The same where elements hold base or damper to ground: the damper's rigid motion is by itself, the first
-/// coordinate, before that of the base.
-void join_free_damper(Ring& ring, const Modes& damper, double damping_factor) {
-  const Index own = ring.base.cols();
-  const Index nodes = ring.base.rows();
-  const Index elastic = damper.shapes.cols() - 1;
-  const auto joined = [&](const auto& rigid, const auto& of_base, const auto& of_damper, auto& all) {
-    auto sum = all;
-    sum.resize(1 + own + elastic);
-    sum << rigid, of_base, of_damper;
-    all = sum;
+ private:
+  struct Kept {
+    double frequency;
+    double damping;
+    Axes axes;
+    ComplexVector base;  ///< of each axis
+    Index first;         ///< coordinate
   };
-  const Vector stiffness = damper.stiffness.tail(elastic).cast<double>();
-  joined(0.0, ring.stiffness, stiffness, ring.stiffness);
-  joined(0.0, ring.damping, Vector(damping_factor / (two_pi)*stiffness), ring.damping);
-  for (RingLoad& load : ring.loads)
-    joined(Complex(0), load.amplitude, ComplexVector::Zero(elastic).eval(), load.amplitude);
-  const Matrix shapes = at_contacts(damper.shapes, nodes);
-  const Matrix base = ring.base;
-  ring.base = Matrix::Zero(nodes, 1 + own + elastic);
-  ring.base.middleCols(1, own) = base;
-  ring.damper = Matrix::Zero(nodes, 1 + own + elastic);
-  ring.damper.col(0) = shapes.col(0);
-  ring.damper.rightCols(elastic) = shapes.rightCols(elastic);
-  Matrix turn = Matrix::Zero(1 + own + elastic, 1 + own + elastic);
-  turn(0, 0) = 1;
-  turn.block(1, 1, own, own) = ring.turn;
-  turn.bottomRightCorner(elastic, elastic) = damper.turn.bottomRightCorner(elastic, elastic).cast<double>();
-  ring.turn = turn;
+
+  bool is_real(Index wave) const { return 2 * wave % ring_.nodes() == 0; }
+
+  /// Columns of one axis, of this shape at node 1.
+  template <class Block>
+  void fill(Index wave, Index place, const Complex& shape, Block&& block) const {
+    const auto nodes = static_cast<double>(ring_.nodes());
+    for (Index i = 0; i < ring_.nodes(); ++i) {
+      const Complex here =
+          shape * std::polar(1.0, -two_pi * static_cast<double>(wave * i % ring_.nodes()) / nodes);
+      if (is_real(wave)) {
+        block(i, place) = here.real() / std::sqrt(nodes);
+      } else {
+        block(i, place) = std::sqrt(2 / nodes) * here.real();
+        block(i, place + 1) = -std::sqrt(2 / nodes) * here.imag();
+      }
+    }
+  }
+
+  void push(Index wave, bool backward, Index first, Index axis, const Complex& amplitude,
+            RingLoad& load) const {
+    const auto nodes = static_cast<double>(ring_.nodes());
+    if (is_real(wave)) {
+      load.amplitude(first + axis) += std::sqrt(nodes) * amplitude;
+    } else {
+      load.amplitude(first + 2 * axis) += std::sqrt(nodes / 2) * amplitude;
+      load.amplitude(first + 2 * axis + 1) +=
+          Complex(0, backward ? 1 : -1) * std::sqrt(nodes / 2) * amplitude;
+    }
+  }
+
+  Ring& ring_;
+  const SystemParameters& parameters_;
+  Rows rows_;
+  std::map<Index, std::vector<Kept>> known_;
+  std::vector<double> stiffness_;
+  std::vector<double> damping_;
+  Index size_ = 0;
+};
+
+SystemParameters in_modes(const SystemParameters& parameters) {
+  SystemParameters modal = parameters;
+  if (const auto structures = structures_of(parameters).in_modes()) modal.structures = structures;
+  return modal;
 }
 
-/// The elements beside the contacts, and the drift that they leave.
-void add_others(Ring& ring, const std::vector<Coordinate>& others, bool is_free) {
-  bool holds_base = false;
-  bool holds_damper = false;
-  for (const Coordinate& one : others) {
-    if (one.element->law() == nullptr)
-      throw std::invalid_argument("build_ring: elements beside the contacts must have no memory");
-    ring.others.push_back({one.base * ring.base + one.damper * ring.damper, one.element});
-    holds_base = holds_base || one.base != 0;
-    holds_damper = holds_damper || one.damper != 0;
-  }
-  if (!is_free) {
-    if (!holds_base) ring.drift = 0;
-  } else if (!holds_base) {
-    ring.drift = holds_damper ? 1 : 0;
-  } else if (!holds_damper) {
-    ring.drift = 0;
+void add_elements(const Coordinates& coordinates, Ring& ring) {
+  for (Index e = 0; e < coordinates.elements(); ++e) {
+    const Index first = coordinates.first(e);
+    const Coordinate& one = coordinates[first];
+    if (ring_law(*one.element, 1) == nullptr) continue;
+    const bool closes = one.element->coordinates() > 1;
+    ring.elements.push_back(
+        {one.element, first * ring.nodes(), closes ? (first + 1) * ring.nodes() : -1, one.factor});
   }
 }
 
 }  // namespace
 
-double Ring::fastest_rate() const {
-  const double contacts = (relative * relative.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
-  double others_stiffness = 0;  // of laws that do not grow with the displacement
-  for (const RingElements& other : others) {
-    double steepest = 0;
-    for (const PiecewiseLaw::Piece& piece : other.law().pieces()) {
-      if (piece.coefficients.size() == 2)
-        steepest = std::max(steepest, std::abs(piece.coefficients[1].value));
-    }
-    others_stiffness +=
-        steepest * (other.motion * other.motion.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
+Matrix Ring::turned(const Matrix& columns) const {
+  Matrix all(columns.rows(), columns.cols());
+  for (Index c = 0; c < coordinates(); ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const double angle = two_pi * static_cast<double>(wave[k]) / static_cast<double>(nodes());
+    all.row(c) = std::cos(angle) * columns.row(c);
+    if (beside[k] != c) all.row(c) += (beside[k] > c ? 1 : -1) * std::sin(angle) * columns.row(beside[k]);
   }
-  const double half = damping.cwiseAbs().maxCoeff() / 2;
-  return half +
-         std::sqrt(half * half + stiffness.maxCoeff() + contact_stiffness * contacts + others_stiffness);
+  return all;
 }
 
-Ring build_ring(const SystemParameters& parameters) {
-  refuse_what_is_not_viscous(parameters);
-  const Index nodes = parameters.elements;
-  const auto make = parameters.model == StructureModel::rods ? rod_element : beam_element;
-  const Modes base = modes_of(
-      make(parameters.mass_ratio, parameters.stiffness_ratio(), parameters.wave_number, nodes), nodes);
-  Ring ring = ring_of_base(parameters, base);
-  const std::vector<Coordinate> others = other_coordinates(parameters, [](const Coordinate&) { return 1.0; });
-  if (!parameters.fixed_damper) {
-    const Modes damper = modes_of(make(1, 1, parameters.wave_number, nodes), nodes);
-    const double factor = damper_damping_factor(parameters);
-    const bool is_grounded = std::any_of(
-        others.begin(), others.end(), [](const Coordinate& one) { return one.base == 0 || one.damper == 0; });
-    if (is_grounded) {
-      join_free_damper(ring, damper, factor);
-    } else {
-      join_damper(ring, base, damper, factor);
-    }
+Matrix Ring::moved_back(const Matrix& rows) const {
+  Matrix next(rows.rows(), rows.cols());
+  for (Index first = 0; first < rows.rows(); first += nodes()) {
+    next.middleRows(first, nodes() - 1) = rows.middleRows(first + 1, nodes() - 1);
+    next.row(first + nodes() - 1) = rows.row(first);
   }
-  ring.relative = ring.damper - ring.base;
-  add_others(ring, others, !parameters.fixed_damper);
+  return next;
+}
+
+Ring build_ring(const SystemParameters& given) {
+  const SystemParameters parameters = in_modes(given);
+  if (!structures_of(parameters).has_equations())
+    throw std::invalid_argument("structures that are known by their responses alone have no motion in time");
+  if (parameters.one_way)
+    throw std::invalid_argument("contacts that do not act back on the base have no motion in time here");
+  const HarmonicSystem system = build_harmonic_system(parameters);
+  const Coordinates coordinates(system);
+  Rows rows;
+  for (Index c = 0; c < coordinates.size(); ++c) rows.push_back(coordinates[c]);
+  Ring ring;
+  ring.node_count = parameters.elements;
+  ring.wave_number = parameters.wave_number;
+  ring.preload_growth = parameters.preload_growth;
+  add_elements(coordinates, ring);
+  const RingWaves waves = ring_waves(parameters, highest_order(parameters.harmonics));
+  Builder builder(ring, parameters, std::move(rows));
+  for (Index wave = 0; 2 * wave <= ring.nodes(); ++wave) builder.add_wave(wave, waves.structures(wave));
+  builder.finish();
+  for (const int order : parameters.harmonics) builder.add_load(order);
   return ring;
 }
 

@@ -18,20 +18,9 @@ constexpr double steps_per_period = 64;  // at least, so that quadrature resolve
 constexpr double negligible = 1e-18;
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
-/// What these rows times the values may be wrong by.
-Vector rounding_of(const Matrix& rows, const Vector& values) {
-  return rounding * (rows.cwiseAbs() * values.cwiseAbs());
-}
-
-std::vector<bool> least_rotation(const std::vector<int>& slip) {
-  std::vector<bool> pattern(slip.size());
-  std::transform(slip.begin(), slip.end(), pattern.begin(), [](int sign) { return sign == 0; });
-  std::vector<bool> least = pattern;
-  for (std::size_t i = 1; i < slip.size(); ++i) {
-    std::rotate(pattern.begin(), pattern.begin() + 1, pattern.end());
-    least = std::min(least, pattern);
-  }
-  return least;
+/// A bound on the largest eigenvalue of X X^T.
+double bound_of(const Matrix& rows) {
+  return (rows * rows.transpose()).cwiseAbs().rowwise().sum().maxCoeff();
 }
 
 }  // namespace
@@ -59,77 +48,216 @@ Index series_order(double reach_of_step) {
   return order;
 }
 
-Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip) {
-  Matrix rows(std::count(slip.begin(), slip.end(), 0), ring.coordinates());
-  Index next = 0;
-  for (Index i = 0; i < ring.nodes(); ++i) {
-    if (slip[i] == 0) rows.row(next++) = ring.relative.row(i);
-  }
-  return rows;
-}
-
 RingMotion::RingMotion(const Ring& ring, double eta, double preload)
     : ring_(ring),
       frequency_(two_pi * eta),
       period_(1 / eta),
-      threshold_((preload + ring.preload_growth * eta * eta) * ring.slip_per_preload),
-      rate_(ring.fastest_rate()),
-      longest_step_(std::min(reach / rate_, period_ / steps_per_period)) {
+      load_(preload + ring.preload_growth * eta * eta),
+      fastest_load_(frequency_),
+      sizes_(ring.motion.cwiseAbs()) {
   if (!(eta > 0)) throw std::invalid_argument("RingMotion: eta must be positive");
-  if (!(threshold_ > 0)) throw std::invalid_argument("RingMotion: the contact must be loaded");
+  if (!(load_ > 0)) throw std::invalid_argument("RingMotion: the contact must be loaded");
+  const Index nodes = ring_.nodes();
+  double springs = 0;
+  for (const RingElements& one : ring_.elements) {
+    std::shared_ptr<const RingLaw> law = ring_law(*one.element, load_);
+    double bound = bound_of(ring_.motion.middleRows(one.sliding, nodes));
+    if (one.closing >= 0) bound += bound_of(ring_.motion.middleRows(one.closing, nodes));
+    springs += std::abs(one.factor) * law->steepest() * bound;
+    families_.push_back({law, one.sliding, one.closing, memories_, one.factor});
+    memories_ += law->memories() * nodes;
+  }
+  const double half = ring_.damping.cwiseAbs().maxCoeff() / 2;
+  rate_ = half + std::sqrt(half * half + ring_.stiffness.maxCoeff() + springs);
+  longest_step_ = std::min(reach / rate_, period_ / steps_per_period);
+  for (const RingLoad& one : ring_.loads) fastest_load_ = std::max(fastest_load_, one.order * frequency_);
+  branches_.resize(static_cast<std::size_t>(elements()));
+  events_.resize(static_cast<std::size_t>(elements()));
+}
+
+std::vector<double> RingMotion::memory_of(Index which, const RingState& state) const {
+  std::vector<double> memory(static_cast<std::size_t>(family(which).law->memories()));
+  for (std::size_t j = 0; j < memory.size(); ++j)
+    memory[j] = state.memory(memory_place(which, static_cast<Index>(j)));
+  return memory;
+}
+
+RingPlace RingMotion::place_of(Index which, const Vector& position, const Vector& velocity) const {
+  const auto sliding = ring_.motion.row(family(which).sliding + node(which));
+  RingPlace place{sliding.dot(position), sliding.dot(velocity)};
+  if (family(which).closing < 0) return place;
+  const auto closing = ring_.motion.row(family(which).closing + node(which));
+  place.g = closing.dot(position);
+  place.g_rate = closing.dot(velocity);
+  return place;
 }
 
 RingState RingMotion::at_rest() const {
-  const Index nodes = ring_.nodes();
-  return {0, Vector::Zero(ring_.coordinates()), Vector::Zero(ring_.coordinates()), Vector::Zero(nodes),
-          std::vector<int>(nodes, 0)};
+  RingState state{
+      0, Vector::Zero(ring_.coordinates()), Vector::Zero(ring_.coordinates()), Vector::Zero(memories_), {}};
+  for (Index e = 0; e < elements(); ++e) state.phase.push_back(family(e).law->phase_at_rest());
+  return state;
 }
 
-RingState RingMotion::travelling(const std::vector<ContactHarmonic>& harmonics) const {
+/// What a load of all coordinates moves by itself.
+void RingMotion::add_harmonic(int order, const ComplexVector& load, RingState& state) const {
+  const double w = order * frequency_;
+  for (Index c = 0; c < ring_.coordinates(); ++c) {
+    const Complex stiffness(ring_.stiffness(c) - w * w, w * ring_.damping(c));
+    if (stiffness == 0.0) continue;  // a drift
+    const Complex p = load(c) / stiffness;
+    state.position(c) += p.real();
+    state.velocity(c) += (Complex(0, w) * p).real();
+  }
+}
+
+RingState RingMotion::travelling(const std::vector<RingHarmonic>& harmonics) const {
   RingState state = at_rest();
   const Index nodes = ring_.nodes();
-  Vector force = Vector::Zero(nodes);
-  Vector relative = Vector::Zero(nodes);
-  const auto add = [&](int order, const ComplexVector& load) {
-    const double w = order * frequency_;
-    for (Index c = 0; c < ring_.coordinates(); ++c) {
-      const Complex p = load(c) / Complex(ring_.stiffness(c) - w * w, w * ring_.damping(c));
-      state.position(c) += p.real();
-      state.velocity(c) += (Complex(0, w) * p).real();
+  for (const RingLoad& load : ring_.loads) add_harmonic(load.order, load.amplitude, state);
+  for (const RingHarmonic& harmonic : harmonics) {
+    ComplexVector forces(ring_.motion.rows());
+    for (Index row = 0; row < forces.size(); ++row) {
+      const auto turns = static_cast<double>(harmonic.order * ring_.wave_number * (row % nodes) % nodes);
+      forces(row) =
+          harmonic.force(row / nodes) * std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
     }
-  };
-  for (const RingLoad& load : ring_.loads) add(load.order, load.amplitude);
-  for (const ContactHarmonic& harmonic : harmonics) {
-    ComplexVector wave(nodes);
-    for (Index i = 0; i < nodes; ++i) {
-      const auto turns = static_cast<double>(harmonic.order * ring_.wave_number * i % nodes);
-      wave(i) = std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
-    }
-    add(harmonic.order, -(ring_.relative.transpose() * wave) * harmonic.friction);
-    if (harmonic.base != 0.0) add(harmonic.order, (ring_.base.transpose() * wave) * harmonic.base);
-    if (harmonic.damper != 0.0) add(harmonic.order, (ring_.damper.transpose() * wave) * harmonic.damper);
-    force += (wave * harmonic.friction).real();
-    relative += (wave * harmonic.relative).real();
+    add_harmonic(harmonic.order, -(ring_.motion.transpose() * forces), state);
   }
-  const Vector spring = (force / ring_.contact_stiffness).cwiseMin(threshold_).cwiseMax(-threshold_);
-  state.slider = relative - spring;
+  begin_elements(harmonics, state);
   return state;
+}
+
+/// Phases and memory, from a period of the motion of node 1 before the time that each node is behind it.
+void RingMotion::begin_elements(const std::vector<RingHarmonic>& harmonics, RingState& state) const {
+  constexpr Index samples_at_least = 1024;
+  const Index nodes = ring_.nodes();
+  const Index stride = samples_at_least / nodes + 1;
+  const Index samples = stride * nodes;
+  std::vector<Complex> turns;
+  for (Index s = 0; s < samples; ++s)
+    turns.push_back(std::polar(1.0, two_pi * static_cast<double>(s) / static_cast<double>(samples)));
+  const auto sampled = [&](Index row, auto part, bool rate) {
+    Vector x = Vector::Zero(samples);
+    for (const RingHarmonic& one : harmonics) {
+      Complex value = (one.*part)(row / nodes);
+      if (rate) value *= Complex(0, one.order * frequency_);
+      for (Index s = 0; s < samples; ++s)
+        x(s) += (value * turns[static_cast<std::size_t>(one.order * s % samples)]).real();
+    }
+    return x;
+  };
+  for (const Family& one : families_) {
+    const Index closing = one.closing < 0 ? one.sliding : one.closing;
+    const Vector x = sampled(one.sliding, &RingHarmonic::motion, false);
+    const Vector x_rate = sampled(one.sliding, &RingHarmonic::motion, true);
+    const Vector g = sampled(closing, &RingHarmonic::motion, false);
+    const Vector g_rate = sampled(closing, &RingHarmonic::motion, true);
+    const Vector force = sampled(one.sliding, &RingHarmonic::force, false);
+    const Index first = (&one - families_.data()) * nodes;
+    for (Index i = 0; i < nodes; ++i) {
+      const Index now = (samples - ring_.wave_number * i % nodes * stride) % samples;
+      Vector before(samples);  // up to now
+      before << x.tail(samples - 1 - now), x.head(now + 1);
+      std::vector<double> memory(static_cast<std::size_t>(one.law->memories()), 0.0);
+      int& phase = state.phase[static_cast<std::size_t>(first + i)];
+      one.law->begin(before, {x(now), x_rate(now), g(now), g_rate(now)}, force(now) / one.factor, phase,
+                     memory);
+      for (std::size_t j = 0; j < memory.size(); ++j)
+        state.memory(memory_place(first + i, static_cast<Index>(j))) = memory[j];
+    }
+  }
+}
+
+void RingMotion::refresh(Index which, const RingState& state) {
+  const auto e = static_cast<std::size_t>(which);
+  const std::vector<double> memory = memory_of(which, state);
+  const double factor = family(which).factor;
+  RingBranch& branch = branches_[e];
+  branch = family(which).law->branch(state.phase[e], memory);
+  for (auto* terms : {&branch.powers, &branch.by_memory}) {
+    for (double& term : *terms) term *= factor;
+  }
+  for (double* term : {&branch.offset, &branch.by_closing, &branch.closing_stiffness, &branch.closing_offset})
+    *term *= factor;
+  family(which).law->events(state.phase[e], memory, events_[e]);
+}
+
+void RingMotion::refresh_all(const RingState& state) {
+  for (Index e = 0; e < elements(); ++e) refresh(e, state);
+  gather();
+}
+
+void RingMotion::add_row(Index row) {
+  if (places_[static_cast<std::size_t>(row)] >= 0) return;
+  places_[static_cast<std::size_t>(row)] = std::ssize(varying_.rows);
+  varying_.rows.push_back(row);
+}
+
+/// The forces that vary, and the others.
+void RingMotion::gather() {
+  places_.assign(static_cast<std::size_t>(ring_.motion.rows()), -1);
+  offset_.setZero(ring_.motion.rows());
+  varying_.rows.clear();
+  varying_.curved.clear();
+  for (Index e = 0; e < elements(); ++e) {
+    const RingBranch& one = branch(e);
+    const Index sliding = family(e).sliding + node(e);
+    const Index closing = family(e).closing + node(e);
+    offset_(sliding) += one.offset;
+    if (!one.powers.empty() || one.by_closing != 0) add_row(sliding);
+    if (family(e).closing < 0) continue;
+    offset_(closing) += one.closing_offset;
+    if (one.by_closing != 0 || one.closing_stiffness != 0) add_row(closing);
+  }
+  const Index count = std::ssize(varying_.rows);
+  varying_.motion = ring_.motion(varying_.rows, Eigen::all);
+  varying_.linear.setZero(count);
+  varying_.origin.setZero(count);
+  varying_.other.assign(static_cast<std::size_t>(count), -1);
+  varying_.cross.setZero(count);
+  for (Index e = 0; e < elements(); ++e) {
+    const RingBranch& one = branch(e);
+    const Index place = places_[static_cast<std::size_t>(family(e).sliding + node(e))];
+    if (place >= 0) {
+      varying_.origin(place) = one.origin;
+      if (one.powers.size() == 1) varying_.linear(place) = one.powers[0];
+      if (one.powers.size() > 1) varying_.curved.emplace_back(place, one.powers);
+    }
+    if (family(e).closing < 0) continue;
+    const Index closing = places_[static_cast<std::size_t>(family(e).closing + node(e))];
+    if (closing < 0) continue;
+    varying_.linear(closing) = one.closing_stiffness;
+    if (place < 0) continue;
+    varying_.other[static_cast<std::size_t>(place)] = closing;
+    varying_.cross(place) = one.by_closing;
+  }
+}
+
+Vector RingMotion::forces(const Vector& x) const {
+  Vector all = offset_;
+  for (Index e = 0; e < elements(); ++e) {
+    const RingBranch& one = branch(e);
+    const Index sliding = family(e).sliding + node(e);
+    double sum = 0;
+    for (std::size_t k = one.powers.size(); k-- > 0;) sum = (sum + one.powers[k]) * (x(sliding) - one.origin);
+    all(sliding) += sum;
+    if (family(e).closing < 0) continue;
+    const Index closing = family(e).closing + node(e);
+    all(sliding) += one.by_closing * x(closing);
+    all(closing) += one.closing_stiffness * x(closing);
+  }
+  return all;
 }
 
 /// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
 bool RingMotion::expands(const RingState& state, double length) {
-  double fastest = frequency_;  // of the load
-  for (const RingLoad& load : ring_.loads) fastest = std::max(fastest, load.order * frequency_);
-  const Index order = series_order(rate_ * length + fastest * length) + (ring_.others.empty() ? 0 : 10);
-  std::vector<LawSeries> laws;
-  for (std::size_t e = 0; e < ring_.others.size(); ++e)
-    laws.emplace_back(ring_.others[e].law(), segment_.zones[e], order);
-  const Matrix sticking = sticking_rows(ring_, state.slip);
-  const double k = ring_.contact_stiffness;
-  Vector offset(ring_.nodes());  // contact forces at r = 0
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    offset(i) = k * (state.slip[i] == 0 ? -state.slider(i) : state.slip[i] * threshold_);
-  }
+  const bool is_linear = varying_.curved.empty();
+  const Index order = series_order(rate_ * length + fastest_load_ * length) + (is_linear ? 0 : 10);
+  std::vector<std::vector<double>> powers;
+  for (const auto& [place, of_place] : varying_.curved) powers.push_back(of_place);
+  LawSeries laws(powers, order);
+  Vector curved(std::ssize(powers));
   segment_.start = state.time;
   segment_.scale = length;
   segment_.length = length;
@@ -137,169 +265,154 @@ bool RingMotion::expands(const RingState& state, double length) {
   p.resize(ring_.coordinates(), order + 1);
   p.col(0) = state.position;
   p.col(1) = length * state.velocity;
-  std::vector<Complex> phases;  // (jwh)^m/m! e^{jwt} of each frequency w of the load
+  phases_.clear();  // (jwh)^m/m! e^{jwt} of each frequency w of the load
   for (const RingLoad& load : ring_.loads)
-    phases.push_back(std::polar(1.0, load.order * frequency_ * state.time));
+    phases_.push_back(std::polar(1.0, load.order * frequency_ * state.time));
   Vector forces(ring_.coordinates());
+  Vector x(varying_.linear.size());
+  Vector local(x.size());
   double largest = 0;
   Index needed = order;
-  bool is_summed = laws.empty();
+  bool is_summed = is_linear;
   for (Index m = 0; m + 2 <= order; ++m) {
     const auto next = static_cast<double>(m + 1);
-    forces.setZero();
-    for (std::size_t h = 0; h < phases.size(); ++h) {
+    forces =
+        -ring_.stiffness.cwiseProduct(p.col(m)) - (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
+    for (std::size_t h = 0; h < phases_.size(); ++h) {
       const RingLoad& load = ring_.loads[h];
-      forces += load.amplitude.real() * phases[h].real() - load.amplitude.imag() * phases[h].imag();
-      phases[h] *= Complex(0, load.order * frequency_ * length / next);
+      if (load.order > 0 || m == 0)
+        forces += load.amplitude.real() * phases_[h].real() - load.amplitude.imag() * phases_[h].imag();
+      phases_[h] *= Complex(0, load.order * frequency_ * length / next);
     }
-    forces -= ring_.stiffness.cwiseProduct(p.col(m));
-    forces -= (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
-    if (sticking.rows() > 0) forces.noalias() -= sticking.transpose() * (k * (sticking * p.col(m)));
-    if (m == 0) forces.noalias() -= ring_.relative.transpose() * offset;
-    for (std::size_t e = 0; e < laws.size(); ++e) {
-      const Matrix& motion = ring_.others[e].motion;
-      laws[e].take(motion * p.col(m));
-      forces.noalias() -= motion.transpose() * laws[e].force();
+    if (x.size() > 0) {
+      x.noalias() = varying_.motion * p.col(m);
+      if (m == 0) x -= varying_.origin;
+      local = varying_.linear.cwiseProduct(x);
+      for (Index i = 0; i < x.size(); ++i) {
+        const Index other = varying_.other[static_cast<std::size_t>(i)];
+        if (other >= 0) local(i) += varying_.cross(i) * x(other);
+      }
+      if (!is_linear) {
+        for (Index i = 0; i < curved.size(); ++i)
+          curved(i) = x(varying_.curved[static_cast<std::size_t>(i)].first);
+        laws.take(curved);
+        curved = laws.force();
+        for (Index i = 0; i < curved.size(); ++i)
+          local(varying_.curved[static_cast<std::size_t>(i)].first) += curved(i);
+      }
+      forces.noalias() -= varying_.motion.transpose() * local;
     }
+    if (m == 0) forces.noalias() -= ring_.motion.transpose() * offset_;
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
     const double size = p.middleCols(m + 1, 2).cwiseAbs().maxCoeff();
     largest = std::max(largest, size);
-    if (next * size > negligible * largest || next < fastest * length) continue;
+    if (next * size > negligible * largest || next < fastest_load_ * length) continue;
     needed = m + 2;
     is_summed = true;
     break;
   }
   p.conservativeResize(Eigen::NoChange, needed + 1);
-  segment_.relative.noalias() = ring_.relative * p;
-  for (std::size_t e = 0; e < laws.size(); ++e) segment_.other[e].noalias() = ring_.others[e].motion * p;
+  segment_.motion.noalias() = ring_.motion * p;
   return is_summed;
 }
 
-/// By which law the further elements act from here on.
-void RingMotion::find_zones(const RingState& state) {
-  segment_.other.resize(ring_.others.size());
-  segment_.zones.resize(ring_.others.size());
-  for (std::size_t e = 0; e < ring_.others.size(); ++e) {
-    const Matrix& motion = ring_.others[e].motion;
-    segment_.zones[e] = zones_of(ring_.others[e].law(), motion * state.position, motion * state.velocity,
-                                 rounding_of(motion, state.position));
-  }
-}
-
-/// Where displacements leave the zones of their laws by more than the sums may be wrong by.
-void RingMotion::add_law_crossings(std::vector<Crossing>& found) const {
-  for (std::size_t e = 0; e < ring_.others.size(); ++e) {
-    const Matrix& x = segment_.other[e];
-    const Vector loose = rounding_of(ring_.others[e].motion, segment_.position.col(0));
-    for (Index i = 0; i < ring_.nodes(); ++i) {
-      const auto [low, high] = ring_.others[e].law().ends(segment_.zones[e][static_cast<std::size_t>(i)]);
-      for (const double sign : {1.0, -1.0}) {
-        const double end = sign > 0 ? high : -low;
-        if (std::isinf(end)) continue;
-        Vector excess = sign * x.row(i).transpose();
-        excess(0) -= end + loose(i);
-        if (const auto ratio = first_crossing(excess)) found.push_back({ring_.nodes(), *ratio});
-      }
+const std::vector<RingMotion::Crossing>& RingMotion::first_crossings(const RingState& state) {
+  // What the sums x and x' may be wrong by is no crossing.
+  const Vector loose = rounding * (sizes_ * state.position.cwiseAbs());
+  const Vector loose_rate = (rounding * segment_.scale) * (sizes_ * state.velocity.cwiseAbs());
+  const Matrix& x = segment_.motion;
+  const Index order = x.cols() - 1;
+  crossings_.clear();
+  double first = 1;
+  const auto add = [&](Index row, double part, bool of_rate) {
+    if (part == 0) return;
+    if (!of_rate) {
+      function_ += part * x.row(row).transpose();
+      function_(0) -= std::abs(part) * loose(row);
+      return;
     }
-  }
-}
-
-std::vector<RingMotion::Crossing> RingMotion::first_crossings(const RingState& state) const {
-  // What the sums r and r' may be wrong by is no crossing.
-  const Vector loose = rounding_of(ring_.relative, state.position);
-  const Vector loose_rate = rounding_of(ring_.relative, state.velocity);
-  const Matrix& r = segment_.relative;
-  const Index order = r.cols() - 1;
-  std::vector<Crossing> found;
-  const auto look = [&](Index i, const Vector& function) {
-    if (const auto ratio = first_crossing(function)) found.push_back({i, *ratio});
+    for (Index m = 1; m <= order; ++m) function_(m - 1) += part * static_cast<double>(m) * x(row, m);
+    function_(0) -= std::abs(part) * loose_rate(row);
   };
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    const int slip = state.slip[i];
-    if (slip != 0) {
-      Vector rate = -slip * r.row(i).tail(order).transpose();
-      for (Index m = 1; m < order; ++m) rate(m) *= static_cast<double>(m + 1);
-      rate(0) -= segment_.scale * loose_rate(i);
-      look(i, rate);
-      continue;
+  for (Index e = 0; e < elements(); ++e) {
+    const auto& events = events_[static_cast<std::size_t>(e)];
+    std::optional<Crossing> earliest;
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      const RingEvent& event = events[k];
+      if (std::isinf(event.level)) continue;
+      function_.setZero(event.of_rate ? order : order + 1);
+      add(family(e).sliding + node(e), event.sliding, event.of_rate);
+      if (event.closing != 0) add(family(e).closing + node(e), event.closing, event.of_rate);
+      if (!event.of_rate) function_(0) -= event.level + rounding * std::abs(event.level);
+      const auto ratio = first_crossing(function_);
+      if (!ratio || (earliest && *ratio >= earliest->ratio)) continue;
+      earliest = Crossing{e, k, *ratio};
     }
-    for (const double sign : {1.0, -1.0}) {
-      Vector excess = sign * r.row(i).transpose();
-      excess(0) -= sign * state.slider(i) + threshold_;
-      excess(0) -= loose(i) + rounding * (threshold_ + std::abs(state.slider(i)));
-      look(i, excess);
-    }
+    if (!earliest) continue;
+    crossings_.push_back(*earliest);
+    first = std::min(first, earliest->ratio);
   }
-  add_law_crossings(found);
-  if (found.empty()) return found;
-  const double first = std::min_element(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-                         return a.ratio < b.ratio;
-                       })->ratio;
-  std::erase_if(found, [&](const Crossing& crossing) { return crossing.ratio > first * (1 + 1e-13); });
-  for (Crossing& crossing : found) crossing.ratio = first;
-  return found;
+  std::erase_if(crossings_, [&](const Crossing& crossing) { return crossing.ratio > first * (1 + 1e-13); });
+  for (Crossing& crossing : crossings_) crossing.ratio = first;
+  return crossings_;
 }
 
-void RingMotion::change(Index contact, RingState& state) const {
-  const double r = ring_.relative.row(contact).dot(state.position);
-  int& slip = state.slip[contact];
-  if (slip == 0) {
-    slip = r > state.slider(contact) ? 1 : -1;
-  } else {
-    state.slider(contact) = r - slip * threshold_;
-    slip = 0;
+void RingMotion::take_events(RingState& state, RingObserver* observer) {
+  for (const Crossing& crossing : crossings_) {
+    const Index e = crossing.which;
+    const RingPlace place = place_of(e, state.position, state.velocity);
+    std::vector<double> memory = memory_of(e, state);
+    const RingMemoryChange change =
+        family(e).law->change(crossing.event, place, state.phase[static_cast<std::size_t>(e)], memory);
+    for (std::size_t j = 0; j < memory.size(); ++j)
+      state.memory(memory_place(e, static_cast<Index>(j))) = memory[j];
+    refresh(e, state);
+    ++count_.events;
+    if (observer != nullptr) observer->change(e, change, state);
   }
+  if (!crossings_.empty()) gather();
 }
 
-void RingMotion::note(const RingState& state) { count_.patterns.insert(least_rotation(state.slip)); }
+/// Gives memory that no phase needs the value that belongs to it.
+void RingMotion::leave_idle(RingState& state) const {
+  for (Index e = 0; e < elements(); ++e) {
+    const RingLaw& law = *family(e).law;
+    const int phase = state.phase[static_cast<std::size_t>(e)];
+    for (Index j = 0; j < law.memories(); ++j) {
+      if (law.needs(phase, j)) continue;
+      std::vector<double> memory = memory_of(e, state);
+      law.idle(phase, place_of(e, state.position, state.velocity), j, memory);
+      state.memory(memory_place(e, j)) = memory[static_cast<std::size_t>(j)];
+    }
+  }
+}
 
 void RingMotion::advance(RingState& state, double duration, RingObserver* observer) {
   const double start = state.time;
   double elapsed = 0;
-  int at_once = 0;
-  note(state);
+  Index at_once = 0;
+  refresh_all(state);
   while (duration - elapsed > 1e-15 * period_) {
     double length = std::min(longest_step_, duration - elapsed);
-    find_zones(state);
     while (!expands(state, length)) length *= 0.5;
     ++count_.steps;
-    const std::vector<Crossing> crossings = first_crossings(state);
+    const std::vector<Crossing>& crossings = first_crossings(state);
     const double ratio = crossings.empty() ? 1 : crossings.front().ratio;
     segment_.length = ratio * segment_.scale;
-    if (observer) observer->follow(segment_, state);
+    if (observer != nullptr) observer->follow(segment_, state);
     state.position = RingSegment::value(segment_.position, ratio);
     state.velocity = segment_.rate(segment_.position, ratio);
     elapsed += segment_.length;
     state.time = start + elapsed;
     at_once = ratio > 0 ? 0 : at_once + 1;
-    if (at_once > 4 * ring_.nodes()) throw std::runtime_error("RingMotion: contacts switch without end");
-    for (const Crossing& crossing : crossings) {
-      if (crossing.contact == ring_.nodes()) continue;
-      change(crossing.contact, state);
-      ++count_.events;
-      if (observer) observer->change(crossing.contact, state);
-    }
-    if (!crossings.empty()) note(state);
+    if (at_once > 4 * elements()) throw std::runtime_error("RingMotion: elements change without end");
+    take_events(state, observer);
   }
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    if (state.slip[i] == 0) continue;
-    state.slider(i) = ring_.relative.row(i).dot(state.position) - state.slip[i] * threshold_;
-  }
+  leave_idle(state);
 }
 
 double RingMotion::energy(const RingState& state) const {
-  double energy = state.velocity.squaredNorm();
-  energy += ring_.stiffness.dot(state.position.cwiseAbs2());
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    const double spring =
-        state.slip[i] == 0 ? ring_.relative.row(i).dot(state.position) - state.slider(i) : threshold_;
-    energy += ring_.contact_stiffness * spring * spring;
-  }
-  energy *= 0.5;
-  for (const RingElements& other : ring_.others) {
-    for (const double x : Vector(other.motion * state.position)) energy += other.law().energy(x);
-  }
-  return energy;
+  return 0.5 * (state.velocity.squaredNorm() + ring_.stiffness.dot(state.position.cwiseAbs2()));
 }
 
 }  // namespace arcslip

@@ -26,47 +26,74 @@ const std::vector<Node>& quadrature() {
 
 }  // namespace
 
-HarmonicRecord::HarmonicRecord(const RingMotion& motion, std::vector<int> orders)
-    : ring_(motion.ring()),
-      frequency_(motion.frequency()),
-      threshold_(motion.slip_threshold()),
+HarmonicRecord::HarmonicRecord(const RingMotion& motion, std::vector<int> orders, bool all_nodes)
+    : motion_(motion),
       orders_(std::move(orders)),
-      sums_(ComplexMatrix::Zero(static_cast<Index>(orders_.size()), 4)) {}
+      all_nodes_(all_nodes),
+      sums_(ComplexMatrix::Zero(static_cast<Index>(orders_.size()),
+                                1 + 2 * motion.ring().motion.rows() / motion.ring().nodes())) {}
 
-void HarmonicRecord::follow(const RingSegment& segment, const RingState& state) {
-  Matrix series(2, segment.position.cols());
-  series.row(0) = ring_.base.row(0) * segment.position;
-  series.row(1) = ring_.damper.row(0) * segment.position;
+void HarmonicRecord::follow(const RingSegment& segment, const RingState& /*state*/) {
+  const Ring& ring = motion_.ring();
+  const Index nodes = ring.nodes();
+  const Index count = all_nodes_ ? nodes : 1;
+  const Matrix base = ring.base.topRows(count) * segment.position;
   for (const Node& node : quadrature()) {
     const double t = node.place * segment.length;
-    const Vector value = RingSegment::value(series, t / segment.scale);
-    const double r = value(1) - value(0);
-    const double spring = state.slip[0] == 0 ? r - state.slider(0) : state.slip[0] * threshold_;
-    const Eigen::RowVector4d all(value(0), value(1), r, ring_.contact_stiffness * spring);
+    const Vector y = RingSegment::value(base, t / segment.scale);
+    const Vector x = RingSegment::value(segment.motion, t / segment.scale);
+    const Vector force = motion_.forces(x);
     for (std::size_t h = 0; h < orders_.size(); ++h) {
       const Complex wave =
-          std::polar(node.weight * segment.length, -orders_[h] * frequency_ * (segment.start + t));
-      sums_.row(static_cast<Index>(h)) += wave * all.cast<Complex>();
+          std::polar(node.weight * segment.length, -orders_[h] * motion_.frequency() * (segment.start + t));
+      auto sums = sums_.row(static_cast<Index>(h));
+      for (Index i = 0; i < count; ++i) {
+        const auto turns = static_cast<double>(orders_[h] * ring.wave_number * i % nodes);
+        const Complex here = wave * std::polar(1.0, two_pi * turns / static_cast<double>(nodes));
+        sums(0) += here * y(i);
+        for (Index c = 0; 2 * c + 2 < sums.size(); ++c) {
+          sums(1 + 2 * c) += here * x(c * nodes + i);
+          sums(2 + 2 * c) += here * force(c * nodes + i);
+        }
+      }
     }
   }
-  time_ += segment.length;
+  time_ += static_cast<double>(count) * segment.length;
 }
 
-void EnergyRecord::follow(const RingSegment& segment, const RingState& state) {
+ComplexVector HarmonicRecord::mean(Index quantity) const {
+  ComplexVector all = sums_.col(quantity) * (2 / time_);
+  for (std::size_t h = 0; h < orders_.size(); ++h) {
+    if (orders_[h] == 0) all(static_cast<Index>(h)) *= 0.5;
+  }
+  return all;
+}
+
+ComplexVector HarmonicRecord::base() const {
+  ComplexVector all = mean(0);
+  for (const UnseenMotion& one : motion_.ring().unseen) {
+    for (std::size_t h = 0; h < orders_.size(); ++h) {
+      const double w = one.order * motion_.frequency();
+      if (orders_[h] == one.order)
+        all(static_cast<Index>(h)) += one.residue / Complex(one.stiffness - w * w, w * one.damping);
+    }
+  }
+  return all;
+}
+
+void EnergyRecord::follow(const RingSegment& segment, const RingState& /*state*/) {
+  const Ring& ring = motion_.ring();
   for (const Node& node : quadrature()) {
     const double t = node.place * segment.length;
     const Vector velocity = segment.rate(segment.position, t / segment.scale);
     const double weight = node.weight * segment.length;
-    for (const RingLoad& load : ring_.loads) {
-      const Complex phase = std::polar(1.0, load.order * frequency_ * (segment.start + t));
+    for (const RingLoad& load : ring.loads) {
+      const Complex phase = std::polar(1.0, load.order * motion_.frequency() * (segment.start + t));
       input_ += weight * (load.amplitude * phase).real().dot(velocity);
     }
-    damping_ += weight * ring_.damping.dot(velocity.cwiseAbs2());
-  }
-  const Vector slid =
-      RingSegment::value(segment.relative, segment.length / segment.scale) - segment.relative.col(0);
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    friction_ += ring_.contact_stiffness * threshold_ * state.slip[i] * slid(i);
+    damping_ += weight * ring.damping.dot(velocity.cwiseAbs2());
+    const Vector x = RingSegment::value(segment.motion, t / segment.scale);
+    elements_ += weight * motion_.forces(x).dot(ring.motion * velocity);
   }
 }
 

@@ -1,36 +1,29 @@
 #include "arcslip/time/ring_response.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "arcslip/structure/spectrum.hpp"
-#include "time/law_series.hpp"
+#include "time/kernel.hpp"
 
 namespace arcslip {
 namespace {
 
-/// Position, velocity and slider in one column.
+/// Position, velocity and memory in one column.
 Vector stacked(const RingState& state) {
-  Vector all(2 * state.position.size() + state.slider.size());
-  all << state.position, state.velocity, state.slider;
+  Vector all(2 * state.position.size() + state.memory.size());
+  all << state.position, state.velocity, state.memory;
   return all;
 }
 
-RingState moved(const RingState& state, const Vector& step) {
+RingState moved_by(const RingState& state, const Vector& step) {
   const Index coordinates = state.position.size();
   RingState sum = state;
   sum.position += step.head(coordinates);
   sum.velocity += step.segment(coordinates, coordinates);
-  sum.slider += step.tail(state.slider.size());
+  sum.memory += step.tail(state.memory.size());
   return sum;
-}
-
-/// Rows of `sliders` moved one node back.
-Matrix turned_back(const Matrix& sliders) {
-  Matrix next(sliders.rows(), sliders.cols());
-  next.topRows(sliders.rows() - 1) = sliders.bottomRows(sliders.rows() - 1);
-  next.bottomRows(1) = sliders.topRows(1);
-  return next;
 }
 
 /// A difference of states in units of displacement.
@@ -41,159 +34,165 @@ Vector scaled(const RingMotion& motion, const Vector& all) {
   return same;
 }
 
-/// Its length once it has been freed of the drift.
+/// Its length once it has been freed of drifts.
 double length_without_drift(const RingMotion& motion, const Vector& all) {
-  const Vector drift = neutral_drift(motion.ring());
+  const Matrix drifts = neutral_drifts(motion);
   const Vector same = scaled(motion, all);
-  return (same - drift * drift.dot(same)).norm();
+  return (same - drifts * (drifts.transpose() * same)).norm();
+}
+
+/// next - state. Of elements whose phase tells what their memory means, that of different ones is no
+/// difference.
+Vector difference(const RingMotion& motion, const RingState& state, const RingState& next) {
+  Vector all = stacked(next) - stacked(state);
+  for (Index e = 0; e < motion.elements(); ++e) {
+    const RingLaw& law = *motion.family(e).law;
+    const auto k = static_cast<std::size_t>(e);
+    if (law.forgets_place() || state.phase[k] == next.phase[k]) continue;
+    for (Index j = 0; j < law.memories(); ++j) all(2 * state.position.size() + motion.memory_place(e, j)) = 0;
+  }
+  return all;
 }
 
 /// How far G(s) = next is from s: a drift that goes on is no settled motion.
 double step_length(const RingMotion& motion, const RingState& state, const RingState& next) {
-  return scaled(motion, stacked(next) - stacked(state)).norm();
+  return scaled(motion, difference(motion, state, next)).norm();
 }
 
 double step_error(const RingMotion& motion, const RingState& state, const RingState& next) {
   return step_length(motion, state, next) / length_without_drift(motion, stacked(next));
 }
 
-/// delta of (I - dG/ds) delta = residual, without a drift, along which the matrix is singular. Least squares
-/// also hold where contacts so soft that they hardly stop a drift let it look settled but for its own
-/// progress.
-Vector newton_step(const RingMotion& motion, const Matrix& derivative, const Vector& residual) {
-  const Index size = residual.size();
-  Matrix equations(size + 1, size);
-  equations << Matrix::Identity(size, size) - derivative, neutral_drift(motion.ring()).transpose();
-  Vector right(size + 1);
-  right << scaled(motion, residual), 0;
-  const Index coordinates = motion.ring().coordinates();
-  equations.middleRows(coordinates, coordinates) /= motion.frequency();
-  equations.middleCols(coordinates, coordinates) *= motion.frequency();
-  // What further elements hold only at times may drift as well.
-  constexpr double held = 1e-10;
-  Vector step =
-      motion.ring().others.empty() ? least_squares(equations, right) : least_squares(equations, right, held);
-  step.segment(coordinates, coordinates) *= motion.frequency();
-  return step;
+/// The numbers in the state's memory of one kind of elements.
+struct Block {
+  Index first;
+  Index count;
+};
+Block memory_block(const RingMotion& motion, std::size_t family) {
+  const RingMotion::Family& one = motion.families()[family];
+  return {one.memory, one.law->memories() * motion.ring().nodes()};
 }
 
-/// One round of Newton's method. Where an event that a short step moves keeps G(s) from coming nearer to s,
-/// the ring is marched instead, for the n periods in which every node takes every place.
-RingState improved(RingMotion& motion, const RingState& state, const StateDerivative& here) {
+/// The solver of (I - dG/ds) delta = residual without drifts, along which the matrix is singular. Least
+/// squares also hold where contacts so soft that they hardly stop a drift let it look settled but for its own
+/// progress.
+class NewtonStep {
+ public:
+  NewtonStep(const RingMotion& motion, StateDerivative here)
+      : motion_(motion), moved_(std::move(here.moved)) {
+    const Index size = here.derivative.rows();
+    const Index coordinates = motion.ring().coordinates();
+    const Matrix drifts = neutral_drifts(motion, false, moved_);
+    Matrix equations(size + drifts.cols(), size);
+    equations << Matrix::Identity(size, size) - here.derivative, drifts.transpose();
+    for (std::size_t f = 0; f < moved_.size(); ++f) {
+      if (moved_[f]) continue;
+      const auto [first, count] = memory_block(motion, f);
+      equations.middleRows(2 * coordinates + first, count).setZero();
+      equations.middleCols(2 * coordinates + first, count).setZero();
+      equations.block(2 * coordinates + first, 2 * coordinates + first, count, count).setIdentity();
+    }
+    equations.middleRows(coordinates, coordinates) /= motion.frequency();
+    equations.middleCols(coordinates, coordinates) *= motion.frequency();
+    constexpr double held = 1e-10;
+    const bool may_drift = std::any_of(motion.families().begin(), motion.families().end(),
+                                       [](const auto& one) { return !one.law->forgets_place(); });
+    if (may_drift) {  // what elements hold only at times
+      ranked_.setThreshold(held);
+      ranked_.compute(equations);
+    } else {
+      plain_.compute(equations);
+    }
+    is_ranked_ = may_drift;
+  }
+
+  /// The state that `next` = G(state) makes of it: phases are those of the latter.
+  RingState aligned(const RingState& state, const RingState& next) const {
+    RingState base = state;
+    for (Index e = 0; e < motion_.elements(); ++e) {
+      const RingLaw& law = *motion_.family(e).law;
+      const auto k = static_cast<std::size_t>(e);
+      if (state.phase[k] == next.phase[k]) continue;
+      base.phase[k] = next.phase[k];
+      if (law.forgets_place()) continue;
+      for (Index j = 0; j < law.memories(); ++j)
+        base.memory(motion_.memory_place(e, j)) = next.memory(motion_.memory_place(e, j));
+    }
+    const Index nodes = motion_.ring().nodes();
+    for (std::size_t f = 0; f < moved_.size(); ++f) {
+      if (moved_[f]) continue;
+      const auto [first, count] = memory_block(motion_, f);
+      for (Index place = first; place < first + count; place += nodes)
+        base.memory.segment(place, nodes).setConstant(base.memory.segment(place, nodes).mean());
+    }
+    return base;
+  }
+
+  Vector step(const RingState& base, const RingState& next) const {
+    const Index coordinates = motion_.ring().coordinates();
+    Vector residual = difference(motion_, base, next);
+    for (std::size_t f = 0; f < moved_.size(); ++f) {
+      const auto [first, count] = memory_block(motion_, f);
+      if (!moved_[f]) residual.segment(2 * coordinates + first, count).setZero();
+    }
+    const Vector right = scaled(motion_, residual);
+    const Index more = (is_ranked_ ? ranked_.rows() : plain_.rows()) - right.size();
+    Vector all(right.size() + more);
+    all << right, Vector::Zero(more);
+    Vector step = is_ranked_ ? Vector(ranked_.solve(all)) : Vector(plain_.solve(all));
+    step.segment(coordinates, coordinates) *= motion_.frequency();
+    return step;
+  }
+
+ private:
+  const RingMotion& motion_;
+  std::vector<bool> moved_;
+  bool is_ranked_ = false;
+  Eigen::HouseholderQR<Matrix> plain_;
+  Eigen::CompleteOrthogonalDecomposition<Matrix> ranked_;
+};
+
+/// A state with G of it.
+struct Round {
+  RingState state;
+  RingState next;
+  double gap;  ///< between the two
+};
+
+Round round_of(RingMotion& motion, RingState state) {
+  RingState next = next_state(motion, state);
+  const double gap = step_length(motion, state, next);
+  return {std::move(state), std::move(next), gap};
+}
+
+/// Where an event that a short step moves keeps G(s) from coming nearer to s, the ring is marched instead,
+/// for the n periods in which every node takes every place.
+Round improved(RingMotion& motion, const Round& here, const RingState& base, const Vector& step) {
   constexpr int most_halvings = 6;
   constexpr double progress = 0.9;
-  const double gap = step_length(motion, state, here.next);
-  const Vector step = newton_step(motion, here.derivative, stacked(here.next) - stacked(state));
-  RingState base = state;
-  base.slip = here.next.slip;
-  double part = 1;
-  for (int halving = 0; halving <= most_halvings; ++halving, part /= 2) {
-    RingState trial = moved(base, part * step);
-    if (step_length(motion, trial, next_state(motion, trial)) < progress * gap) return trial;
+  double part = 0.5;
+  for (int halving = 0; halving < most_halvings; ++halving, part /= 2) {
+    Round trial = round_of(motion, moved_by(base, part * step));
+    if (trial.gap < progress * here.gap) return trial;
   }
   RingState marched = here.next;
   for (Index i = 1; i < motion.ring().nodes(); ++i) marched = next_state(motion, marched);
-  return marched;
+  return round_of(motion, std::move(marched));
 }
 
 }  // namespace
 
-RingTangent::RingTangent(const RingMotion& motion)
-    : ring_(motion.ring()), rate_(motion.ring().fastest_rate()) {
-  const Index coordinates = ring_.coordinates();
-  const Index nodes = ring_.nodes();
-  const Matrix all = Matrix::Identity(2 * coordinates + nodes, 2 * coordinates + nodes);
-  position_ = all.topRows(coordinates);
-  velocity_ = all.middleRows(coordinates, coordinates);
-  slider_ = all.bottomRows(nodes);
-}
-
-/// Terms of df/dx of a further element in a step's own length: nodes x (order + 1).
-Matrix RingTangent::slopes(std::size_t element, const RingSegment& segment, Index order) const {
-  const Matrix& x = segment.other[element];
-  LawSeries law(ring_.others[element].law(), segment.zones[element], order);
-  Matrix all(ring_.nodes(), order + 1);
-  double power = 1;
-  for (Index m = 0; m <= order; ++m, power *= segment.length / segment.scale) {
-    law.take(m < x.cols() ? Vector(power * x.col(m)) : Vector::Zero(ring_.nodes()));
-    all.col(m) = law.slope();
-  }
-  return all;
-}
-
-void RingTangent::follow(const RingSegment& segment, const RingState& state) {
-  const double h = segment.length;
-  if (h == 0) return;
-  const Index order = series_order(rate_ * h) + (ring_.others.empty() ? 0 : segment.position.cols());
-  std::vector<Matrix> stiffness;
-  for (std::size_t e = 0; e < ring_.others.size(); ++e) stiffness.push_back(slopes(e, segment, order));
-  std::vector<std::vector<Matrix>> motions(stiffness.size());  // terms of those of further elements
-  const Matrix sticking = sticking_rows(ring_, state.slip);
-  const double k = ring_.contact_stiffness;
-  Matrix sliders(sticking.rows(), slider_.cols());
-  Index row = 0;
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    if (state.slip[i] == 0) sliders.row(row++) = slider_.row(i);
-  }
-  Matrix now = position_;
-  Matrix next = h * velocity_;
-  Matrix rate = next;  // h times the velocity
-  position_ += next;
-  for (Index m = 0; m + 2 <= order; ++m) {
-    const auto up = static_cast<double>(m + 1);
-    Matrix spring = sticking * now;
-    if (m == 0) spring -= sliders;
-    Matrix force = -(ring_.stiffness.asDiagonal() * now);
-    force -= (up / h) * (ring_.damping.asDiagonal() * next);
-    force.noalias() -= k * sticking.transpose() * spring;
-    for (std::size_t e = 0; e < stiffness.size(); ++e) {
-      const Matrix& motion = ring_.others[e].motion;
-      motions[e].push_back(motion * now);
-      for (Index j = 0; j <= m; ++j)
-        force -= motion.transpose() *
-                 (stiffness[e].col(m - j).asDiagonal() * motions[e][static_cast<std::size_t>(j)]);
-    }
-    now.swap(next);
-    next = force * (h * h / (up * (up + 1)));
-    position_ += next;
-    rate += (up + 1) * next;
-  }
-  velocity_ = rate / h;
-}
-
-void RingTangent::change(Index contact, const RingState& state) {
-  if (state.slip[contact] == 0) slider_.row(contact).noalias() = ring_.relative.row(contact) * position_;
-}
-
-Matrix RingTangent::at(const RingState& state) const {
-  const Index coordinates = ring_.coordinates();
-  Matrix all(2 * coordinates + ring_.nodes(), position_.cols());
-  all << position_, velocity_, slider_;
-  for (Index i = 0; i < ring_.nodes(); ++i) {
-    if (state.slip[i] != 0) all.row(2 * coordinates + i) = ring_.relative.row(i) * position_;
-  }
-  return all;
-}
-
-Vector neutral_drift(const Ring& ring) {
-  Vector drift = Vector::Zero(2 * ring.coordinates() + ring.nodes());
-  if (!ring.drift) return drift;
-  drift(*ring.drift) = 1;
-  drift.tail(ring.nodes()) = ring.relative.col(*ring.drift);
-  return drift.normalized();
-}
-
 RingState next_state(RingMotion& motion, const RingState& state, RingObserver* observer) {
   const Ring& ring = motion.ring();
   RingState next = state;
-  motion.advance(next,
-                 motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()),
-                 observer);
+  motion.advance(next, motion.period() * ring.periods_of_turn(), observer);
   next.time = state.time;
-  next.position = ring.turn * next.position;
-  next.velocity = ring.turn * next.velocity;
-  next.slider = turned_back(next.slider);
-  std::rotate(next.slip.begin(), next.slip.begin() + 1, next.slip.end());
+  if (ring.wave_number == 0) return next;
+  next.position = ring.turned(next.position);
+  next.velocity = ring.turned(next.velocity);
+  next.memory = ring.moved_back(next.memory);
+  for (auto first = next.phase.begin(); first != next.phase.end(); first += ring.nodes())
+    std::rotate(first, first + 1, first + ring.nodes());
   return next;
 }
 
@@ -201,19 +200,63 @@ StateDerivative next_derivative(RingMotion& motion, const RingState& state) {
   const Ring& ring = motion.ring();
   const Index coordinates = ring.coordinates();
   RingTangent tangent(motion);
-  StateDerivative result{next_state(motion, state, &tangent), {}};
-  RingState unturned = result.next;
-  std::rotate(unturned.slip.rbegin(), unturned.slip.rbegin() + 1, unturned.slip.rend());
-  const Matrix flow = tangent.at(unturned);
-  result.derivative.resize(flow.rows(), flow.cols());
-  result.derivative.topRows(coordinates).noalias() = ring.turn * flow.topRows(coordinates);
-  result.derivative.middleRows(coordinates, coordinates).noalias() =
-      ring.turn * flow.middleRows(coordinates, coordinates);
-  result.derivative.bottomRows(ring.nodes()) = turned_back(flow.bottomRows(ring.nodes()));
-  for (Index i = 0; i < ring.nodes(); ++i) {
-    if (state.slip[i] != 0) result.derivative.col(2 * coordinates + i).setZero();
+  StateDerivative result{state, {}, {}};
+  motion.advance(result.next, motion.period() * ring.periods_of_turn(), &tangent);
+  const Matrix flow = tangent.at(result.next);
+  result.moved = tangent.moved();
+  result.next.time = state.time;
+  if (ring.wave_number == 0) {
+    result.derivative = flow;
+    return result;
   }
+  result.next.position = ring.turned(result.next.position);
+  result.next.velocity = ring.turned(result.next.velocity);
+  result.next.memory = ring.moved_back(result.next.memory);
+  for (auto first = result.next.phase.begin(); first != result.next.phase.end(); first += ring.nodes())
+    std::rotate(first, first + 1, first + ring.nodes());
+  result.derivative.resize(flow.rows(), flow.cols());
+  result.derivative.topRows(coordinates) = ring.turned(flow.topRows(coordinates));
+  result.derivative.middleRows(coordinates, coordinates) =
+      ring.turned(flow.middleRows(coordinates, coordinates));
+  result.derivative.bottomRows(motion.memories()) = ring.moved_back(flow.bottomRows(motion.memories()));
   return result;
+}
+
+Matrix neutral_drifts(const RingMotion& motion, bool any_wave, const std::vector<bool>& moved) {
+  const Ring& ring = motion.ring();
+  const Index nodes = ring.nodes();
+  const Index coordinates = ring.coordinates();
+  std::vector<Index> holding;
+  const auto hold = [&](Index first) {
+    for (Index i = 0; i < nodes; ++i) holding.push_back(first + i);
+  };
+  for (std::size_t f = 0; f < motion.families().size(); ++f) {
+    const RingMotion::Family& one = motion.families()[f];
+    if (!one.law->forgets_place() || (!moved.empty() && !moved[f])) hold(one.sliding);
+    if (one.closing >= 0 && !one.law->forgets_closing()) hold(one.closing);
+  }
+  Matrix drifts(2 * coordinates + motion.memories(), 0);
+  for (Index wave = 0; 2 * wave <= (any_wave ? nodes : 0); ++wave) {
+    std::vector<Index> rigid;
+    for (Index c = 0; c < coordinates; ++c) {
+      if (ring.stiffness(c) == 0 && ring.wave[static_cast<std::size_t>(c)] == wave) rigid.push_back(c);
+    }
+    if (rigid.empty()) continue;
+    const Matrix free = kernel_of(Matrix(ring.motion(holding, rigid)));
+    for (const auto& column : free.colwise()) {
+      Vector drift = Vector::Zero(drifts.rows());
+      for (Index k = 0; k < column.size(); ++k) drift(rigid[static_cast<std::size_t>(k)]) = column(k);
+      for (const RingMotion::Family& one : motion.families()) {
+        if (!one.law->forgets_place()) continue;
+        drift.segment(2 * coordinates + one.memory, nodes) =
+            ring.motion.middleRows(one.sliding, nodes) * drift.head(coordinates);
+      }
+      drifts.conservativeResize(Eigen::NoChange, drifts.cols() + 1);
+      drifts.rightCols(1) = drift;
+    }
+  }
+  if (drifts.cols() == 0) return drifts;
+  return Eigen::HouseholderQR<Matrix>(drifts).householderQ() * Matrix::Identity(drifts.rows(), drifts.cols());
 }
 
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b) {
@@ -234,15 +277,31 @@ SettledMotion march_until_settled(RingMotion& motion, RingState state, double to
 }
 
 SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int rounds) {
-  SettledMotion result{std::move(guess), 0, 0, false};
-  StateDerivative here = next_derivative(motion, result.state);
-  result.error = step_error(motion, result.state, here.next);
-  while (result.error > tolerance && result.rounds < rounds) {
-    result.state = improved(motion, result.state, here);
-    here = next_derivative(motion, result.state);
-    result.error = step_error(motion, result.state, here.next);
+  constexpr double well =
+      0.3;  // of the gap is left by a step good enough: derivatives cost a hundred of them
+  Round here = round_of(motion, std::move(guess));
+  const auto error = [&] { return step_error(motion, here.state, here.next); };
+  std::optional<NewtonStep> newton;
+  SettledMotion result{{}, error(), 0, false};
+  bool is_last = false;  // a step more, as the one before was not of the last derivative
+  while ((result.error > tolerance || is_last) && result.rounds < rounds) {
+    const bool is_new = !newton;
+    if (is_new) newton.emplace(motion, next_derivative(motion, here.state));
+    const RingState base = newton->aligned(here.state, here.next);
+    const Vector step = newton->step(base, here.next);
+    Round trial = round_of(motion, moved_by(base, step));
+    const bool is_good = trial.gap < well * here.gap;
+    if (!is_good && !is_last) newton.reset();
+    if (is_good || trial.gap < 0.9 * here.gap) {
+      here = std::move(trial);
+    } else if (is_new && !is_last) {
+      here = improved(motion, here, base, step);
+    }
+    result.error = error();
+    is_last = newton && !is_new && !is_last && result.error <= tolerance;
     ++result.rounds;
   }
+  result.state = std::move(here.state);
   result.settled = result.error <= tolerance;
   return result;
 }

@@ -6,6 +6,7 @@
 #include "arcslip/structure/spectrum.hpp"
 
 namespace arcslip {
+
 double RingStability::growth() const { return std::pow(std::abs(turned(0)), periods); }
 
 Index RingStability::unstable(double margin) const {
@@ -17,20 +18,23 @@ Index RingStability::unstable(double margin) const {
 RingStability floquet_stability(RingMotion& motion, const RingState& state) {
   const Ring& ring = motion.ring();
   const Index coordinates = ring.coordinates();
-  const long before = motion.count().events;
-  Matrix derivative = next_derivative(motion, state).derivative;
-  derivative.middleRows(coordinates, coordinates) /= motion.frequency();
-  derivative.middleCols(coordinates, coordinates) *= motion.frequency();
+  StateDerivative here = next_derivative(motion, state);
+  here.derivative.middleRows(coordinates, coordinates) /= motion.frequency();
+  here.derivative.middleCols(coordinates, coordinates) *= motion.frequency();
+  std::vector<Index> kept;
+  for (Index i = 0; i < 2 * coordinates; ++i) kept.push_back(i);
+  for (std::size_t f = 0; f < here.moved.size(); ++f) {
+    const RingMotion::Family& one = motion.families()[f];
+    const Index count = one.law->memories() * ring.nodes();
+    for (Index i = 0; here.moved[f] && i < count; ++i) kept.push_back(2 * coordinates + one.memory + i);
+  }
+  const Matrix derivative = here.derivative(kept, kept);
+  const Matrix drifts = neutral_drifts(motion, true, here.moved)(kept, Eigen::all);
 
   RingStability stability;
-  stability.periods = static_cast<double>(ring.nodes()) / static_cast<double>(ring.wave_number);
-  stability.slips = motion.count().events > before ||
-                    std::any_of(state.slip.begin(), state.slip.end(), [](int sign) { return sign != 0; });
-  if (!stability.slips) {
-    stability.turned = spectrum(Matrix(derivative.topLeftCorner(2 * coordinates, 2 * coordinates)));
-  } else {
-    stability.turned = spectrum(ring.drift ? deflated(derivative, Matrix(neutral_drift(ring))) : derivative);
-  }
+  stability.periods = 1 / ring.periods_of_turn();
+  stability.slips = std::find(here.moved.begin(), here.moved.end(), true) != here.moved.end();
+  stability.turned = spectrum(drifts.cols() > 0 ? deflated(derivative, drifts) : derivative);
   return stability;
 }
 
@@ -38,12 +42,7 @@ Matrix monodromy(RingMotion& motion, const RingState& state) {
   RingTangent tangent(motion);
   RingState end = state;
   motion.advance(end, motion.period(), &tangent);
-  Matrix derivative = tangent.at(end);
-  const Index coordinates = motion.ring().coordinates();
-  for (Index i = 0; i < motion.ring().nodes(); ++i) {
-    if (state.slip[i] != 0) derivative.col(2 * coordinates + i).setZero();
-  }
-  return derivative;
+  return tangent.at(end);
 }
 
 }  // namespace arcslip

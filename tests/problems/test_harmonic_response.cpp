@@ -121,8 +121,7 @@ TEST_CASE("The ring of figure 8 in time has the amplitude of many harmonics at t
   const HarmonicResponse problem = balanced(figure_8(1), 63);
   const Guess at = problem.guess(3.841, 1);
   RingMotion motion(build_ring(figure_8(1)), 3.841, 1);
-  const SettledMotion settled =
-      shoot(motion, motion.travelling(problems::contact_harmonics(problem, at)), 1e-9);
+  const SettledMotion settled = shoot(motion, motion.travelling(problems::ring_harmonics(problem, at)), 1e-9);
   REQUIRE(settled.settled);
   RingState state = settled.state;
   HarmonicRecord record(motion, {1, 3});

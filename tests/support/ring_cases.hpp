@@ -53,15 +53,15 @@ inline SystemParameters driven(SystemParameters s, double base_damping) {
   return s;
 }
 
-/// Positions, velocities and sliders in one vector.
+/// Positions, velocities and memory in one vector.
 inline Vector stacked(const RingState& state) {
-  Vector all(2 * state.position.size() + state.slider.size());
-  all << state.position, state.velocity, state.slider;
+  Vector all(2 * state.position.size() + state.memory.size());
+  all << state.position, state.velocity, state.memory;
   return all;
 }
 
 /// r and the friction force of the one-harmonic response, by bisection of |r (1 + k phi c)| = |y_0|.
-inline ContactHarmonic one_harmonic(const SystemParameters& parameters, double eta, double preload) {
+inline RingHarmonic one_harmonic(const SystemParameters& parameters, double eta, double preload) {
   const FrictionSystem system = build_system(parameters);
   const double k = system.contact_stiffness;
   const Complex compliance = system.base.at(eta).compliance + system.damper.at(eta).compliance;
@@ -76,7 +76,12 @@ inline ContactHarmonic one_harmonic(const SystemParameters& parameters, double e
   }
   const Complex phi = hysteresis_coefficient(std::exp(low), threshold).phi;
   const Complex r = -free / (1.0 + k * phi * compliance);
-  return {1, r, k * phi * r};
+  return {1, ComplexVector::Constant(1, r), ComplexVector::Constant(1, k * phi * r)};
+}
+
+/// S of the first contact.
+inline double slip_threshold(const RingMotion& motion) {
+  return motion.ring().elements.front().element->threshold(motion.load());
 }
 
 }  // namespace arcslip::testing

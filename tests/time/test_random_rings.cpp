@@ -73,14 +73,14 @@ Growth growth_of(const RandomRing& ring, int highest, bool in_time) {
   found.harmonics = values(values.size() - 4);
   found.error = values(values.size() - 3);
   if (!in_time) return found;
-  const std::vector<ContactHarmonic> harmonics = problems::contact_harmonics(*problem, at);
+  const std::vector<RingHarmonic> harmonics = problems::ring_harmonics(*problem, at);
   RingMotion motion(build_ring(s), ring.eta, s.preload);
   const SettledMotion settled = shoot(motion, motion.travelling(harmonics));
   if (!settled.settled) return found;
   RingState state = settled.state;
   HarmonicRecord record(motion, {1});
   motion.advance(state, motion.period(), &record);
-  const Complex r = harmonics.front().relative;
+  const Complex r = harmonics.front().motion(0);
   if (std::abs(record.relative()(0) - r) > 1e-3 * std::abs(r)) return found;  // another response
   const RingStability stability = floquet_stability(motion, settled.state);
   found.time = stability.growth();

@@ -33,7 +33,7 @@ double unaccounted(RingMotion& motion, RingState& state, double duration) {
   EnergyRecord work(motion);
   const double before = motion.energy(state);
   motion.advance(state, duration, &work);
-  return (work.input() - work.friction() - work.damping() - (motion.energy(state) - before)) / work.input();
+  return (work.input() - work.elements() - work.damping() - (motion.energy(state) - before)) / work.input();
 }
 
 /// c_h of base and damper by linear solves: the elements reduced under a wave of h n lengths.
@@ -62,13 +62,10 @@ TEST_CASE("The first crossing of a polynomial is found however close its roots a
   CHECK_FALSE(first_crossing(polynomial(-1, {-0.5, 0.0, 1.0, 2})));  // zero at both ends, below between
 }
 
-TEST_CASE("A ring is refused where it is not one of rods or beams with viscous damping", "[ring]") {
+TEST_CASE("A ring is refused where its damping is not viscous or modal, or nothing presses it", "[ring]") {
   SystemParameters structural = small_beams();
   structural.base_damping_kind = DampingKind::structural;
   CHECK_THROWS_AS(build_ring(structural), std::invalid_argument);
-  SystemParameters sector = small_beams();
-  sector.structures = std::make_shared<const SectorPair>(SectorPart{}, std::nullopt, 1e-10);
-  CHECK_THROWS_AS(build_ring(sector), std::invalid_argument);
   CHECK_THROWS_AS(RingMotion(build_ring(small_beams()), 1, 0), std::invalid_argument);
   CHECK_THROWS_AS(RingMotion(build_ring(small_beams()), 0, 1), std::invalid_argument);
 }
@@ -77,9 +74,10 @@ TEST_CASE("Turning a ring moves each node's motion to the node before", "[ring]"
   const Ring ring = build_ring(GENERATE(small_beams(), small_rods()));
   const Index nodes = ring.nodes();
   Matrix next(nodes, ring.coordinates());
-  next << ring.relative.bottomRows(nodes - 1), ring.relative.topRows(1);
-  CHECK((ring.relative * ring.turn - next).norm() < 1e-13 * next.norm());
-  const Matrix square = ring.turn.transpose() * ring.turn;
+  next << ring.relative().bottomRows(nodes - 1), ring.relative().topRows(1);
+  const Matrix turn = ring.turned(Matrix::Identity(ring.coordinates(), ring.coordinates()));
+  CHECK((ring.relative() * turn - next).norm() < 1e-13 * next.norm());
+  const Matrix square = turn.transpose() * turn;
   CHECK((square - Matrix::Identity(square.rows(), square.cols())).norm() < 1e-13);
 }
 
@@ -108,7 +106,7 @@ TEST_CASE("A ring that sticks throughout has the linear reduced response", "[rin
   const Complex y = base.free + k * base.compliance * r;
   CHECK(std::abs(record.base()(0) - y) < 1e-10 * std::abs(y));
   const Complex u = -k * damper.compliance * r;
-  CHECK(std::abs(record.damper()(0) - u) <= 1e-10 * std::abs(u));
+  CHECK(std::abs(record.damper()(0) - u) <= 1e-10 * std::abs(u) + 1e-15 * std::abs(y));  // that one is y + r
   CHECK(std::abs(record.base()(1)) < 1e-12 * std::abs(y));
 }
 
@@ -136,8 +134,8 @@ TEST_CASE("In the settled response power in is power lost, and friction takes it
   EnergyRecord work(motion);
   RingState state = settled.state;
   motion.advance(state, motion.period(), &work);
-  CHECK_THAT(work.input(), WithinRel(work.friction() + work.damping(), 1e-10));
-  CHECK(work.friction() > 0.05 * work.input());
+  CHECK_THAT(work.input(), WithinRel(work.elements() + work.damping(), 1e-10));
+  CHECK(work.elements() > 0.05 * work.input());
   CHECK(work.damping() > 0);
 }
 
@@ -177,7 +175,7 @@ TEST_CASE("A contact that hardly resists has the harmonics of Caughey's loop", "
   const double eta = 2;
   const double limit = s.interface_stiffness / s.stiffness_ratio();  // P/S
   double amplitude = std::abs(build_system(s).base.at(eta).free);
-  for (int i = 0; i < 3; ++i) amplitude = std::abs(one_harmonic(s, eta, 0.3 * amplitude * limit).relative);
+  for (int i = 0; i < 3; ++i) amplitude = std::abs(one_harmonic(s, eta, 0.3 * amplitude * limit).motion(0));
   const double preload = 0.3 * amplitude * limit;  // R = 5, S = 1.5
   RingMotion motion(build_ring(s), eta, preload);
   const SettledMotion settled = shoot(motion, motion.travelling({one_harmonic(s, eta, preload)}));
@@ -192,7 +190,7 @@ TEST_CASE("A contact that hardly resists has the harmonics of Caughey's loop", "
                               {-0.224799961, -0.148021737},
                               {0.038686505, 0.096538041}};
   const Complex turn = record.relative()(0) / std::abs(record.relative()(0));
-  const double unit = build_ring(s).contact_stiffness * amplitude / 10;
+  const double unit = s.interface_stiffness / static_cast<double>(s.elements) * amplitude / 10;
   for (Index h = 0; h < 4; ++h) {
     const Complex force =
         record.force()(h) / unit / std::pow(turn, record.orders()[static_cast<std::size_t>(h)]);

@@ -83,7 +83,7 @@ std::string driven_case(Index wave_number, Index elements, int highest, const st
 RingStability in_time(const TracedBranch& traced, const BranchPoint& point) {
   const auto& problem = dynamic_cast<const FloquetResponse&>(*traced.base.disturbed);
   const auto harmonics =
-      problems::contact_harmonics(problem, {point.unknowns, point.parameters, point.regime, {}});
+      problems::ring_harmonics(problem, {point.unknowns, point.parameters, point.regime, {}});
   RingMotion motion(build_ring(traced.request->problem.system), point.parameters(0), point.parameters(1));
   const SettledMotion settled = shoot(motion, motion.travelling(harmonics));
   REQUIRE(settled.settled);

@@ -17,7 +17,7 @@ RingState shifted(RingState state, Index column, double step) {
   } else if (column < 2 * coordinates) {
     state.velocity(column - coordinates) += step;
   } else {
-    state.slider(column - 2 * coordinates) += step;
+    state.memory(column - 2 * coordinates) += step;
   }
   return state;
 }
@@ -38,9 +38,9 @@ TEST_CASE("The derivative of the turned flow is that of finite differences", "[r
 
   const Index coordinates = motion.ring().coordinates();
   for (Index column = 0; column < derivative.derivative.cols(); ++column) {
-    const bool slider_of_slip = column >= 2 * coordinates && start.slip[column - 2 * coordinates] != 0;
+    const bool slider_of_slip = column >= 2 * coordinates && start.phase[column - 2 * coordinates] != 0;
     const bool velocity = column >= coordinates && column < 2 * coordinates;
-    const double step = 1e-6 * motion.slip_threshold() * (velocity ? motion.frequency() : 1.0);
+    const double step = 1e-6 * slip_threshold(motion) * (velocity ? motion.frequency() : 1.0);
     const Vector up = stacked(next_state(motion, shifted(start, column, step)));
     const Vector down = stacked(next_state(motion, shifted(start, column, -step)));
     const Vector difference = (up - down) / (2 * step);
@@ -76,13 +76,13 @@ TEST_CASE("Each node repeats its neighbour with the delay of the wave, marched w
                  motion.period() * static_cast<double>(ring.wave_number) / static_cast<double>(ring.nodes()));
   const Vector now = ring.base * state.position;
   const Vector then = ring.base * later.position;
-  const Vector gap = ring.relative * later.position - later.slider;
-  const Vector gap_now = ring.relative * state.position - state.slider;
+  const Vector gap = ring.relative() * later.position - later.memory;
+  const Vector gap_now = ring.relative() * state.position - state.memory;
   for (Index i = 0; i < ring.nodes(); ++i) {
     const Index next = (i + 1) % ring.nodes();
     CHECK_THAT(then(next) - then.mean(), WithinAbs(now(i) - now.mean(), 1e-9 * now.norm()));
     CHECK_THAT(gap(next), WithinAbs(gap_now(i), 1e-9 * gap_now.norm()));
-    CHECK(later.slip[next] == state.slip[i]);
+    CHECK(later.phase[next] == state.phase[i]);
   }
   CHECK(motion.count().events > 4 * ring.nodes());
 }
@@ -91,10 +91,10 @@ TEST_CASE("The response starts from any place of the neutral drift", "[ring]") {
   RingMotion motion(build_ring(small_rods()), 2.3, 0.03);
   const SettledMotion settled = shoot(motion, motion.at_rest());
   REQUIRE(settled.settled);
-  const Vector drift = neutral_drift(motion.ring());
+  const Vector drift = neutral_drifts(motion).col(0);
   RingState moved = settled.state;
   moved.position += drift.head(moved.position.size());
-  moved.slider += drift.tail(moved.slider.size());
+  moved.memory += drift.tail(moved.memory.size());
   CHECK(state_distance(motion, next_state(motion, moved), moved) < 1e-10);
   CHECK(state_distance(motion, moved, settled.state) < 1e-13);
   const Matrix derivative = next_derivative(motion, settled.state).derivative;

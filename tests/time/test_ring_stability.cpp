@@ -24,15 +24,15 @@ RingState settled_state(RingMotion& motion, const RingCase& c) {
 /// Central differences of the marched flow over one period. Steps of velocities are w* as long.
 Matrix brute_monodromy(RingMotion& motion, const RingState& start) {
   const Index coordinates = start.position.size();
-  const Index size = 2 * coordinates + start.slider.size();
-  const double step = 1e-5 * motion.slip_threshold();
+  const Index size = 2 * coordinates + start.memory.size();
+  const double step = 1e-5 * slip_threshold(motion);
   const auto end = [&](Index column, double sign) {
     RingState state = start;
     if (column < coordinates) state.position(column) += sign * step;
     if (column >= coordinates && column < 2 * coordinates) {
       state.velocity(column - coordinates) += sign * step * motion.frequency();
     }
-    if (column >= 2 * coordinates) state.slider(column - 2 * coordinates) += sign * step;
+    if (column >= 2 * coordinates) state.memory(column - 2 * coordinates) += sign * step;
     motion.advance(state, motion.period());
     return stacked(state);
   };

@@ -245,7 +245,7 @@ TEST_CASE("The ring in time settles to a response on cubic springs, and grows as
   const FloquetResponse problem = response_of(system);
   const continuation::Guess at = problem.guess(eta, ring.preload);
   RingMotion motion(build_ring(system), eta, ring.preload);
-  const SettledMotion settled = shoot(motion, motion.travelling(problems::contact_harmonics(problem, at)));
+  const SettledMotion settled = shoot(motion, motion.travelling(problems::ring_harmonics(problem, at)));
   REQUIRE(settled.settled);
   RingState state = settled.state;
   HarmonicRecord record(motion, {1});

@@ -47,6 +47,9 @@ class MasingElement final : public Element {
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
 
+  /// The curve of first loading.
+  const Backbone& backbone() const { return *backbone_; }
+
  private:
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;

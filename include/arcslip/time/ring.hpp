@@ -1,36 +1,37 @@
 #pragma once
 
-// The complete ring of N nodes, base and damper, with a Jenkins element between them at each node. Nothing is
-// taken from the travelling wave but the load. With q the displacements of all nodes, b_i the difference
-// u_i - y_i of contact i and g_i its friction force,
+// The complete ring of N nodes, base and damper, with all elements that act on them. Nothing is taken from
+// the travelling wave but the load. With q the displacements of all nodes, x = X q the coordinates in which
+// elements act and f their forces against these,
 //
-//   M q'' + C q' + K q + sum_i b_i g_i = Re(sum_h F_h e^{jhw*t}),   w* = 2 pi eta,   C = (beta/2 pi) K of
-//   each structure g_i = k (r_i - x_i) in stick, +-k S in slip,           r_i = b_i^T q,   x_i the place of
-//   the slider
+//   M q'' + C q' + K q + X^T f = Re(sum_h F_h e^{jhw*t}),   w* = 2 pi eta
 //
-// where node i carries the load of node 1 times e^{-ja(i-1)}. It is held in the undamped modes of the two
-// uncoupled structures, q = Phi p, which leave every matrix but that of the contacts diagonal:
+// where node i carries the load of node 1 times e^{-jha(i-1)}. It is held in the undamped modes of the two
+// uncoupled structures, which are waves round the ring: those of l and N - l lengths are the two real
+// coordinates a and b of a motion Re(v e^{-2 pi j l (i-1)/N} (a + jb)). They leave every matrix but that of
+// the elements diagonal,
 //
-//   p'' + D p' + W p + B^T g + sum X^T f(x) = Re(sum_h L_h e^{jhw*t}),   r = B p,   x = X p
+//   p'' + D p' + W p + X^T f = Re(sum_h L_h e^{jhw*t}),   x = X p
 //
-// with further elements f(x) in coordinates x of base or damper. Where the damper is free, base and damper
-// can move together as one rigid body. No force of this model does it, unless elements hold one of them to
-// ground: that coordinate stays at rest and is left out.
+// and make of the motion in which each node does what the next one did a turn of a and b by 2 pi l/N.
+// Of modes of one frequency and damping, as rigid motions of base and damper, elements feel sum v v^H alone:
+// what moves no element is left out, and told apart where the load moves it.
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/system.hpp"
 
 namespace arcslip {
 
-/// Elements without memory beside the contacts, the same at each node.
+/// Elements of one kind, one at each node.
 struct RingElements {
-  Matrix motion;                           ///< N x D: x = motion p
   std::shared_ptr<const Element> element;  ///< one of them
-
-  /// Its force.
-  const PiecewiseLaw& law() const { return *element->law(); }
+  Index sliding;                           ///< the first of the N rows of its first coordinate
+  Index closing;                           ///< and of its second one, or -1
+  double factor;                           ///< on its force
 };
 
 /// One harmonic of the load.
@@ -39,33 +40,53 @@ struct RingLoad {
   ComplexVector amplitude;  ///< D: L of Re(L e^{jhw*t})
 };
 
-/// Modal form of the ring; D coordinates, N contacts. Time is nondimensional: one period is 1/eta.
-struct Ring {
-  Vector stiffness;  ///< D: diagonal of W, squares of the circular frequencies 2 pi eta_k
-  Vector damping;    ///< D: diagonal of D
-  Matrix base;       ///< N x D: contact dofs y = base p
-  Matrix damper;     ///< N x D: contact dofs u = damper p
-  Matrix relative;   ///< N x D: B = damper - base
-  Matrix turn;       ///< D x D, orthogonal: the motion in which each node does what the next one did
-
-  Index wave_number;                 ///< n
-  double contact_stiffness;          ///< k = K_FD/N
-  double slip_per_preload;           ///< S/P
-  double preload_growth;             ///< P_2
-  std::vector<RingElements> others;  ///< beside the contacts
-  std::vector<RingLoad> loads;       ///< that act
-  std::optional<Index> drift;        ///< the coordinate, if any, of a rigid motion that contacts alone resist
-
-  /// N and D.
-  Index nodes() const { return relative.rows(); }
-  Index coordinates() const { return relative.cols(); }
-
-  /// A bound on the moduli of the eigenvalues of the ring, whichever contacts stick.
-  double fastest_rate() const;
+/// What a harmonic of the load moves of the base's contact dof without any element's knowing.
+struct UnseenMotion {
+  int order;         ///< h
+  Complex residue;   ///< of y_h = residue/(stiffness - (h w*)^2 + jh w* damping), at node 1
+  double stiffness;  ///< square of the circular frequency
+  double damping;    ///< as in D
 };
 
-/// Assembles the ring. Throws std::invalid_argument for sectors, for damping that is not viscous and for
-/// elements with memory beside the contacts.
+/// Modal form of the ring; D coordinates, N nodes. Time is nondimensional: one period is 1/eta.
+struct Ring {
+  Vector stiffness;           ///< D: diagonal of W, squares of the circular frequencies 2 pi eta_k
+  Vector damping;             ///< D: diagonal of D
+  std::vector<Index> wave;    ///< D: l <= N/2
+  std::vector<Index> beside;  ///< D: the coordinate b that stands to an a or a to a b; itself where N | 2 l
+
+  Matrix motion;  ///< X: N rows for each coordinate of the elements, contacts first, by D
+  Matrix base;    ///< N x D: the first contact dof of the base, y = base p
+
+  Index node_count;                         ///< N
+  Index wave_number;                        ///< n
+  double preload_growth;                    ///< P_2
+  std::vector<RingElements> elements = {};  ///< that act
+  std::vector<RingLoad> loads = {};         ///< that act
+  std::vector<UnseenMotion> unseen = {};    ///< of the load's harmonics
+
+  /// N and D.
+  Index nodes() const { return node_count; }
+  Index coordinates() const { return stiffness.size(); }
+
+  /// N x D: relative motions u - y of the first contact.
+  auto relative() const { return motion.topRows(node_count); }
+
+  /// n periods over N, in which each node comes to do what the one before it did; of n = 0 a period.
+  double periods_of_turn() const {
+    return wave_number == 0 ? 1 : static_cast<double>(wave_number) / static_cast<double>(node_count);
+  }
+
+  /// Columns of D rows, turned so that each node does what the next one did.
+  Matrix turned(const Matrix& columns) const;
+
+  /// Rows of N nodes for each of several quantities, moved likewise.
+  Matrix moved_back(const Matrix& rows) const;
+};
+
+/// Assembles the ring. Throws std::invalid_argument, with the reason, for structures without modes or with
+/// damping that is not viscous or modal, for contacts that do not act back on the base and for elements that
+/// have no motion in time; SectorError.
 Ring build_ring(const SystemParameters& parameters);
 
 }  // namespace arcslip

@@ -1,42 +1,41 @@
 #pragma once
 
-// Motion of a ring in time, event by event. While no contact changes between stick and slip the ring is
-// linear with constant coefficients and harmonic load, and its Taylor series in time
+// Motion of a ring in time, event by event. While no element changes its phase (ring_law.hpp) the forces are
+// polynomials of displacements, and the Taylor series in time
 //
-//   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - B^T g_m
+//   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - X^T f_m
 //
 // is summed to rounding, over steps of a few units of the fastest rate of the ring, or shorter ones where
-// further elements add products of series to it. So every displacement is a polynomial in a step, of which
-// the first crossing is found without sampling: |r - x| = S ends stick, r' = 0 ends slip, and a further
-// element changes its law where its displacement says so. It needs no decomposition for each pattern of
-// sticking contacts, of which a transient has hundreds, and has no exception where the damped modes are
-// defective.
+// forces are no linear ones. So every displacement is a polynomial in a step, of which the first event is
+// found without sampling. It needs no decomposition for each pattern of phases, of which a transient has
+// hundreds, and has no exception where the damped modes are defective.
 
-#include <set>
+#include <memory>
 #include <vector>
 
 #include "arcslip/time/ring.hpp"
+#include "arcslip/time/ring_law.hpp"
 
 namespace arcslip {
 
-/// All that the future depends on.
+/// All that the future depends on. Of each kind of element in turn, node by node: its phases and each number
+/// of its memory, of a contact the place of its slider.
 struct RingState {
-  double time = 0;        ///< t, of which a period is 1/eta
-  Vector position;        ///< D
-  Vector velocity;        ///< D
-  Vector slider;          ///< N: x, which is r -+ S in slip
-  std::vector<int> slip;  ///< N: 0 in stick, else the sign of the slip
+  double time = 0;         ///< t, of which a period is 1/eta
+  Vector position;         ///< D
+  Vector velocity;         ///< D
+  Vector memory;           ///< M
+  std::vector<int> phase;  ///< of each element, as ring_law.hpp has it; of contacts 0 in stick, else the
+                           ///< sign of the slip
 };
 
 /// One step: coefficients in powers of (t - start)/scale, valid for start <= t <= start + length.
 struct RingSegment {
-  double start = 0;                     ///< t
-  double scale = 1;                     ///< of time, in the powers
-  double length = 0;                    ///< of the step, in time
-  Matrix position;                      ///< D x (order + 1)
-  Matrix relative;                      ///< N x (order + 1): r
-  std::vector<Matrix> other;            ///< N x (order + 1) of each further element: x
-  std::vector<std::vector<int>> zones;  ///< N of each: the piece of its law, negative where x is
+  double start = 0;   ///< t
+  double scale = 1;   ///< of time, in the powers
+  double length = 0;  ///< of the step, in time
+  Matrix position;    ///< D x (order + 1)
+  Matrix motion;      ///< coordinates of all elements x (order + 1): x
 
   /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
   static Vector value(const Matrix& series, double ratio);
@@ -48,82 +47,136 @@ class RingObserver {
  public:
   virtual ~RingObserver() = default;
 
-  /// A step, with the contact states of `state`, the state at its start.
+  /// A step, with the phases of `state`, the state at its start.
   virtual void follow(const RingSegment& segment, const RingState& state) = 0;
 
-  /// A contact of `state` has just changed, at state.time.
-  virtual void change(Index /*contact*/, const RingState& /*state*/) {}
+  /// Element `which` of `state` has just changed its phase, at state.time.
+  virtual void change(Index /*which*/, const RingMemoryChange& /*memory*/, const RingState& /*state*/) {}
 };
 
 /// What a motion has cost.
 struct RingCount {
-  long steps = 0;                        ///< Taylor series summed
-  long events = 0;                       ///< changes between stick and slip, each contact counted
-  std::set<std::vector<bool>> patterns;  ///< of sticking contacts, the least of each one's rotations
+  long steps = 0;   ///< Taylor series summed
+  long events = 0;  ///< changes of phase, each element counted
 };
 
-/// One harmonic of the relative displacement of node 1, and of forces there, phasors.
-struct ContactHarmonic {
-  int order;           ///< h
-  Complex relative;    ///< r_h
-  Complex friction;    ///< on the base, k phi r for one harmonic; that on the damper is the opposite
-  Complex base = 0;    ///< force of further elements on the base
-  Complex damper = 0;  ///< and on the damper
+/// One harmonic of the motion of node 1 in the coordinates of its elements, and of their forces, phasors.
+struct RingHarmonic {
+  int order;             ///< h
+  ComplexVector motion;  ///< x_h
+  ComplexVector force;   ///< f_h, against x
+};
+
+/// Forces of the elements that vary within their phases: of some coordinates.
+struct VaryingForces {
+  std::vector<Index> rows;   ///< which coordinates they are
+  Matrix motion;             ///< their rows of X
+  Vector linear;             ///< stiffness against the own displacement
+  Vector origin;             ///< from which that counts
+  std::vector<Index> other;  ///< the place here of another coordinate that moves the force, or -1
+  Vector cross;              ///< by how much it does
+  std::vector<std::pair<Index, std::vector<double>>> curved;  ///< place and powers of those not linear
 };
 
 /// Equation of motion of `ring` at one eta and preload.
 class RingMotion {
  public:
-  /// Throws std::invalid_argument unless eta > 0 and the contact is loaded.
+  /// Throws std::invalid_argument unless eta > 0 and the preload is positive.
   RingMotion(const Ring& ring, double eta, double preload);
 
-  /// Everything at zero, at t = 0, in stick.
+  /// Everything at zero, at t = 0, as it is at rest.
   RingState at_rest() const;
 
-  /// The state at t = 0 of the travelling wave in which node 1 has these harmonics.
-  RingState travelling(const std::vector<ContactHarmonic>& harmonics) const;
+  /// The state at t = 0 of the travelling wave in which node 1 has these harmonics, in the coordinates of
+  /// all elements.
+  RingState travelling(const std::vector<RingHarmonic>& harmonics) const;
 
-  /// Takes the state on by `duration`. Throws std::runtime_error where contacts switch without end.
+  /// Takes the state on by `duration`. Throws std::runtime_error where elements change without end.
   void advance(RingState& state, double duration, RingObserver* observer = nullptr);
 
-  /// Elastic energy, also of the contacts, and kinetic energy.
+  /// Elastic and kinetic energy of base and damper.
   double energy(const RingState& state) const;
 
-  /// What moves, and at what frequency and threshold.
+  /// What moves, and at what frequency and load P + P_2 eta^2.
   const Ring& ring() const { return ring_; }
   double frequency() const { return frequency_; }  ///< w* = 2 pi eta
   double period() const { return period_; }
-  double slip_threshold() const { return threshold_; }  ///< S
+  double load() const { return load_; }
+  double fastest_rate() const { return rate_; }  ///< a bound on the moduli of eigenvalues, in any phases
   /// Of all that was advanced so far.
   const RingCount& count() const { return count_; }
 
+  /// Elements of one kind under this load.
+  struct Family {
+    std::shared_ptr<const RingLaw> law;
+    Index sliding;  ///< first row of X
+    Index closing;  ///< the same, or -1
+    Index memory;   ///< first number in the state's memory
+    double factor;  ///< on forces
+  };
+  const std::vector<Family>& families() const { return families_; }
+  Index memories() const { return memories_; }  ///< M
+  /// The kind of an element and its node.
+  const Family& family(Index which) const {
+    return families_[static_cast<std::size_t>(which / ring_.nodes())];
+  }
+  Index node(Index which) const { return which % ring_.nodes(); }
+  Index elements() const { return std::ssize(families_) * ring_.nodes(); }
+  /// Where a number of an element's memory stands in the state's.
+  Index memory_place(Index which, Index number) const {
+    return family(which).memory + number * ring_.nodes() + node(which);
+  }
+  std::vector<double> memory_of(Index which, const RingState& state) const;
+  RingPlace place_of(Index which, const Vector& position, const Vector& velocity) const;
+
+  /// What holds since the last event of what was advanced.
+  const VaryingForces& varying() const { return varying_; }
+  const RingBranch& branch(Index which) const { return branches_[static_cast<std::size_t>(which)]; }
+  /// Forces there at displacements x of all coordinates.
+  Vector forces(const Vector& x) const;
+
  private:
   struct Crossing {
-    Index contact;  ///< beyond the last: the law of a further element changes
-    double ratio;   ///< of the segment's scale
+    Index which;
+    std::size_t event;
+    double ratio;  ///< of the segment's scale
   };
 
+  void refresh(Index which, const RingState& state);
+  void refresh_all(const RingState& state);
+  void gather();
+  void add_row(Index row);
   bool expands(const RingState& state, double length);
-  void find_zones(const RingState& state);
-  void add_law_crossings(std::vector<Crossing>& found) const;
-  std::vector<Crossing> first_crossings(const RingState& state) const;
-  void change(Index contact, RingState& state) const;
-  void note(const RingState& state);
+  const std::vector<Crossing>& first_crossings(const RingState& state);
+  void take_events(RingState& state, RingObserver* observer);
+  void leave_idle(RingState& state) const;
+  void add_harmonic(int order, const ComplexVector& load, RingState& state) const;
+  void begin_elements(const std::vector<RingHarmonic>& harmonics, RingState& state) const;
 
   Ring ring_;
   double frequency_;
   double period_;
-  double threshold_;
-  double rate_;
-  double longest_step_;
+  double load_;
+  double rate_ = 0;
+  double longest_step_ = 0;
+  double fastest_load_;
+  std::vector<Family> families_;
+  Index memories_ = 0;
+  Matrix sizes_;  ///< |X|
+
+  std::vector<RingBranch> branches_;
+  std::vector<std::vector<RingEvent>> events_;
+  VaryingForces varying_;
+  std::vector<Index> places_;  ///< of the coordinates among the varying ones, or -1
+  Vector offset_;              ///< of all coordinates, forces that do not vary
   RingSegment segment_;
+  std::vector<Complex> phases_;
+  std::vector<Crossing> crossings_;
+  Vector function_;
   RingCount count_;
 };
 
 /// Terms that the Taylor series of e^z needs for |z| = `reach` to leave out less than rounding.
 Index series_order(double reach);
-
-/// Rows of B of the contacts that stick.
-Matrix sticking_rows(const Ring& ring, const std::vector<int>& slip);
 
 }  // namespace arcslip

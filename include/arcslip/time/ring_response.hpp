@@ -5,62 +5,40 @@
 //
 //   G(s) = turn(flow(s, nT/N)),   turn: node i takes the place of node i + 1
 //
-// that a march reaches from rest, or Newton's method with the derivative of the flow. Between events the
-// derivative obeys the linear ring of the sticking contacts. Friction forces are continuous where stick ends
-// and where it begins, so displacements and velocities have no jump in their derivatives either; a slider
-// moves with its contact while this slips and is left, when slip ends, where the relative displacement has
-// taken it: delta x = delta r, for r' = 0 at that moment whatever its delay.
+// that a march reaches from rest, or Newton's method with the derivative of the flow (ring_tangent.hpp).
+// Where all nodes do the same at once, n = 0, G is the flow over a period.
 //
-// One direction is neutral in every state: base against damper as rigid bodies, with all sliders. Neither
-// structure resists it, and r - x stays as it was. Responses that differ by such a drift are one here. On
-// further elements the structure that they hold has none, and the other one, if it is free, has it alone.
+// Rigid motions are neutral that no structure and no element resists: sliders go with them, and r - x stays
+// as it was, as with base against damper of two free rings. Responses that differ by such a drift are one
+// here.
 
-#include "arcslip/time/ring_motion.hpp"
+#include "arcslip/time/ring_tangent.hpp"
 
 namespace arcslip {
-
-/// Derivative of the flow by the initial state, along a motion that it follows.
-class RingTangent : public RingObserver {
- public:
-  /// Columns: position, velocity and slider of the state at the start, 2D + N.
-  explicit RingTangent(const RingMotion& motion);
-  void follow(const RingSegment& segment, const RingState& state) override;
-  void change(Index contact, const RingState& state) override;
-
-  /// The derivative of position, velocity and slider of `state`, at the end: (2D + N) x (2D + N). Columns of
-  /// contacts that slipped at the start are zero: their sliders are no free states.
-  Matrix at(const RingState& state) const;
-
- private:
-  Matrix slopes(std::size_t element, const RingSegment& segment, Index order) const;
-
-  const Ring& ring_;
-  double rate_;
-  Matrix position_;
-  Matrix velocity_;
-  Matrix slider_;
-};
 
 /// G(s); its time is that of s.
 RingState next_state(RingMotion& motion, const RingState& state, RingObserver* observer = nullptr);
 
-/// dG/ds, (2D + N) x (2D + N), with G(s).
+/// dG/ds, (2D + M) x (2D + M), with G(s).
 struct StateDerivative {
-  RingState next;     ///< G(s)
-  Matrix derivative;  ///< dG/ds
+  RingState next;           ///< G(s)
+  Matrix derivative;        ///< dG/ds
+  std::vector<bool> moved;  ///< RingTangent::moved
 };
 StateDerivative next_derivative(RingMotion& motion, const RingState& state);
 
-/// The unit vector of the neutral drift in (position, velocity, slider), 2D + N; zero without one.
-Vector neutral_drift(const Ring& ring);
+/// Unit vectors of neutral drifts in (position, velocity, memory), (2D + M) x their number: those that are
+/// the same at all nodes or, of `any_wave`, others as well. Elements that have not `moved` hold what they
+/// feel.
+Matrix neutral_drifts(const RingMotion& motion, bool any_wave = false, const std::vector<bool>& moved = {});
 
-/// |a - b| over |b| in (position, velocity/w*, slider), each without its part along the drift.
+/// |a - b| over |b| in (position, velocity/w*, memory), each without its part along drifts.
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b);
 
 /// A response that repeats itself.
 struct [[nodiscard]] SettledMotion {
   RingState state;  ///< s
-  double error;     ///< |G(s) - s| over |s|, this without its part along the drift
+  double error;     ///< |G(s) - s| over |s|, this without its part along drifts
   int rounds;       ///< of the march, each nT/N long, or of Newton's method
   bool settled;     ///< whether the tolerance is met
 };
@@ -70,8 +48,10 @@ struct [[nodiscard]] SettledMotion {
 /// periodic, but no travelling wave, and is never settled in this sense.
 SettledMotion march_until_settled(RingMotion& motion, RingState state, double tolerance, int rounds);
 
-/// Newton's method on G(s) = s from a guess. Steps are halved while they do not bring G(s) nearer to s; where
-/// none does, the ring is marched for n periods, which may lead away from an unstable response.
+/// Newton's method on G(s) = s from a guess, with a derivative that is kept while steps with it do well.
+/// Steps are halved while they do not bring G(s) nearer to s; where none does, the ring is marched for n
+/// periods, which may lead away from an unstable response. Memory of elements that never change their phase
+/// is made the same at all nodes.
 SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance = 1e-12, int rounds = 40);
 
 }  // namespace arcslip

@@ -19,11 +19,11 @@
 // a branch point of travelling responses; at any other nu of modulus 1 a response branches off that travels
 // no more.
 //
-// What says nothing of stability is left out: the multiplier 1 of the neutral drift, and, where no contact
-// slips, the sliders, which then are constants of the motion. The slider of a contact that slips at the start
-// is no free state; it and what the other sliders forget give multipliers 0. Where no contact slips and the
-// damper is free, a pair of |mu| = 1 remains: base against damper as rigid bodies on the springs of the
-// contacts, which no damping proportional to stiffness reaches.
+// What says nothing of stability is left out: the multipliers of neutral drifts, and the memory of elements
+// that never change their phase, which then are constants of the motion. Memory that the phase at the start
+// does not need is no free state; it and what other elements forget give multipliers 0. Where no contact
+// slips and the damper is free, a pair of |mu| = 1 remains: base against damper as rigid bodies on the
+// springs of the contacts, which no damping proportional to stiffness reaches. For n = 0, nu = mu.
 
 #include "arcslip/time/ring_response.hpp"
 
@@ -31,9 +31,9 @@ namespace arcslip {
 
 /// Stability of a fixed point of G.
 struct RingStability {
-  ComplexVector turned;  ///< nu, of falling modulus; 2D + N - 1, or 2D where no contact slips
-  double periods;        ///< N/n
-  bool slips;            ///< whether the contacts slip at all
+  ComplexVector turned;  ///< nu, of falling modulus; 2D + M less drifts and memory that never changes
+  double periods;        ///< N/n, or 1
+  bool slips;            ///< whether any element changes its phase
 
   /// The largest |mu|: the growth of the worst disturbance in one period T.
   double growth() const;
@@ -45,8 +45,8 @@ struct RingStability {
 /// For a settled state: one with G(s) = s.
 RingStability floquet_stability(RingMotion& motion, const RingState& state);
 
-/// Derivative of (position, velocity, slider) over one period T, (2D + N) x (2D + N): its eigenvalues are mu,
-/// with 1 for the drift. Costs N/n times what G does.
+/// Derivative of (position, velocity, memory) over one period T, (2D + M) x (2D + M): its eigenvalues are mu,
+/// with 1 for a drift. Costs N/n times what G does.
 Matrix monodromy(RingMotion& motion, const RingState& state);
 
 }  // namespace arcslip

@@ -47,6 +47,9 @@ class PressedElement final : public Element {
   StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                      bool beyond) const override;
 
+  /// Its numbers under a load.
+  PressedSettings settings(double load) const { return at(load, 0); }
+
  private:
   /// The settings with so much added to the one that is continued.
   PressedSettings at(double load, double setting) const;

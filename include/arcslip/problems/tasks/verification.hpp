@@ -28,9 +28,9 @@ std::optional<BalanceErrors> largest_errors(const SystemParameters& parameters,
                                             const continuation::Branch& branch,
                                             const std::function<bool()>& go_on = {});
 
-/// What the first contact does in a response, harmonic by harmonic: what the ring in time is begun with.
-std::vector<ContactHarmonic> contact_harmonics(const HarmonicResponse& problem,
-                                               const continuation::Guess& at);
+/// What the elements of the first node do in a response, harmonic by harmonic: what the ring in time is begun
+/// with.
+std::vector<RingHarmonic> ring_harmonics(const HarmonicResponse& problem, const continuation::Guess& at);
 
 /// NaN where a method has no result.
 struct Verification {
@@ -52,6 +52,8 @@ struct VerifyOptions {
   /// Called before each point with its number among those chosen and how many these are; false ends it.
   std::function<bool(std::size_t, std::size_t)> progress = {};
   std::function<void(const Verification&)> found = {};  ///< called with each result as soon as it is there
+  std::function<void(const std::string&)> refused =
+      {};  ///< called at the end where nothing moves in time: why
 };
 
 /// Solves special points of such a branch, and some others, anew.

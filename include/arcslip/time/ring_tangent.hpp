@@ -1,0 +1,70 @@
+#pragma once
+
+// The derivative of the flow of a ring by its initial state. Between events it obeys the linear ring of the
+// elements' stiffness at the moment. Forces are continuous at events, so displacements and velocities have no
+// jump in their derivatives either; a number of the memory that an event sets moves as the displacements do
+// there, the moment of the event included.
+
+#include "arcslip/time/ring_motion.hpp"
+
+namespace arcslip {
+
+/// Records the motion that it follows, and tells the derivative.
+class RingTangent : public RingObserver {
+ public:
+  explicit RingTangent(const RingMotion& motion) : motion_(motion) {}
+  void follow(const RingSegment& segment, const RingState& state) override;
+  void change(Index which, const RingMemoryChange& memory, const RingState& state) override;
+
+  /// The derivative of position, velocity and memory of `state`, at the end, by those at the start: (2D + M)
+  /// x (2D + M). Columns of memory that the phases at the start do not need are zero: it is no free state.
+  Matrix at(const RingState& state) const;
+
+  /// Whether an element of each kind has changed its phase, or begins in one that does not need its memory.
+  std::vector<bool> moved() const;
+
+ private:
+  /// A number of the memory that moves a force.
+  struct Remembered {
+    Index place;         ///< of the coordinate among the varying ones
+    Index number;        ///< in the state's memory
+    double coefficient;  ///< stiffness against it
+    Index curved;        ///< among those not linear if it is their origin, which the slope acts on, or -1
+  };
+  struct Stretch {
+    double length;
+    Index order;
+    VaryingForces forces;
+    std::vector<Remembered> memory;
+    Matrix slopes;  ///< curved x (order + 1)
+  };
+  struct Change {
+    std::size_t after;  ///< how many stretches
+    Index number;       ///< in the state's memory
+    Index sliding;      ///< row of X
+    Index closing;      ///< the same, or -1
+    RingMemoryChange memory;
+  };
+  struct Columns {
+    Matrix position;
+    Matrix velocity;
+    Matrix memory;
+  };
+
+  void note_memory(Stretch& stretch) const;
+  void note_slopes(const RingSegment& segment, Stretch& stretch) const;
+  void take(const Stretch& stretch, Columns& columns) const;
+  void take(const Change& change, Columns& columns) const;
+  void take_all(Columns& columns) const;
+  bool is_uniform() const;
+  Matrix wave_by_wave() const;
+  void add_idle(const RingState& state, Matrix& all) const;
+
+  const RingMotion& motion_;
+  std::vector<Stretch> stretches_;
+  std::vector<Change> changes_;
+  std::vector<int> phase_;  ///< at the start
+  std::vector<bool> changed_;
+};
+
+}  // namespace arcslip

@@ -1,0 +1,305 @@
+#include "arcslip/time/ring_tangent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "time/law_series.hpp"
+
+namespace arcslip {
+namespace {
+
+constexpr Index columns_at_once = 16;  // which the processor's caches hold
+
+/// (2D + M) identity, some columns of it.
+Matrix unit_columns(Index size, Index first, Index count) {
+  Matrix all = Matrix::Zero(size, count);
+  all.middleRows(first, count).setIdentity();
+  return all;
+}
+
+}  // namespace
+
+void RingTangent::follow(const RingSegment& segment, const RingState& state) {
+  if (phase_.empty()) {
+    phase_ = state.phase;
+    changed_.assign(motion_.families().size(), false);
+  }
+  if (segment.length == 0) return;
+  Stretch stretch{
+      segment.length, series_order(motion_.fastest_rate() * segment.length), motion_.varying(), {}, {}};
+  if (!stretch.forces.curved.empty()) stretch.order += segment.position.cols();
+  note_memory(stretch);
+  note_slopes(segment, stretch);
+  stretches_.push_back(std::move(stretch));
+}
+
+void RingTangent::note_memory(Stretch& stretch) const {
+  const VaryingForces& forces = stretch.forces;
+  std::vector<Index> place(static_cast<std::size_t>(motion_.ring().motion.rows()), -1);
+  for (std::size_t i = 0; i < forces.rows.size(); ++i)
+    place[static_cast<std::size_t>(forces.rows[i])] = static_cast<Index>(i);
+  std::vector<Index> curved(forces.rows.size(), -1);
+  for (std::size_t i = 0; i < forces.curved.size(); ++i)
+    curved[static_cast<std::size_t>(forces.curved[i].first)] = static_cast<Index>(i);
+  for (Index e = 0; e < motion_.elements(); ++e) {
+    const RingBranch& branch = motion_.branch(e);
+    const Index here = place[static_cast<std::size_t>(motion_.family(e).sliding + motion_.node(e))];
+    if (here < 0) continue;
+    for (std::size_t j = 0; j < branch.by_memory.size(); ++j)
+      stretch.memory.push_back(
+          {here, motion_.memory_place(e, static_cast<Index>(j)), branch.by_memory[j], -1});
+    if (branch.origin_memory >= 0)
+      stretch.memory.push_back({here, motion_.memory_place(e, branch.origin_memory), -forces.linear(here),
+                                curved[static_cast<std::size_t>(here)]});
+  }
+}
+
+/// Terms of the slopes in the stretch's own length.
+void RingTangent::note_slopes(const RingSegment& segment, Stretch& stretch) const {
+  const auto& curved = stretch.forces.curved;
+  stretch.slopes.resize(std::ssize(curved), stretch.order + 1);
+  if (curved.empty()) return;
+  std::vector<std::vector<double>> powers;
+  for (const auto& [place, of_place] : curved) powers.push_back(of_place);
+  LawSeries law(powers, stretch.order + 1);
+  Vector x(std::ssize(curved));
+  double power = 1;
+  for (Index m = 0; m <= stretch.order; ++m, power *= segment.length / segment.scale) {
+    for (Index i = 0; i < x.size(); ++i) {
+      const Index place = curved[static_cast<std::size_t>(i)].first;
+      const Index row = stretch.forces.rows[static_cast<std::size_t>(place)];
+      x(i) = m < segment.motion.cols() ? power * segment.motion(row, m) : 0;
+      if (m == 0) x(i) -= stretch.forces.origin(place);
+    }
+    law.take(x);
+    stretch.slopes.col(m) = law.slope();
+  }
+}
+
+void RingTangent::change(Index which, const RingMemoryChange& memory, const RingState& /*state*/) {
+  changed_[static_cast<std::size_t>(which / motion_.ring().nodes())] = true;
+  if (memory.number < 0) return;
+  const RingMotion::Family& family = motion_.family(which);
+  const Index node = motion_.node(which);
+  changes_.push_back({stretches_.size(), motion_.memory_place(which, memory.number), family.sliding + node,
+                      family.closing < 0 ? -1 : family.closing + node, memory});
+}
+
+void RingTangent::take(const Change& change, Columns& columns) const {
+  const Matrix& motion = motion_.ring().motion;
+  auto row = columns.memory.row(change.number);
+  row.noalias() = change.memory.by_sliding * (motion.row(change.sliding) * columns.position);
+  if (change.memory.by_closing != 0)
+    row.noalias() += change.memory.by_closing * (motion.row(change.closing) * columns.position);
+}
+
+void RingTangent::take(const Stretch& stretch, Columns& columns) const {
+  const Ring& ring = motion_.ring();
+  const VaryingForces& forces = stretch.forces;
+  const double h = stretch.length;
+  std::vector<Matrix> motions;  // of those that are not linear, term by term
+  Matrix now = columns.position;
+  Matrix next = h * columns.velocity;
+  Matrix rate = next;  // h times the velocity
+  Matrix x;
+  Matrix local;
+  Matrix force = Matrix::Zero(now.rows(), now.cols());
+  columns.position += next;
+  const double* stiff = ring.stiffness.data();
+  const double* damped = ring.damping.data();
+  for (Index m = 0; m + 2 <= stretch.order; ++m) {
+    const auto up = static_cast<double>(m + 1);
+    if (!forces.rows.empty()) {
+      x.noalias() = forces.motion * now;
+      local = forces.linear.asDiagonal() * x;
+      for (std::size_t i = 0; i < forces.other.size(); ++i) {
+        if (forces.other[i] >= 0)
+          local.row(static_cast<Index>(i)) += forces.cross(static_cast<Index>(i)) * x.row(forces.other[i]);
+      }
+      if (m == 0) {
+        for (const Remembered& one : stretch.memory) {
+          local.row(one.place) += one.coefficient * columns.memory.row(one.number);
+          if (one.curved >= 0) x.row(one.place) -= columns.memory.row(one.number);
+        }
+      }
+      if (!forces.curved.empty()) {
+        Matrix& moved = motions.emplace_back(std::ssize(forces.curved), now.cols());
+        for (Index i = 0; i < moved.rows(); ++i)
+          moved.row(i) = x.row(forces.curved[static_cast<std::size_t>(i)].first);
+        for (Index i = 0; i < moved.rows(); ++i) {
+          auto row = local.row(forces.curved[static_cast<std::size_t>(i)].first);
+          for (Index j = 0; j <= m; ++j)
+            row += stretch.slopes(i, m - j) * motions[static_cast<std::size_t>(j)].row(i);
+        }
+      }
+      force.noalias() = forces.motion.transpose() * local;
+    }
+    // now becomes the term after `next`: in one pass through memory.
+    const double step = -h * h / (up * (up + 1));
+    for (Index c = 0; c < now.cols(); ++c) {
+      double* term = &now(0, c);
+      const double* before = &next(0, c);
+      const double* pushed = &force(0, c);
+      double* position = &columns.position(0, c);
+      double* velocity = &rate(0, c);
+      for (Index i = 0; i < now.rows(); ++i) {
+        term[i] = stiff[i] * step * term[i] + damped[i] * (step * up / h) * before[i] + step * pushed[i];
+        position[i] += term[i];
+        velocity[i] += (up + 1) * term[i];
+      }
+    }
+    now.swap(next);
+  }
+  columns.velocity = rate / h;
+}
+
+void RingTangent::take_all(Columns& columns) const {
+  auto change = changes_.begin();
+  for (std::size_t k = 0; k <= stretches_.size(); ++k) {
+    for (; change != changes_.end() && change->after == k; ++change) take(*change, columns);
+    if (k < stretches_.size()) take(stretches_[k], columns);
+  }
+}
+
+/// Whether all elements of a kind are and stay in one phase, with linear forces: then waves do not mix.
+bool RingTangent::is_uniform() const {
+  if (std::find(changed_.begin(), changed_.end(), true) != changed_.end()) return false;
+  const auto nodes = static_cast<std::size_t>(motion_.ring().nodes());
+  for (std::size_t e = 0; e < phase_.size(); ++e) {
+    if (phase_[e] != phase_[e / nodes * nodes]) return false;
+  }
+  return std::all_of(stretches_.begin(), stretches_.end(), [](const Stretch& one) {
+    return one.forces.curved.empty() &&
+           std::all_of(one.memory.begin(), one.memory.end(), [&](const auto& number) {
+             return number.coefficient == -one.forces.linear(number.place);
+           });
+  });
+}
+
+/// The derivative where waves do not mix.
+Matrix RingTangent::wave_by_wave() const {
+  const Ring& ring = motion_.ring();
+  const Index all = ring.coordinates();
+  const Index size = 2 * all + motion_.memories();
+  Matrix derivative = Matrix::Zero(size, size);
+  derivative.bottomRightCorner(motion_.memories(), motion_.memories()).setIdentity();
+  const Stretch& one = stretches_.front();
+  double length = 0;
+  for (const Stretch& stretch : stretches_) length += stretch.length;
+  const auto steps = static_cast<int>(std::ceil(motion_.fastest_rate() * length / 4));
+  const double h = length / steps;
+  const Index order = series_order(motion_.fastest_rate() * h);
+  for (Index wave = 0; 2 * wave <= ring.nodes(); ++wave) {
+    std::vector<Index> which;
+    for (Index c = 0; c < all; ++c) {
+      if (ring.wave[static_cast<std::size_t>(c)] == wave) which.push_back(c);
+    }
+    const Index count = std::ssize(which);
+    if (count == 0) continue;
+    const Matrix rows = one.forces.motion(Eigen::all, which);
+    Matrix gains = one.forces.linear.asDiagonal() * rows;
+    for (std::size_t i = 0; i < one.forces.other.size(); ++i) {
+      if (one.forces.other[i] >= 0)
+        gains.row(static_cast<Index>(i)) +=
+            one.forces.cross(static_cast<Index>(i)) * rows.row(one.forces.other[i]);
+    }
+    Matrix stiffness = rows.transpose() * gains;
+    stiffness.diagonal() += ring.stiffness(which);
+    const Vector damping = ring.damping(which);
+    Matrix state = Matrix::Zero(2 * count, 3 * count);  // by position, velocity and a constant force
+    state.leftCols(2 * count).setIdentity();
+    Matrix push = Matrix::Zero(count, 3 * count);
+    push.rightCols(count).setIdentity();
+    for (int step = 0; step < steps; ++step) {
+      Matrix now = state.topRows(count);
+      Matrix next = h * state.bottomRows(count);
+      Matrix rate = next;
+      state.topRows(count) += next;
+      for (Index m = 0; m + 2 <= order; ++m) {
+        const auto up = static_cast<double>(m + 1);
+        Matrix force = -stiffness * now - (up / h) * (damping.asDiagonal() * next);
+        if (m == 0) force += push;
+        now = next;
+        next = force * (h * h / (up * (up + 1)));
+        state.topRows(count) += next;
+        rate += (up + 1) * next;
+      }
+      state.bottomRows(count) = rate / h;
+    }
+    Matrix of_memory = Matrix::Zero(count, motion_.memories());
+    for (const Remembered& number : one.memory)
+      of_memory.col(number.number) -= number.coefficient * rows.row(number.place).transpose();
+    const Matrix by_memory = state.rightCols(count) * of_memory;
+    for (Index i = 0; i < count; ++i) {
+      for (Index k = 0; k < count; ++k) {
+        derivative(which[i], which[k]) = state(i, k);
+        derivative(which[i], all + which[k]) = state(i, count + k);
+        derivative(all + which[i], which[k]) = state(count + i, k);
+        derivative(all + which[i], all + which[k]) = state(count + i, count + k);
+      }
+      derivative.row(which[i]).tail(motion_.memories()) = by_memory.row(i);
+      derivative.row(all + which[i]).tail(motion_.memories()) = by_memory.row(count + i);
+    }
+  }
+  return derivative;
+}
+
+/// Rows of memory that the phases at the end do not need; it follows the displacements.
+void RingTangent::add_idle(const RingState& state, Matrix& all) const {
+  const Ring& ring = motion_.ring();
+  for (Index e = 0; e < motion_.elements(); ++e) {
+    const RingMotion::Family& family = motion_.family(e);
+    const int phase = state.phase[static_cast<std::size_t>(e)];
+    for (Index j = 0; j < family.law->memories(); ++j) {
+      if (family.law->needs(phase, j)) continue;
+      std::vector<double> memory = motion_.memory_of(e, state);
+      const RingMemoryChange change =
+          family.law->idle(phase, motion_.place_of(e, state.position, state.velocity), j, memory);
+      auto row = all.row(2 * ring.coordinates() + motion_.memory_place(e, j));
+      const Index node = motion_.node(e);
+      row = change.by_sliding * (ring.motion.row(family.sliding + node) * all.topRows(ring.coordinates()));
+      if (change.by_closing != 0)
+        row += change.by_closing * (ring.motion.row(family.closing + node) * all.topRows(ring.coordinates()));
+    }
+  }
+}
+
+Matrix RingTangent::at(const RingState& state) const {
+  const Index coordinates = motion_.ring().coordinates();
+  const Index size = 2 * coordinates + motion_.memories();
+  Matrix all(size, size);
+  if (is_uniform()) {
+    all = wave_by_wave();
+  } else {
+    for (Index first = 0; first < size; first += columns_at_once) {
+      const Index count = std::min(columns_at_once, size - first);
+      const Matrix unit = unit_columns(size, first, count);
+      Columns columns{unit.topRows(coordinates), unit.middleRows(coordinates, coordinates),
+                      unit.bottomRows(motion_.memories())};
+      take_all(columns);
+      all.middleCols(first, count) << columns.position, columns.velocity, columns.memory;
+    }
+  }
+  add_idle(state, all);
+  for (Index e = 0; e < motion_.elements(); ++e) {
+    for (Index j = 0; j < motion_.family(e).law->memories(); ++j) {
+      if (!motion_.family(e).law->needs(phase_[static_cast<std::size_t>(e)], j))
+        all.col(2 * coordinates + motion_.memory_place(e, j)).setZero();
+    }
+  }
+  return all;
+}
+
+std::vector<bool> RingTangent::moved() const {
+  std::vector<bool> moved = changed_;
+  for (Index e = 0; e < motion_.elements(); ++e) {
+    const RingLaw& law = *motion_.family(e).law;
+    const int phase = phase_[static_cast<std::size_t>(e)];
+    for (Index j = 0; j < law.memories(); ++j) {
+      if (!law.needs(phase, j)) moved[static_cast<std::size_t>(e / motion_.ring().nodes())] = true;
+    }
+  }
+  return moved;
+}
+
+}  // namespace arcslip
