@@ -4,18 +4,12 @@
 #include <cmath>
 
 #include "time/law_series.hpp"
+#include "time/linear_leap.hpp"
 
 namespace arcslip {
 namespace {
 
 constexpr Index columns_at_once = 16;  // which the processor's caches hold
-
-/// (2D + M) identity, some columns of it.
-Matrix unit_columns(Index size, Index first, Index count) {
-  Matrix all = Matrix::Zero(size, count);
-  all.middleRows(first, count).setIdentity();
-  return all;
-}
 
 }  // namespace
 
@@ -25,6 +19,12 @@ void RingTangent::follow(const RingSegment& segment, const RingState& state) {
     changed_.assign(motion_.families().size(), false);
   }
   if (segment.length == 0) return;
+  const bool is_linear = motion_.varying().curved.empty();
+  if (goes_on_ && is_linear) {  // no phase has changed since
+    stretches_.back().length += segment.length;
+    return;
+  }
+  goes_on_ = is_linear;
   Stretch stretch{
       segment.length, series_order(motion_.fastest_rate() * segment.length), motion_.varying(), {}, {}};
   if (!stretch.forces.curved.empty()) stretch.order += segment.position.cols();
@@ -78,6 +78,7 @@ void RingTangent::note_slopes(const RingSegment& segment, Stretch& stretch) cons
 
 void RingTangent::change(Index which, const RingMemoryChange& memory, const RingState& /*state*/) {
   changed_[static_cast<std::size_t>(which / motion_.ring().nodes())] = true;
+  goes_on_ = false;
   if (memory.number < 0) return;
   const RingMotion::Family& family = motion_.family(which);
   const Index node = motion_.node(which);
@@ -153,11 +154,40 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   columns.velocity = rate / h;
 }
 
+/// In closed form where few forces vary, else by series over parts that these are summed to rounding in.
+void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
+  constexpr double longest = 8;  // over the fastest rate
+  const double rate = motion_.fastest_rate();
+  const double leap = std::min(stretch.length, LinearLeap::reach / rate);
+  if (LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
+    Matrix constant = Matrix::Zero(std::ssize(stretch.forces.rows), columns.position.cols());
+    for (const Remembered& one : stretch.memory)
+      constant.row(one.place) += one.coefficient * columns.memory.row(one.number);
+    const double parts = std::ceil(stretch.length / leap - 1e-9);
+    const LinearLeap flow(motion_.ring(), stretch.forces, rate, stretch.length / parts);
+    for (int part = 0; part < static_cast<int>(parts); ++part)
+      flow.take(constant, columns.position, columns.velocity);
+    return;
+  }
+  const double parts = stretch.forces.curved.empty() ? std::ceil(stretch.length * rate / longest - 1e-9) : 1;
+  Stretch one = stretch;
+  one.length /= parts;
+  if (stretch.forces.curved.empty()) one.order = series_order(rate * one.length);
+  for (Index first = 0; first < columns.position.cols(); first += columns_at_once) {
+    const Index count = std::min(columns_at_once, columns.position.cols() - first);
+    Columns some{columns.position.middleCols(first, count), columns.velocity.middleCols(first, count),
+                 columns.memory.middleCols(first, count)};
+    for (int part = 0; part < static_cast<int>(parts); ++part) take(one, some);
+    columns.position.middleCols(first, count) = some.position;
+    columns.velocity.middleCols(first, count) = some.velocity;
+  }
+}
+
 void RingTangent::take_all(Columns& columns) const {
   auto change = changes_.begin();
   for (std::size_t k = 0; k <= stretches_.size(); ++k) {
     for (; change != changes_.end() && change->after == k; ++change) take(*change, columns);
-    if (k < stretches_.size()) take(stretches_[k], columns);
+    if (k < stretches_.size()) take_whole(stretches_[k], columns);
   }
 }
 
@@ -271,14 +301,11 @@ Matrix RingTangent::at(const RingState& state) const {
   if (is_uniform()) {
     all = wave_by_wave();
   } else {
-    for (Index first = 0; first < size; first += columns_at_once) {
-      const Index count = std::min(columns_at_once, size - first);
-      const Matrix unit = unit_columns(size, first, count);
-      Columns columns{unit.topRows(coordinates), unit.middleRows(coordinates, coordinates),
-                      unit.bottomRows(motion_.memories())};
-      take_all(columns);
-      all.middleCols(first, count) << columns.position, columns.velocity, columns.memory;
-    }
+    const Matrix unit = Matrix::Identity(size, size);
+    Columns columns{unit.topRows(coordinates), unit.middleRows(coordinates, coordinates),
+                    unit.bottomRows(motion_.memories())};
+    take_all(columns);
+    all << columns.position, columns.velocity, columns.memory;
   }
   add_idle(state, all);
   for (Index e = 0; e < motion_.elements(); ++e) {

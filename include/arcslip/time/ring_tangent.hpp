@@ -54,6 +54,7 @@ class RingTangent : public RingObserver {
   void note_memory(Stretch& stretch) const;
   void note_slopes(const RingSegment& segment, Stretch& stretch) const;
   void take(const Stretch& stretch, Columns& columns) const;
+  void take_whole(const Stretch& stretch, Columns& columns) const;
   void take(const Change& change, Columns& columns) const;
   void take_all(Columns& columns) const;
   bool is_uniform() const;
@@ -65,6 +66,7 @@ class RingTangent : public RingObserver {
   std::vector<Change> changes_;
   std::vector<int> phase_;  ///< at the start
   std::vector<bool> changed_;
+  bool goes_on_ = false;  ///< whether a step that follows belongs to the last stretch
 };
 
 }  // namespace arcslip
