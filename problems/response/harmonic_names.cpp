@@ -47,11 +47,29 @@ void HarmonicProblem::add_other_harmonics() {
 
 void HarmonicProblem::add_readings() {
   for (Index e = contacts(); e < coordinates_.elements(); ++e) {
+    if (coordinates_.element(e).dissipates())
+      quantities_.push_back({fmt::format("energy_{}", first(e).name), Measure::energy, Body::contact, e});
     const std::vector<std::string> told = coordinates_.element(e).readings();
     for (std::size_t i = 0; i < told.size(); ++i)
       quantities_.push_back({fmt::format("{}_{}", told[i], first(e).name), Measure::reading, Body::contact, e,
                              static_cast<Index>(i)});
   }
+}
+
+std::vector<continuation::UserEvent> HarmonicProblem::events() const {
+  std::vector<continuation::UserEvent> all;
+  for (Index e = contacts(); e < coordinates_.elements(); ++e) {
+    const std::vector<std::string> names = coordinates_.element(e).events();
+    for (Index i = 0; i < std::ssize(names); ++i) {
+      const auto function = [=, this](const Vector& u, const Vector& p, const continuation::Regime&) {
+        return with_element(e, u, p, [&](const Element& element) {
+          return element.event(i, system_.orders, element_motion(u, p, e), load(e, u, p));
+        });
+      };
+      all.push_back({fmt::format("{}_{}", names[at(i)], first(e).name), function});
+    }
+  }
+  return all;
 }
 
 }  // namespace arcslip::problems

@@ -32,6 +32,7 @@ class HarmonicProblem::Observation {
       case Measure::mean: return mean(quantity);
       case Measure::lag: return lag_of(quantity);
       case Measure::dissipated: return dissipated(quantity.which);
+      case Measure::energy: return energy(quantity.which);
       case Measure::greatest: return greatest(quantity.of);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
       case Measure::reading: return elements_[at(quantity.which)].readings[at(quantity.order)];
@@ -98,6 +99,22 @@ class HarmonicProblem::Observation {
       add_log_force(contact, -element.energy / unit);
     }
     return element.energy / unit;
+  }
+
+  /// E = pi sum_h h Im(f_h conj(x_h)) of an element, over all its coordinates.
+  double energy(Index of) {
+    const ElementForce& element = elements_[at(of)];
+    const Index begin = problem_.coordinates_.first(of);
+    const Index end = begin + problem_.coordinates_.element(of).coordinates();
+    for (Index j = begin; j < end && gradient_ != nullptr; ++j) {
+      const HarmonicVector x = problem_.motion(u_, p_, j);
+      for (Index a = 0; a < problem_.harmonics(); ++a) {
+        const Complex per = Complex(0, pi * system_.orders[at(a)]);
+        add_force(j, a, per * x(a));
+        add_motion(j, a, -per * element.harmonics(problem_.place(j, a)));
+      }
+    }
+    return element.energy;
   }
 
   /// The greatest value in time, which changes as the value at its own time.

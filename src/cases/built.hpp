@@ -26,7 +26,7 @@ Built built_in_harmonics(std::shared_ptr<const Type> problem) {
   const auto guess = [problem](const Built::ValueOf& value, const continuation::TraceOptions& limits) {
     return problem->guess(values_of(*problem, value), limits);
   };
-  return {problem, guess, problem->system().orders};
+  return {problem, guess, problem->system().orders, nullptr, nullptr, problem->events()};
 }
 
 /// One of one contact in one harmonic, which guesses from P and one more parameter.

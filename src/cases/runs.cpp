@@ -65,14 +65,19 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
                                          const TimeBudget& time, const continuation::Observer& observer) {
   const continuation::Problem& problem = *subject.built.problem;
   std::vector<Branch> branches;
+  const auto rest = [&] {
+    continuation::TraceOptions options = time.rest();
+    options.events.insert(options.events.end(), subject.built.events.begin(), subject.built.events.end());
+    return options;
+  };
   if (request->switching) {
-    branches = continuation::trace_connected(problem, subject.guess, time.rest(), {}, observer);
+    branches = continuation::trace_connected(problem, subject.guess, rest(), {}, observer);
   } else if (request->all_solutions) {
-    branches = continuation::trace_through(problem, solutions_around(subject, time), time.rest(), observer);
+    branches = continuation::trace_through(problem, solutions_around(subject, time), rest(), observer);
   } else if (request->start) {
-    branches.push_back(continuation::trace_both(problem, subject.guess, time.rest(), observer));
+    branches.push_back(continuation::trace_both(problem, subject.guess, rest(), observer));
   } else {
-    branches.push_back(continuation::trace(problem, subject.guess, time.rest(), observer));
+    branches.push_back(continuation::trace(problem, subject.guess, rest(), observer));
   }
   std::vector<TracedBranch> traced;
   traced.reserve(branches.size());

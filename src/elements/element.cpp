@@ -136,6 +136,11 @@ double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexV
   return sum;
 }
 
+double Element::event(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
+                      double /*load*/) const {
+  throw std::logic_error("Element: it has no events");
+}
+
 double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }
 
 }  // namespace arcslip

@@ -65,7 +65,7 @@ std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, De
   for (const std::string& name : names_) places.push_back(columns.find(name));
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
-    fmt::format_to(out, "{},{},{},{}", number, i, to_string(point.type),
+    fmt::format_to(out, "{},{},{},{}", number, i, point.type_name(),
                    traced.base.problem->describe(point.regime));
     const std::vector<double>& values = columns.values(point);
     for (const Index place : places)
@@ -144,7 +144,7 @@ std::string special_table(std::size_t number, const TracedBranch& traced) {
     const BranchPoint& point = traced.branch.points[i];
     if (point.type == PointType::regular) continue;
     const std::vector<double>& values = columns.values(point);
-    rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, to_string(point.type));
+    rows += fmt::format("{:>6} {:>6}  {:<12}", number, i, point.type_name());
     for (const Index k : shown) rows += fmt::format(" {:>15.9g}", values[static_cast<std::size_t>(k)]);
     const std::vector<double> in_units = physical.values(values);
     for (const std::size_t k : physical.shown()) rows += fmt::format(" {:>15.9g}", in_units[k]);

@@ -72,7 +72,7 @@ ordered_json special_points(const TracedBranch& traced) {
     const BranchPoint& point = traced.branch.points[i];
     if (point.type == PointType::regular) continue;
     const std::vector<double>& values = columns.values(point);
-    ordered_json special = {{"type", to_string(point.type)}, {"point", i}};
+    ordered_json special = {{"type", point.type_name()}, {"point", i}};
     for (const Index k : columns.shown())
       special[columns.names()[static_cast<std::size_t>(k)]] = values[static_cast<std::size_t>(k)];
     const std::vector<double> in_units = physical.values(values);

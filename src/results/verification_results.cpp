@@ -61,7 +61,7 @@ std::string verification_header() {
 std::string verification_row(std::size_t number, const TracedBranch& traced, const Verification& point) {
   const continuation::BranchPoint& at = traced.branch.points[point.point];
   return fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.3g},{},{:.17g},{:.6g},{:.17g},{:.6g},{:.10g}\n",
-                     number, point.point, to_string(at.type), at.parameters(0), at.parameters(1), point.Y,
+                     number, point.point, at.type_name(), at.parameters(0), at.parameters(1), point.Y,
                      point.power_error, point.highest, point.Y_harmonics, point.Y_harmonics / point.Y - 1,
                      point.Y_time, point.Y_time / point.Y - 1, point.growth);
 }

@@ -308,6 +308,36 @@ TEST_CASE("A mass that lifts off moves as it does in time, with its mean", "[eve
   CHECK((at("N_min_e0") == 0 && at("apart_e0") > 0.1 && at("slip_e0") + at("apart_e0") < 1));
 }
 
+TEST_CASE("Where a contact begins to lift off is a point, and what it takes is what the load brings", "[even]") {
+  Structure s;
+  s.mass = Matrix::Identity(2, 2);
+  s.stiffness.resize(2, 2);
+  s.stiffness << 1, 0.2, 0.2, 1.5;
+  s.damping = Matrix::Zero(2, 2);  // the contact alone dissipates
+  s.load.resize(2);
+  s.load << 1, std::polar(0.6, 0.5);
+  s.contact_stiffness = {0, 0};
+  const Placed contact{"friction", 0, 1, false, 0.6, 0.8, 0.5, 1, 0};
+  const Traced run(s, {contact}, "7", 0.1, 0.3);
+  REQUIRE(run.branch().complete());
+  const auto at = [&](const BranchPoint& point, const char* name) {
+    return value(run.traced.front(), point, name);
+  };
+  int begins = 0;
+  for (std::size_t i = 1; i + 1 < run.branch().points.size(); ++i) {
+    const BranchPoint& point = run.branch().points[i];
+    CHECK(at(point, "energy_e0") >= -1e-12 * at(point, "Y"));
+    if (point.label != "lift_off_e0") continue;
+    ++begins;
+    CHECK(point.type_name() == "lift_off_e0");
+    CHECK_THAT(at(point, "N_min_e0"), WithinAbs(0, 1e-7));
+    const double before = at(*(&point - 1), "apart_e0");
+    const double behind = at(*(&point + 1), "apart_e0");
+    CHECK((before == 0) != (behind == 0));
+  }
+  CHECK(begins == 2);
+}
+
 TEST_CASE("A stop on one side is a spring where never left, and nothing where never met", "[even]") {
   RandomSystems draw(5);
   for (int i = 0; i < 4; ++i) {

@@ -34,6 +34,7 @@ struct Built {
   std::vector<int> harmonics = {1};                                    ///< in which it balances
   std::shared_ptr<const problems::ForcedResponse> enclosed = nullptr;  ///< itself, if branches can be proven
   std::shared_ptr<const problems::Floquet> disturbed = nullptr;        ///< itself, if it knows its stability
+  std::vector<continuation::UserEvent> events = {};                    ///< that its elements bring with them
 };
 
 /// A kind of response.

@@ -86,6 +86,14 @@ class Element {
   /// What its force comes with beside energy and swing, by name.
   virtual std::vector<std::string> readings() const { return {}; }
 
+  /// Whether a cycle may take energy.
+  virtual bool dissipates() const { return false; }
+
+  /// What may begin or end within a period, by name, as "lift_off": where along a branch it does, a continuous
+  /// function of the motion changes its sign.
+  virtual std::vector<std::string> events() const { return {}; }
+  virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const;
+
   /// Whether it has a second state beyond a border, as a contact that slips; else its force is smooth.
   virtual bool has_border() const { return false; }
 

@@ -50,6 +50,7 @@ class CycleLaw {
 /// By its law.
 class HystereticElement final : public Element {
  public:
+  bool dissipates() const override { return true; }
   /// `reference` > 0 is the stiffness relative to which the force is measured.
   HystereticElement(std::shared_ptr<const CycleLaw> law, double reference);
 

@@ -37,6 +37,7 @@ class Backbone {
 /// By its backbone.
 class MasingElement final : public Element {
  public:
+  bool dissipates() const override { return true; }
   /// At a value of the setting that is continued, so much above its own.
   using Made = std::function<std::shared_ptr<const Backbone>(double setting)>;
 

@@ -14,6 +14,7 @@ class Dashpot final : public Element {
              bool derivatives, ElementForce& out) const override {
     out.set_linear(0, x, derivatives);
   }
+  bool dissipates() const override { return true; }
   Jet damping() const override { return damping_; }
 
  private:

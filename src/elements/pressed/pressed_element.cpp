@@ -133,6 +133,18 @@ StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVe
   return border;
 }
 
+/// The least of N_0 + k_n g, over the sizes of both: negative where the parts come apart.
+double PressedElement::event(Index /*which*/, std::span<const int> orders, const HarmonicVector& x,
+                             double load) const {
+  const Index n = std::ssize(orders);
+  const PressedSettings settings = at(load, 0);
+  const PeriodicMotion closes(orders, x.tail(n), highest_order(orders));
+  double least = closes.value(0);
+  for (const double angle : closes.derivative().zeros()) least = std::min(least, closes.value(angle));
+  return (settings.normal_force + settings.normal_stiffness * least) /
+         (std::abs(settings.normal_force) + settings.normal_stiffness * x.tail(n).lpNorm<1>());
+}
+
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,
                             double load, bool beyond, const Way& way, ElementForce& change) const {
   const auto moved = [&](const HarmonicVector& motion, double log_load, double setting, ElementForce& out) {

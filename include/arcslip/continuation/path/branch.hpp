@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "arcslip/continuation/path/checkpoint.hpp"
@@ -27,6 +28,9 @@ struct BranchPoint {
   ComplexVector eigenvalues;            ///< of an equilibrium; else empty
   int unstable = -1;  ///< how many of them have a positive real part; -1 where there are none
   std::string label;  ///< the name of a user's event
+
+  /// What it is called: an event by its own name, others by their type.
+  std::string_view type_name() const { return label.empty() ? to_string(type) : std::string_view(label); }
 };
 
 /// What a trace returns, whether it came to its end or not.

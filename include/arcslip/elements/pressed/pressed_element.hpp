@@ -38,6 +38,11 @@ class PressedElement final : public Element {
   double reference_stiffness(Index coordinate = 0) const override;
   bool is_odd() const override { return false; }
   std::vector<std::string> readings() const override { return {"N_min", "N_max", "slip", "apart"}; }
+  bool dissipates() const override { return true; }
+  std::vector<std::string> events() const override {
+    return settings_.normal.value > 0 ? std::vector<std::string>{"lift_off"} : std::vector<std::string>{};
+  }
+  double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const override;
   bool has_border() const override { return true; }
   std::string beyond() const override { return "slip"; }
   bool rests_beyond(double load) const override;

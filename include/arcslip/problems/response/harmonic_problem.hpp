@@ -41,6 +41,9 @@ class HarmonicProblem : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// What may begin or end within a period, of its elements: `lift_off_NAME`. They refer to the problem.
+  std::vector<continuation::UserEvent> events() const;
+
   /// How many contacts, coordinates and harmonics there are, and the system.
   Index contacts() const { return coordinates_.contacts(); }
   Index coordinates() const { return coordinates_.size(); }
@@ -88,6 +91,7 @@ class HarmonicProblem : public continuation::Problem {
     mean,
     lag,
     dissipated,
+    energy,
     greatest,
     force,
     reading
@@ -97,7 +101,7 @@ class HarmonicProblem : public continuation::Problem {
     std::string name;         ///< the observable's
     Measure measure;          ///< what is told
     Body of = Body::contact;  ///< of what
-    Index which = 0;          ///< contact or output; of a reading the element
+    Index which = 0;          ///< contact or output; of an energy or a reading the element
     Index order = 0;          ///< the position of the harmonic, or which reading
   };
 
