@@ -37,23 +37,25 @@ void make_odd(bool odd, std::vector<RingDisturbances::Disturbance>& all) {
   if (nearest != nullptr && is_odd != odd) nearest->exponent *= -1.0;
 }
 
-/// The highest harmonic of the response by which one tells its error: four times as high, so that little of
-/// the error is left, where exponents then cost no more; else twice as high; half as high where that is too
-/// many. Nearer ones tell nothing: what is left out does not fall from each harmonic to the next.
-int other_highest(const SystemParameters& parameters) {
-  constexpr int most = 2 * most_harmonics - 1;
-  const int highest = parameters.harmonics.back();
-  if (2 * highest + 1 > most) return highest / 2;
+/// The harmonics of the response by which one tells its error: four times as high, so that little of the
+/// error is left, where exponents then cost no more; else twice as high; half as high where that is too many.
+/// Nearer ones tell nothing: what is left out does not fall from each harmonic to the next.
+std::vector<int> other_orders(const SystemParameters& parameters) {
+  const bool odd = all_odd(parameters.harmonics);
+  const int most = odd ? 2 * most_harmonics - 1 : most_harmonics / 2 - 1;
+  const int highest = highest_order(parameters.harmonics);
+  const auto up_to = [&](int other) { return odd ? odd_up_to(other) : all_up_to(other); };
+  if (2 * highest + 1 > most) return up_to(std::max(1, highest / 2));
   const int wide = std::min(4 * highest + 3, most);
   const Index waves = parameters.elements / std::gcd(parameters.wave_number, parameters.elements);
-  return RingDisturbances::is_exact(waves, wide) ? wide : 2 * highest + 1;
+  return up_to(RingDisturbances::is_exact(waves, wide) ? wide : 2 * highest + 1);
 }
 
 }  // namespace
 
 DisturbedRing::DisturbedRing(HarmonicSystem system, const RingWaves& waves)
     : system_(std::move(system)), waves_(waves) {
-  for (const Index wave : RingDisturbances::waves(waves.wave_number(), waves.nodes(), system_.orders.back()))
+  for (const Index wave : RingDisturbances::waves(waves.wave_number(), waves.nodes(), system_.orders))
     under_.emplace(wave, waves.structures(wave));
   const RingWaves known(waves.wave_number(), waves.nodes(), [this](Index wave) { return under_.at(wave); });
   given_ = std::make_shared<const RingDisturbances>(system_, known);
@@ -95,18 +97,38 @@ auto FloquetOf<Motion>::with_ring(const Vector& p, const Use& use) const {
   }
 }
 
+/// Of an element, as it is here.
+template <class Motion>
+DisturbedLaw FloquetOf<Motion>::law(Index element, const Vector& u, const Vector& p,
+                                    const continuation::Regime& regime) const {
+  DisturbedLaw found = this->with_element(element, u, p, [&](const Element& one) {
+    return one.disturbed(this->system().orders, this->element_motion(u, p, element),
+                         this->load(element, u, p), slips(regime, element));
+  });
+  if (const double factor = this->force_factor(element, u, p); factor != 1) found.scale(factor);
+  return found;
+}
+
 template <class Motion>
 std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vector& p,
                                                       const continuation::Regime& regime) const {
   const std::vector<int>& orders = this->system().orders;
   std::vector<StickPattern> all;
+  if (!all_odd(orders)) {
+    for (Index e = 0; e < this->coordinates_.elements(); ++e) all.push_back({.law = law(e, u, p, regime)});
+    return all;
+  }
   for (Index i = 0; i < this->contacts(); ++i) {
     all.push_back(stick_pattern(orders, HarmonicProblem::motion(u, p, i),
                                 HarmonicProblem::slip_threshold(i, u, p), slips(regime, i)));
   }
   for (Index i = this->contacts(); i < this->coordinates(); ++i) {
     const Element& element = this->coordinates_.element(i);
-    all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, i))});
+    if (element.remembers()) {
+      all.push_back({.law = law(i, u, p, regime)});
+    } else {
+      all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, i))});
+    }
   }
   if (!is_cycle) return all;
   const std::vector<ElementForce>& forces = this->forces(u, p, regime, false);
@@ -172,7 +194,10 @@ bool FloquetOf<Motion>::eigenvalues(const Vector& u, const Vector& p, const cont
 
 template <class Motion>
 std::vector<PointType> FloquetOf<Motion>::test_types() const {
-  return std::vector<PointType>(ring_.given().symmetries(), PointType::symmetry_breaking);
+  std::vector<PointType> types;
+  for (const bool doubles : ring_.given().doubles())
+    types.push_back(doubles ? PointType::period_doubling : PointType::symmetry_breaking);
+  return types;
 }
 
 template <class Motion>
@@ -233,7 +258,7 @@ double FloquetOf<Motion>::growth_error(const Vector& u, const Vector& p, const c
   const std::optional<Guess> at = solved_in(*finer_, *this, {u, p, regime});
   if (!at) return none;
   const double other = finer_->worst(at->unknowns, at->parameters, at->regime).growth;
-  const double ratio = static_cast<double>(this->system().orders.back()) / finer_->system().orders.back();
+  const double ratio = static_cast<double>(highest_order(this->system().orders)) / finer_highest();
   if (growth == other) return 0;
   return 2 * std::abs(growth - other) / std::abs(1 - std::pow(ratio, 3));
 }
@@ -291,8 +316,8 @@ template class FloquetOf<HarmonicCycle>;
 
 std::set<Index> disturbed_waves(const SystemParameters& parameters) {
   std::set<Index> all;
-  for (const int highest : {parameters.harmonics.back(), other_highest(parameters)})
-    all.merge(RingDisturbances::waves(parameters.wave_number, parameters.elements, highest));
+  for (const std::vector<int>& orders : {parameters.harmonics, other_orders(parameters)})
+    all.merge(RingDisturbances::waves(parameters.wave_number, parameters.elements, orders));
   return all;
 }
 
@@ -304,13 +329,13 @@ std::shared_ptr<Problem> build_floquet(const SystemParameters& parameters) {
   const auto build = [&](const SystemParameters& one, std::shared_ptr<const Problem> finer) {
     SystemParameters in_modes = one;
     if (modal) in_modes.structures = modal;
-    const RingWaves waves = ring_waves(in_modes, one.harmonics.back() + 1);
+    const RingWaves waves = ring_waves(in_modes, highest_order(one.harmonics) + 1);
     const HarmonicSystem system = build_harmonic_system(one);
     if (!modal) return std::make_shared<Problem>(system, waves, std::move(finer));
     return std::make_shared<Problem>(system, build_harmonic_system(in_modes), waves, std::move(finer));
   };
   SystemParameters other = parameters;
-  other.harmonics = odd_up_to(other_highest(parameters));
+  other.harmonics = other_orders(parameters);
   return build(parameters, build(other, nullptr));
 }
 

@@ -72,15 +72,13 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (const std::string& why = problem.response->not_disturbed; !why.empty())
     section.fail("stability", fmt::format("not of {}, {}", problem.response->title, why));
   for (const PlacedElement& one : system.others) {
-    if (one.kind->has_memory)
+    if (one.kind->has_memory && !one.kind->follows)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
     if (one.kind->is_viscous)
       section.fail("stability",
                    fmt::format("not beside element '{}', which is no stiffness; a damping matrix may hold it",
                                one.kind->name));
   }
-  if (!all_odd(system.harmonics))
-    section.fail("stability", "not beside even harmonics and the mean, which elements that are not odd need");
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");
   if (!structures_of(system).has_equations())

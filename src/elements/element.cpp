@@ -121,6 +121,11 @@ void Element::difference(const Moved& moved, const HarmonicVector& x, const Way&
   if (ahead.by_setting.size() > 0) change.by_setting += rate(ahead.by_setting, behind.by_setting);
 }
 
+DisturbedLaw Element::disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
+                                bool /*beyond*/) const {
+  throw std::logic_error("Element: disturbances are not followed through this memory");
+}
+
 VaryingStiffness Element::stiffness_in_time(std::span<const int> /*orders*/,
                                             const HarmonicVector& /*x*/) const {
   throw std::logic_error("Element: what has a memory has no stiffness in time");

@@ -5,6 +5,7 @@
 
 #include "arcslip/elements/hysteresis_loop.hpp"
 #include "arcslip/elements/pressed/pressed_contact.hpp"
+#include "arcslip/elements/pressed/pressed_law.hpp"
 
 namespace arcslip {
 
@@ -48,6 +49,18 @@ void Jenkins::force_of_any(std::span<const int> orders, const HarmonicVector& x,
   out.linear = found.tangential_by_sliding.linear;
   out.conjugate = found.tangential_by_sliding.conjugate;
   out.by_log_load = limit * found.tangential_by[PressedForce::normal_force];
+}
+
+DisturbedLaw Jenkins::disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                                bool slips) const {
+  if (!slips) return DisturbedLaw::constant(Matrix::Constant(1, 1, stiffness_));
+  if (all_odd(orders)) throw std::logic_error("Jenkins: odd motions have a hysteresis loop");
+  const PressedSettings settings{1, stiffness_, 0, stiffness_ * threshold(load)};
+  const int highest = highest_order(orders);
+  return pressed_law(settings,
+                     PressedArcs(settings, PeriodicMotion(orders, x, highest),
+                                 PeriodicMotion(ComplexVector::Zero(1)), PressedArcs::Course::slips),
+                     1);
 }
 
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,

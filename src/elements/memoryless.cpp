@@ -141,6 +141,20 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   });
 }
 
+DisturbedLaw MemorylessElement::disturbed(std::span<const int> orders, const HarmonicVector& x,
+                                          double /*load*/, bool beyond) const {
+  DisturbedLaw found;
+  const Passage motion(orders, x);
+  if (!crosses(beyond)) {
+    found.add_slope(0, motion.period(), slope_harmonics(law_, motion, 0));
+    return found;
+  }
+  each_stretch(law_, motion, motion.turns(), [&](const Stretch& stretch) {
+    found.add_slope(stretch.begin, stretch.end - stretch.begin, slope_harmonics(law_, motion, stretch.zone));
+  });
+  return found;
+}
+
 VaryingStiffness MemorylessElement::stiffness_in_time(std::span<const int> orders,
                                                       const HarmonicVector& x) const {
   VaryingStiffness stiffness;

@@ -18,7 +18,8 @@ const problems::Floquet* response(const TracedBranch& traced) {
 }
 
 bool is_change(const BranchPoint& point) {
-  return point.type == PointType::neimark_sacker || point.type == PointType::symmetry_breaking;
+  return point.type == PointType::neimark_sacker || point.type == PointType::symmetry_breaking ||
+         point.type == PointType::period_doubling;
 }
 
 }  // namespace

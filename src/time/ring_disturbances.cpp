@@ -46,23 +46,30 @@ struct RingDisturbances::Builder {
   const RingWaves& waves;
   Vector springs;
   std::span<const Coordinate> others;
-  int highest;  // H
+  int highest;       // H
+  bool is_odd;       // whether the response is
+  bool is_balanced;  // whether its own harmonics and the even ones between are told apart from cells
   std::vector<Cell>& cells;
   Index common = std::gcd(waves.wave_number(), waves.nodes());
-  Index classes = std::gcd(2 * waves.wave_number(), waves.nodes());
+  Index classes = is_odd ? std::gcd(2 * waves.wave_number(), waves.nodes()) : common;
   Index size = waves.nodes() / classes;  // M
-  bool is_odd = waves.nodes() / common % 2 == 1;
+  bool odd_size = waves.nodes() / common % 2 == 1;
+
+  using Tests = std::vector<Cell::Test>;
 
   /// Whether all waves are taken exactly.
   bool is_small() const { return is_exact(waves.nodes() / common, highest); }
 
-  void cell(TurnedFlow::Kind kind, Index wave, Index nodes, Index from, Index to, bool own, int symmetries) {
+  /// By the waves of orders `from` to `to` in steps of 2: of a response that is not odd they count halves.
+  void cell(TurnedFlow::Kind kind, Index wave, Index nodes, Index from, Index to, bool own, Tests tests) {
     std::vector<TurnedFlow::Wave> all;
     for (Index f = from; f <= to; f += 2) {
-      const Index moved = waves.within(wave + f * waves.wave_number());
+      const Index turned = f * waves.wave_number();
+      const Index moved = waves.within(wave + (is_odd ? turned : turned / 2));
       all.push_back({moved, static_cast<int>(f), waves.at(moved, others)});
     }
-    cells.push_back({TurnedFlow(kind, nodes, all, springs), wave, own, symmetries});
+    cells.push_back({TurnedFlow(kind, nodes, all, springs, is_odd ? pi : two_pi), wave, own,
+                     !is_odd && from % 2 != 0, std::move(tests)});
   }
 
   /// The waves with f from `from` to `to` in cells side by side.
@@ -75,21 +82,23 @@ struct RingDisturbances::Builder {
       const Index i = chosen < all ? k * (all - 1) / (chosen - 1) : k;
       const Index first = i * count / all;
       const Index next = (i + 1) * count / all;
-      cell(TurnedFlow::Kind::general, wave, next - first, from + 2 * first, from + 2 * (next - 1), false, 0);
+      cell(TurnedFlow::Kind::general, wave, next - first, from + 2 * first, from + 2 * (next - 1), false, {});
     }
   }
 
   /// Waves of l = N/2 and beside it, with `beside` more f on each side; returns how many were taken there.
   Index middle(Index beside) {
-    const Index taken = std::min<Index>((highest + 1) / 2, beside);
-    cell(TurnedFlow::Kind::self_conjugate, waves.nodes() / 2, 2 * taken + 1, 0, 2 * taken, false, 1);
+    const Index most = is_odd ? (highest + 1) / 2 : highest + 1;
+    const Index taken = std::min(most, beside);
+    cell(TurnedFlow::Kind::self_conjugate, waves.nodes() / 2, 2 * taken + 1, 0, 2 * taken, false, {{1}});
     return taken;
   }
 
   /// A class that is its own conjugate, of l = 0 or N/2 and f from `from`, 0 or 1.
   void self_conjugate(Index wave, Index from, bool own) {
     if (is_small()) {
-      cell(TurnedFlow::Kind::self_conjugate, wave, size, from, size, own, own ? 1 : 2);
+      const Tests tests = own ? Tests{{-1}} : Tests{{1}, {-1}};
+      cell(TurnedFlow::Kind::self_conjugate, wave, size, from, size, own, tests);
       return;
     }
     Index first = from;
@@ -99,7 +108,7 @@ struct RingDisturbances::Builder {
       first = 2 + 2 * middle((last - first) / 2);
     } else {
       first = own ? highest + 2 : highest + 3;
-      if (is_odd) {
+      if (odd_size) {
         last = size - highest - 3;  // the even ones stand at its end
       } else if (last == size) {
         last -= 2 + 2 * middle((last - first) / 2);
@@ -108,60 +117,121 @@ struct RingDisturbances::Builder {
     row(wave, first, last);
   }
 
+  /// In place of a balance: the response's own harmonics, and the even ones between.
+  void near_own() {
+    const Index H = highest;
+    cell(TurnedFlow::Kind::self_conjugate, 0, H + 1, 1, H, true, {});
+    cell(TurnedFlow::Kind::self_conjugate, 0, H + 2, 0, H + 1, false, {{1}});
+  }
+
   void build() {
-    self_conjugate(0, is_odd ? 1 : 0, is_odd);
+    if (!is_odd) return build_whole();
+    if (!is_small() && !is_balanced) near_own();
+    self_conjugate(0, odd_size ? 1 : 0, odd_size);
     for (Index wave = 1; 2 * wave < classes; ++wave) {
       if (is_small()) {
-        cell(TurnedFlow::Kind::general, wave, size, 0, 2 * (size - 1), false, 0);
+        cell(TurnedFlow::Kind::general, wave, size, 0, 2 * (size - 1), false, {});
       } else {
         row(wave, 0, 2 * (size - 1));
       }
     }
     if (classes % 2 != 0) return;
-    if (is_odd) {
+    if (odd_size) {
       self_conjugate(waves.nodes() / 2, 0, false);
     } else {
       self_conjugate(0, 1, true);
     }
   }
+
+  /// Of a response that repeats itself after a whole period alone.
+  void build_whole() {
+    if (is_small()) return build_small();
+    const Index own = highest + 1;  // f either way
+    cell(TurnedFlow::Kind::self_conjugate, 0, 2 * own + 1, 0, 2 * own, true, {{-1, true}});
+    const Index rest = (size - 1) / 2 - own;
+    const Index beside = odd_size ? 0 : 1 + middle(rest);
+    row(0, 2 * (own + 1), 2 * (size / 2 - beside));
+    for (Index wave = 1; 2 * wave < classes; ++wave) row(wave, 0, 2 * (size - 1));
+    if (classes % 2 != 0) return;
+    if (odd_size) {
+      const Index taken = middle((size - 1) / 2);
+      row(waves.nodes() / 2, 2 * (taken + 1), size - 1);
+    } else {
+      row(0, 1, size - 1);  // with their conjugates
+    }
+  }
+  void build_small() {
+    cell(TurnedFlow::Kind::self_conjugate, 0, size, 0, size, true, {{-1, odd_size}});
+    for (Index wave = 1; 2 * wave < classes; ++wave)
+      cell(TurnedFlow::Kind::general, wave, size, 0, 2 * (size - 1), false, {});
+    if (classes % 2 != 0) return;
+    if (odd_size) {
+      cell(TurnedFlow::Kind::self_conjugate, waves.nodes() / 2, size, 0, size, false, {{1}, {-1, true}});
+    } else {
+      cell(TurnedFlow::Kind::self_conjugate, 0, size, 1, size, false, {{1, true}, {-1, true}});
+    }
+  }
 };
 
-RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves) : waves_(waves) {
-  const int highest = system.orders.back();
-  Builder builder{waves_, contact_springs(system.contacts), system.others, highest, cells_};
+RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves)
+    : waves_(waves), is_odd_(all_odd(system.orders)) {
+  const int highest = highest_order(system.orders);
+  const bool remembers = std::any_of(system.others.begin(), system.others.end(), [](const Coordinate& one) {
+    return one.element && one.element->remembers();
+  });
+  Builder builder{waves_, contact_springs(system.contacts), system.others, highest, is_odd_, !remembers,
+                  cells_};
   builder.build();
-  if (!builder.is_small()) {
+  if (!builder.is_small() && is_odd_ && !remembers) {
     balanced_.emplace(
         Balanced{DisturbanceFlow(system, highest), DisturbanceFlow(even_system(system, waves), highest)});
   }
+  if (balanced_) doubles_.push_back(false);
+  for (const Cell& cell : cells_) {
+    for (const Cell::Test& test : cell.tests) doubles_.push_back(test.doubles);
+  }
 }
 
-std::set<Index> RingDisturbances::waves(Index wave_number, Index nodes, int highest) {
+std::set<Index> RingDisturbances::waves(Index wave_number, Index nodes, std::span<const int> orders) {
+  const int highest = highest_order(orders);
   std::set<Index> found;
   const RingWaves asked(wave_number, nodes, [&](Index wave) {
     found.insert(wave);
     return RingWaves::Structures{ContactModes(1, {}, {}), ContactModes(1, {}, {})};
   });
   std::vector<Cell> cells;
-  Builder builder{asked, Vector::Ones(1), {}, highest, cells};
+  Builder builder{asked, Vector::Ones(1), {}, highest, all_odd(orders), true, cells};
   builder.build();
   if (!builder.is_small()) {
-    for (int h = 0; h <= highest + 1; h += 2) asked.structures(h * wave_number);
+    for (int h = 0; h <= highest + 1; ++h) asked.structures(h * wave_number);
   }
   return found;
 }
 
-std::size_t RingDisturbances::symmetries() const {
-  return std::accumulate(
-      cells_.begin(), cells_.end(), std::size_t{balanced_ ? 1U : 0U},
-      [](std::size_t sum, const Cell& cell) { return sum + static_cast<std::size_t>(cell.symmetries); });
+/// What a cell of real motions has found, as all nodes see it.
+RingDisturbances::Disturbance RingDisturbances::seen(Index which, const Complex& sigma, double eta) const {
+  const Cell& cell = cells_[static_cast<std::size_t>(which)];
+  const bool turns = sigma.imag() == cell.flow.edge(eta);  // nu is negative
+  const bool is_real = turns || sigma.imag() == 0;
+  if (is_odd_) {  // real, perhaps in the frame of other f
+    const Index moved = turns ? cell.flow.nodes() * waves_.wave_number() : 0;
+    const Complex exponent = turns ? sigma.real() : sigma;
+    return {exponent, cell.wave - moved, cell.is_own && sigma.imag() == 0, which, sigma};
+  }
+  const Index moved = turns ? cell.flow.nodes() / 2 * waves_.wave_number() : 0;
+  if (is_real) {
+    const bool is_negative = cell.is_halved || (turns && cell.flow.nodes() % 2 == 1);
+    return {sigma.real(), cell.wave - moved, cell.is_own && !turns, which, sigma, is_negative};
+  }
+  const Complex half(0, cell.is_halved ? std::copysign(0.5 * eta, sigma.imag()) : 0);
+  return {sigma + half, cell.wave, false, which, sigma};
 }
 
 void RingDisturbances::add(Index which, double eta, std::span<const StickPattern> elements,
                            Disturbances& found) const {
   const Cell& cell = cells_[static_cast<std::size_t>(which)];
   const std::vector<Complex> exponents = cell.flow.exponents(eta, elements, cell.is_own);
-  const double edge = eta * static_cast<double>(cell.flow.nodes());
+  const double edge = cell.flow.edge(eta);
   for (const Complex& sigma : exponents) {
     if (cell.flow.kind() == TurnedFlow::Kind::general) {
       // Modulo 2 j eta M: far from the real axis, where it is none of two that meet there.
@@ -169,16 +239,12 @@ void RingDisturbances::add(Index which, double eta, std::span<const StickPattern
       const Complex away = is_near ? sigma + Complex(0, 2 * edge) : sigma;
       found.all.push_back({away, cell.wave, false, which, sigma});
       found.all.push_back({std::conj(away), -cell.wave, false, which, sigma});
-    } else if (sigma.imag() == edge) {  // real in the frame of other f
-      const Index wave = cell.wave - cell.flow.nodes() * waves_.wave_number();
-      found.all.push_back({sigma.real(), wave, false, which, sigma});
     } else {
-      found.all.push_back({sigma, cell.wave, cell.is_own && sigma.imag() == 0, which, sigma});
+      found.all.push_back(seen(which, sigma, eta));
     }
   }
-  const double step = pi / edge;
-  if (cell.symmetries > (cell.is_own ? 1 : 0)) found.symmetries.push_back(passage(exponents, 1, step));
-  if (cell.is_own || cell.symmetries > 1) found.symmetries.push_back(passage(exponents, -1, step));
+  for (const Cell::Test& test : cell.tests)
+    found.symmetries.push_back(passage(exponents, test.at, pi / edge));
 }
 
 void RingDisturbances::add_balanced(double eta, std::span<const StickPattern> elements,
@@ -198,15 +264,16 @@ RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const 
                                                     bool active) const {
   Disturbances found;
   // What swings may excite others.
-  const bool varies = std::any_of(elements.begin(), elements.end(),
-                                  [](const StickPattern& one) { return !one.stiffness.is_constant(); });
+  const bool varies =
+      has_law(elements) || std::any_of(elements.begin(), elements.end(),
+                                       [](const StickPattern& one) { return !one.stiffness.is_constant(); });
   if (balanced_) add_balanced(eta, elements, found);
   for (Index i = 0; i < std::ssize(cells_); ++i) {
     const Cell& cell = cells_[static_cast<std::size_t>(i)];
     if (!active || cell.is_own || varies || !cell.flow.is_passive()) {
       add(i, eta, elements, found);
     } else {
-      found.symmetries.insert(found.symmetries.end(), static_cast<std::size_t>(cell.symmetries), 1);
+      found.symmetries.insert(found.symmetries.end(), cell.tests.size(), 1);
     }
   }
   return found;
@@ -226,7 +293,7 @@ Index RingDisturbances::wave_of(const Disturbance& one, double eta,
   if (one.cell == own_balance) return wave(balanced_->own, waves_);
   if (one.cell == even_balance) return wave(balanced_->even, waves_);
   const Cell& cell = cells_[static_cast<std::size_t>(one.cell)];
-  const double strip = 2 * eta * static_cast<double>(cell.flow.nodes());
+  const double strip = 2 * cell.flow.edge(eta);
   const double shift = std::remainder(one.exponent.imag() - one.in_cell.imag(), strip);
   const bool is_conjugate = cell.flow.kind() == TurnedFlow::Kind::general && std::abs(shift) > 1e-9 * strip;
   const Index found = wave(cell.flow, waves_.nodes());

@@ -37,8 +37,9 @@ std::vector<WavePlace> places(const std::vector<Coordinate>& coordinates, double
 
 }  // namespace
 
-TurnedFlow::TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs)
-    : kind_(kind), nodes_(nodes), springs_(springs) {
+TurnedFlow::TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs,
+                       double turn)
+    : kind_(kind), nodes_(nodes), springs_(springs), turn_(turn) {
   for (const Wave& wave : waves) {
     const bool alone = kind == Kind::general || wave.order == 0 || wave.order == nodes;
     for (const Oscillator& mode : wave.modes) {
@@ -53,7 +54,7 @@ bool TurnedFlow::is_passive() const {
                      [](const Coordinate& one) { return one.mode.damping >= 0; });
 }
 
-double TurnedFlow::step(double eta) const { return pi / (static_cast<double>(nodes_) * eta); }
+double TurnedFlow::step(double eta) const { return turn_ / (static_cast<double>(nodes_) * eta); }
 
 TurnedFlow::Parts TurnedFlow::parts(double eta) const {
   constexpr double most = 16;
@@ -66,10 +67,10 @@ TurnedFlow::Parts TurnedFlow::parts(double eta) const {
 }
 
 std::array<Complex, 2> TurnedFlow::free_exponents(const Coordinate& coordinate, double eta) const {
-  const double strip = 2 * static_cast<double>(nodes_) * eta;
+  const double strip = 2 * edge(eta);
   std::array<Complex, 2> all = roots(coordinate.mode);
   for (Complex& sigma : all) {
-    sigma.imag(std::remainder(sigma.imag() - coordinate.order * eta, strip));
+    sigma.imag(std::remainder(sigma.imag() - pi / turn_ * coordinate.order * eta, strip));
     if (std::abs(sigma.imag()) == 0.5 * strip) sigma.imag(0.5 * strip);
     if (coordinate.part == Part::imaginary) sigma = std::conj(sigma);
   }
@@ -80,8 +81,13 @@ std::array<Complex, 2> TurnedFlow::free_exponents(const Coordinate& coordinate, 
 template <class Use>
 auto TurnedFlow::with_flow(const std::vector<Coordinate>& held, double eta,
                            std::span<const StickPattern> elements, const Use& use) const {
-  return kind_ == Kind::general ? use(TurnedMap<Complex>(held, nodes_, springs_, eta, elements))
-                                : use(TurnedMap<double>(held, nodes_, springs_, eta, elements));
+  std::vector<DisturbedLaw> laws;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const auto contact = static_cast<Index>(i);
+    laws.push_back(law_of(elements[i], contact < springs_.size() ? springs_(contact) : -1));
+  }
+  return kind_ == Kind::general ? use(TurnedMap<Complex>(held, nodes_, turn_, eta, laws))
+                                : use(TurnedMap<double>(held, nodes_, turn_, eta, laws));
 }
 
 std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPattern> elements,
@@ -91,11 +97,11 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
   for (const Coordinate& one : apart.free) {
     for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
   }
-  const auto add = [&](auto flow) {
-    auto lasting = flow.drifts();
+  const auto add = [&](auto&& flow) {
+    auto lasting = flow.drifts(std::ssize(elements) > springs_.size());
     if (own && is_free(elements)) {
       lasting.conservativeResize(Eigen::NoChange, lasting.cols() + 1);
-      lasting.rightCols(1) = flow.velocity();
+      lasting.rightCols(1) = flow.velocity(elements);
     }
     const ComplexVector multipliers = spectrum(deflated(flow.turned_map(), lasting));
     const double largest = multipliers.size() == 0 ? 1 : std::max(1.0, multipliers.cwiseAbs().maxCoeff());
@@ -103,8 +109,7 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
       if (std::abs(nu) < forgotten * largest) continue;
       const double size = std::log(std::abs(nu));
       const double angle = nu.imag() != 0 ? std::arg(nu) / pi : nu.real() < 0 ? 1 : 0;
-      all.emplace_back(std::abs(size) < flow.rounding() * largest ? 0 : size / step(eta),
-                       angle * static_cast<double>(nodes_) * eta);
+      all.emplace_back(std::abs(size) < flow.rounding() * largest ? 0 : size / step(eta), angle * edge(eta));
     }
   };
   if (!apart.held.empty()) with_flow(apart.held, eta, elements, add);
@@ -121,7 +126,7 @@ Index TurnedFlow::wave_of(const Complex& exponent, double eta, std::span<const S
       if (sigma == exponent) return std::min(one.wave, ring - one.wave);
     }
   }
-  return with_flow(apart.held, eta, elements, [&](auto flow) {
+  return with_flow(apart.held, eta, elements, [&](auto&& flow) {
     const ComplexVector vector =
         eigenvector(flow.turned_map().template cast<Complex>(), std::exp(exponent * step(eta)));
     return disturbed_wave(places(apart.held, eta), vector, ring);

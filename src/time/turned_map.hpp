@@ -12,138 +12,129 @@
 
 #include "arcslip/time/turned_flow.hpp"
 #include "time/kernel.hpp"
+#include "time/law_schedule.hpp"
 #include "time/own_velocity.hpp"
-#include "time/stick_schedule.hpp"
 
 namespace arcslip {
 
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// What moves a contact of node k, of phase -pi k/M.
+/// What moves a coordinate of a node by which the wave's phase has been turned.
 template <class Scalar>
-Scalar motion(const TurnedFlow::Coordinate& coordinate, Complex wave) {
+Scalar motion_of(const TurnedFlow::Coordinate& coordinate, Complex wave) {
+  using Part = TurnedFlow::Coordinate::Part;
   if constexpr (std::is_same_v<Scalar, Complex>) {
     return wave;
   } else {
-    if (coordinate.part == TurnedFlow::Coordinate::Part::whole) return wave.real();
-    return std::numbers::sqrt2 *
-           (coordinate.part == TurnedFlow::Coordinate::Part::real ? wave.real() : -wave.imag());
+    if (coordinate.part == Part::whole) return wave.real();
+    return std::numbers::sqrt2 * (coordinate.part == Part::real ? wave.real() : -wave.imag());
   }
 }
 
+/// Of velocities in the state.
 inline double scale_of(const TurnedFlow::Coordinate& one, double eta) {
   return std::max(one.mode.frequency, eta);
 }
 
-/// Flow of (p, v, x), p' = scale v, and the matrix G.
+/// Flow of (p, v, m), p' = scale v, and the matrix G.
 template <class Scalar>
 class TurnedMap {
  public:
-  TurnedMap(const std::vector<TurnedFlow::Coordinate>& coordinates, Index nodes, const Vector& springs,
-            double eta, std::span<const StickPattern> elements)
-      : coordinates_(coordinates),
-        nodes_(nodes),
-        springs_(springs / static_cast<double>(nodes)),
-        eta_(eta),
-        elements_(elements),
-        contacts_(elements.first(static_cast<std::size_t>(springs.size()))),
-        others_(elements.subspan(static_cast<std::size_t>(springs.size()))),
-        schedule_(contacts_, nodes) {
-    const auto size = std::ssize(coordinates);
-    relative_.resize(nodes * springs.size(), size);
-    other_motion_.resize(nodes * std::ssize(others_), size);
-    scale_.resize(size);
-    for (Index column = 0; column < size; ++column) {
+  using Part = TurnedFlow::Coordinate::Part;
+  using Slot = LawSchedule::Slot;
+  using Interval = LawSchedule::Interval;
+  using Row = Eigen::Matrix<Scalar, 1, Eigen::Dynamic>;
+
+  /// `laws`: of each element, over `turn`; the elements act in the rows of the modes' shapes one after the
+  /// other.
+  TurnedMap(const std::vector<TurnedFlow::Coordinate>& coordinates, Index nodes, double turn, double eta,
+            std::span<const DisturbedLaw> laws)
+      : coordinates_(coordinates), nodes_(nodes), eta_(eta), laws_(laws), schedule_(laws, nodes, turn) {
+    for (const DisturbedLaw& law : laws) {
+      first_.push_back(rows_);
+      rows_ += law.coordinates;
+    }
+    motion_.resize(nodes * rows_, size());
+    scale_.resize(size());
+    for (Index column = 0; column < size(); ++column) {
       const TurnedFlow::Coordinate& one = coordinates[static_cast<std::size_t>(column)];
       scale_(column) = scale_of(one, eta);
       for (Index node = 0; node < nodes; ++node) {
         const Complex lag = std::polar(1.0, -turned(one) * static_cast<double>(node));
-        for (Index i = 0; i < springs.size(); ++i)
-          relative_(node * springs.size() + i, column) = motion<Scalar>(one, lag * one.mode.shape(i));
-        for (Index i = 0; i < std::ssize(others_); ++i) {
-          other_motion_(node * std::ssize(others_) + i, column) =
-              motion<Scalar>(one, lag * one.mode.shape(springs.size() + i));
-        }
+        for (Index i = 0; i < rows_; ++i)
+          motion_(node * rows_ + i, column) = motion_of<Scalar>(one, lag * one.mode.shape(i));
       }
     }
   }
 
   Dense<Scalar> turned_map() {
-    const auto size = std::ssize(coordinates_);
-    const std::vector<StickSchedule::Slot>* sticking = &schedule_.intervals().front().sticking;
+    const std::vector<Slot>* slots = &schedule_.intervals().front().slots;
     Dense<Scalar> state =
-        Dense<Scalar>::Identity(2 * size + std::ssize(*sticking), 2 * size + std::ssize(*sticking));
-    for (const StickSchedule::Interval& interval : schedule_.intervals()) {
-      change(*sticking, interval.sticking, state);
-      sticking = &interval.sticking;
-      const Dense<Scalar> rates = generator(*sticking) * (interval.width / eta_);
-      rate_ += rates.cwiseAbs().colwise().sum().maxCoeff();
-      pass(interval, rates, state);
+        Dense<Scalar>::Identity(2 * size() + std::ssize(*slots), 2 * size() + std::ssize(*slots));
+    for (const Interval& interval : schedule_.intervals()) {
+      if (&interval != &schedule_.intervals().front()) change(*slots, interval.slots, state);
+      slots = &interval.slots;
+      pass(interval, state);
     }
-    change(*sticking, schedule_.behind(), state);
+    change(*slots, schedule_.behind(), state);
     turn_back(state);
     return state;
   }
 
-  /// Rigid motions that nothing resists: that no contact feels, with their velocities, and where all contacts
-  /// slip those that all sliders follow. Further elements hold what they feel, unless they are at rest.
-  Dense<Scalar> drifts() const {
-    const auto size = std::ssize(coordinates_);
-    const std::vector<StickSchedule::Slot>& sticking = schedule_.intervals().front().sticking;
-    const bool all_slip =
-        std::all_of(contacts_.begin(), contacts_.end(), [](const StickPattern& one) { return one.slips; });
+  /// Rigid motions that nothing resists: those that no element feels, with their velocities, `common`, and
+  /// those that all memories follow.
+  Dense<Scalar> drifts(bool common_count) const {
+    const std::vector<Slot>& slots = schedule_.intervals().front().slots;
     std::vector<Index> rigid;
-    for (Index i = 0; i < size; ++i) {
+    for (Index i = 0; i < size(); ++i) {
       if (coordinates_[static_cast<std::size_t>(i)].mode.frequency == 0) rigid.push_back(i);
     }
-    std::vector<Index> holding;
-    for (Index row = 0; row < other_motion_.rows(); ++row) {
-      if (others_[static_cast<std::size_t>(row % std::ssize(others_))].stiffness.bound() > 0)
-        holding.push_back(row);
+    if (rigid.empty()) return Dense<Scalar>(2 * size() + std::ssize(slots), 0);
+    const Dense<Scalar> moved = motion_(Eigen::all, rigid);
+    const auto [felt, resisted] = resistance(moved);
+    const auto count = std::ssize(rigid);
+    const Dense<Scalar> common = common_count ? kernel_of(felt) : Dense<Scalar>(count, 0);
+    const Dense<Scalar> free = kernel_of(resisted);
+    Dense<Scalar> found = Dense<Scalar>::Zero(2 * size() + std::ssize(slots), free.cols() + common.cols());
+    for (Index i = 0; i < count; ++i) {
+      found.row(rigid[static_cast<std::size_t>(i)]).head(free.cols()) = free.row(i);
+      found.row(size() + rigid[static_cast<std::size_t>(i)]).tail(common.cols()) = common.row(i);
     }
-    const Dense<Scalar> held = other_motion_(holding, rigid);
-    Dense<Scalar> felt(relative_.rows() + held.rows(), std::ssize(rigid));
-    felt << relative_(Eigen::all, rigid), held;
-    const Dense<Scalar> common = others_.empty() ? Dense<Scalar>(std::ssize(rigid), 0) : kernel_of(felt);
-    const Dense<Scalar> free = all_slip ? kernel_of(held) : common;
-    Dense<Scalar> found = Dense<Scalar>::Zero(2 * size + std::ssize(sticking), free.cols() + common.cols());
-    for (std::size_t i = 0; i < rigid.size(); ++i) {
-      found.row(rigid[i]).head(free.cols()) = free.row(static_cast<Index>(i));
-      found.row(size + rigid[i]).tail(common.cols()) = common.row(static_cast<Index>(i));
+    Index place = 2 * size();
+    for (const Slot& slot : slots) {
+      const Dense<Scalar> all = followed(slot.element, rows_of(moved, slot.element, slot.node));
+      found.row(place++).head(free.cols()) = all.row(static_cast<Index>(slot.memory)) * free;
     }
-    Index slider = 2 * size;
-    for (const StickSchedule::Slot& slot : sticking) found.row(slider++) = row(slot) * found.topRows(size);
     return found;
   }
 
   /// The velocity of the response, of which harmonics that differ by 2 M are one wave, at the first phase.
-  /// Sliders rest.
-  Dense<Scalar> velocity() const {
-    const auto size = std::ssize(coordinates_);
+  /// Memories rest.
+  Dense<Scalar> velocity(std::span<const StickPattern> elements) const {
     Dense<Scalar> found =
-        Dense<Scalar>::Zero(2 * size + std::ssize(schedule_.intervals().front().sticking), 1);
-    const int highest = static_cast<int>(elements_.front().free_force.size()) - 1;
+        Dense<Scalar>::Zero(2 * size() + std::ssize(schedule_.intervals().front().slots), 1);
+    const int highest = static_cast<int>(elements.front().free_force.size()) - 1;
     const int turns = 2 * static_cast<int>(nodes_);
-    for (Index i = 0; i < size; ++i) {
+    for (Index i = 0; i < size(); ++i) {
       const TurnedFlow::Coordinate& one = coordinates_[static_cast<std::size_t>(i)];
-      if (one.part == TurnedFlow::Coordinate::Part::imaginary) continue;
+      if (one.part == Part::imaginary) continue;
       Complex p = 0;
       Complex v = 0;
       for (int h = one.order - turns * ((one.order + highest) / turns); h <= highest; h += turns) {
-        const Complex part = own_velocity(one.mode, h, eta_, elements_) *
+        const Complex part = own_velocity(one.mode, h, eta_, elements) *
                              std::polar(1.0, h * schedule_.intervals().front().begin);
         p += part;
         v += Complex(0, h * eta_ / scale_(i)) * part;
       }
-      if (one.part == TurnedFlow::Coordinate::Part::whole) {
+      if (one.part == Part::whole) {
         found(i) = 0.5 * p.real() * std::numbers::sqrt2;
-        found(size + i) = 0.5 * v.real() * std::numbers::sqrt2;
+        found(size() + i) = 0.5 * v.real() * std::numbers::sqrt2;
       } else {
         found(i) = p.real();
         found(i + 1) = p.imag();
-        found(size + i) = v.real();
-        found(size + i + 1) = v.imag();
+        found(size() + i) = v.real();
+        found(size() + i + 1) = v.imag();
       }
     }
     return found;
@@ -153,61 +144,169 @@ class TurnedMap {
   double rounding() const { return 64 * std::numeric_limits<double>::epsilon() * (1 + rate_); }
 
  private:
+  /// A slope that varies, of the motion of a row less a memory.
+  struct Varying {
+    const VaryingSlope* slope;
+    Index row;
+    double phase;  // of its node beyond that of node 0
+    Index from;    // place of the memory in the state, or -1
+  };
+
+  Index size() const { return std::ssize(coordinates_); }
   double turned(const TurnedFlow::Coordinate& one) const {
     return one.order * pi / static_cast<double>(nodes_);
   }
-
-  auto row(const StickSchedule::Slot& slot) const {
-    return relative_.row(slot.node * springs_.size() + static_cast<Index>(slot.contact));
+  auto rows_of(const Dense<Scalar>& all, std::size_t element, Index node) const {
+    return all.middleRows(node * rows_ + first_[element], laws_[element].coordinates);
   }
 
-  /// Takes the state over an interval, in which `rates` are those of springs that do not vary: where others
-  /// do, by Taylor series, of which a step's terms exceed their sum by so little that no digit is lost.
-  void pass(const StickSchedule::Interval& interval, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
-    if (others_.empty()) {
-      const auto size = 2 * std::ssize(coordinates_);
+  /// What the memories of an element are after motions that stay, row by row.
+  Dense<Scalar> followed(std::size_t element, const Dense<Scalar>& moved) const {
+    const std::vector<DisturbedLaw::Memory>& all = laws_[element].memories;
+    Dense<Scalar> kept = Dense<Scalar>::Zero(std::ssize(all), moved.cols());
+    // Each is told by earlier ones, but for where the turn begins.
+    for (int round = 0; round < 2; ++round) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        Row row = all[i].set.transpose().template cast<Scalar>() * moved;
+        for (const auto& [of, part] : all[i].of) row += part * kept.row(of);
+        kept.row(static_cast<Index>(i)) = row;
+      }
+    }
+    return kept;
+  }
+
+  /// The motions that elements feel, and the forces against them once memories have followed.
+  std::pair<Dense<Scalar>, Dense<Scalar>> resistance(const Dense<Scalar>& moved) const {
+    std::vector<Row> felt;
+    std::vector<Row> resisted;
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      for (Index node = 0; node < nodes_; ++node) {
+        const Dense<Scalar> own = rows_of(moved, e, node);
+        const Dense<Scalar> kept = followed(e, own);
+        for (const DisturbedLaw::Piece& piece : laws_[e].pieces) {
+          Dense<Scalar> forces = piece.stiffness.template cast<Scalar>() * own;
+          for (Index i = 0; i < own.rows(); ++i) {
+            if (!piece.stiffness.isZero(0) || piece.slope) felt.push_back(own.row(i));
+          }
+          for (const auto& [memory, force] : piece.held)
+            forces += force.template cast<Scalar>() * kept.row(memory);
+          for (Index i = 0; i < forces.rows(); ++i) resisted.push_back(forces.row(i));
+          if (!piece.slope) continue;
+          Row way = own.row(0);
+          if (piece.from >= 0) way -= kept.row(piece.from);
+          resisted.push_back(piece.slope->bound * way);
+        }
+      }
+    }
+    const auto stacked = [&](const std::vector<Row>& rows) {
+      Dense<Scalar> all(std::ssize(rows), moved.cols());
+      for (std::size_t i = 0; i < rows.size(); ++i) all.row(static_cast<Index>(i)) = rows[i];
+      return all;
+    };
+    return {stacked(felt), stacked(resisted)};
+  }
+
+  /// Of (p, v, m) in an interval, but for slopes that vary, which are told apart.
+  Dense<Scalar> generator(const Interval& interval, std::vector<Varying>& varying) const {
+    const Index n = size();
+    const Index all = 2 * n + std::ssize(interval.slots);
+    Dense<Scalar> rates = Dense<Scalar>::Zero(all, all);
+    for (Index i = 0; i < n; ++i) {
+      const Oscillator& mode = coordinates_[static_cast<std::size_t>(i)].mode;
+      rates(i, n + i) = scale_(i);
+      rates(n + i, i) = -mode.frequency * mode.frequency / scale_(i);
+      rates(n + i, n + i) = -mode.damping;
+    }
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      for (Index node = 0; node < nodes_; ++node) {
+        const DisturbedLaw::Piece& piece = schedule_.piece(interval, e, node);
+        const auto moved = rows_of(motion_, e, node);
+        const Dense<Scalar> push = pushed(moved);
+        if (!piece.stiffness.isZero(0))
+          rates.block(n, 0, n, n).noalias() -= push * (piece.stiffness.template cast<Scalar>() * moved);
+        for (const auto& [memory, force] : piece.held) {
+          rates.col(place(interval, e, static_cast<std::size_t>(memory), node)).segment(n, n) -=
+              push * force.template cast<Scalar>();
+        }
+        if (!piece.slope) continue;
+        const Index from =
+            piece.from < 0 ? -1 : place(interval, e, static_cast<std::size_t>(piece.from), node);
+        varying.push_back(
+            {piece.slope.get(), node * rows_ + first_[e], schedule_.offset(interval, e, node), from});
+      }
+    }
+    return rates;
+  }
+
+  /// What unit forces do to v.
+  template <class Moved>
+  Dense<Scalar> pushed(const Moved& moved) const {
+    return (scale_ * static_cast<double>(nodes_)).cwiseInverse().template cast<Scalar>().asDiagonal() *
+           moved.adjoint();
+  }
+
+  Index place(const Interval& interval, std::size_t element, std::size_t memory, Index node) const {
+    const Slot wanted{element, memory, node};
+    const auto found = std::find_if(interval.slots.begin(), interval.slots.end(),
+                                    [&](const Slot& one) { return same(one, wanted); });
+    return 2 * size() + (found - interval.slots.begin());
+  }
+
+  /// Takes the state over an interval: where stiffness varies by Taylor series, of which a step's terms
+  /// exceed their sum by so little that no digit is lost.
+  void pass(const Interval& interval, Dense<Scalar>& state) {
+    constexpr double longest = 4;  // step, of the fastest rate
+    std::vector<Varying> varying;
+    const Dense<Scalar> rates = generator(interval, varying) * (interval.width / eta_);
+    const double norm = rates.cwiseAbs().colwise().sum().maxCoeff();
+    rate_ += norm;
+    if (varying.empty()) {
       const Dense<Scalar> flow = rates.exp();
-      state.topRows(size) = (flow.topRows(size) * state).eval();
+      state.topRows(2 * size()) = (flow.topRows(2 * size()) * state).eval();
       return;
     }
-    const std::vector<double> ends = law_changes(interval, others_, nodes_);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const double part = (ends[i + 1] - ends[i]) / interval.width;
-      pass(ends[i], ends[i + 1] - ends[i], rates * part, state);
+    double fastest = norm;
+    double turns = 0;
+    for (const Varying& one : varying) {
+      fastest += one.slope->bound * (1 + motion_.row(one.row).squaredNorm()) * interval.width /
+                 (scale_.minCoeff() * eta_ * static_cast<double>(nodes_));
+      turns = std::max(turns, one.slope->rate * interval.width);
     }
-  }
-
-  void pass(double begin, double angle, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
-    constexpr double longest = 4;  // step, of the fastest rate
-    double fastest = rates.cwiseAbs().colwise().sum().maxCoeff();
-    for (const StickPattern& other : others_) {
-      fastest += other.stiffness.bound() * other_motion_.squaredNorm() / scale_.minCoeff() * angle /
-                 (eta_ * static_cast<double>(nodes_));
-    }
-    const auto steps = std::max(Index{1}, static_cast<Index>(std::ceil(fastest / longest)));
-    const double width = angle / static_cast<double>(steps);
+    const auto steps = std::max(Index{1}, static_cast<Index>(std::ceil(std::max(fastest, turns) / longest)));
+    const double width = interval.width / static_cast<double>(steps);
     const Dense<Scalar> of_step = rates / static_cast<double>(steps);
-    for (Index i = 0; i < steps; ++i) step(begin + static_cast<double>(i) * width, width, of_step, state);
+    for (Index i = 0; i < steps; ++i)
+      step(interval.begin + static_cast<double>(i) * width, width, of_step, varying, state);
   }
 
   /// The series of one step from a phase of node 0 on.
-  void step(double phase, double width, const Dense<Scalar>& rates, Dense<Scalar>& state) const {
+  void step(double phase, double width, const Dense<Scalar>& rates, const std::vector<Varying>& varying,
+            Dense<Scalar>& state) const {
     constexpr double nothing = 1e-18;
-    const auto size = std::ssize(coordinates_);
-    const Dense<Scalar> push = (width / (eta_ * static_cast<double>(nodes_))) *
-                               (scale_.cwiseInverse().asDiagonal() * other_motion_.adjoint());
-    std::vector<Dense<Scalar>> motions;  // terms of those of the coordinates
-    std::vector<Vector> stiffness;       // terms of the springs
+    const Index n = size();
+    Dense<Scalar> moved(std::ssize(varying), n);
+    std::vector<Vector> slopes;
+    for (std::size_t i = 0; i < varying.size(); ++i) {
+      moved.row(static_cast<Index>(i)) = motion_.row(varying[i].row);
+      slopes.push_back(varying[i].slope->terms(phase + varying[i].phase, width));
+    }
+    const Dense<Scalar> push = (width / eta_) * pushed(moved);
+    std::vector<Dense<Scalar>> ways;  // terms of their motions
     Dense<Scalar> term = state;
     double last = 1;
-    for (Index m = 0;; ++m) {
-      motions.push_back(other_motion_ * term.topRows(size));
-      stiffness.push_back(stiffness_term(phase, width, m));
-      Dense<Scalar> forces = stiffness.back().asDiagonal() * motions.front();
-      for (std::size_t j = 1; j < motions.size(); ++j)
-        forces += stiffness[motions.size() - 1 - j].asDiagonal() * motions[j];
+    for (Index m = 0; m < slopes.front().size(); ++m) {
+      ways.push_back(moved * term.topRows(n));
+      for (std::size_t i = 0; i < varying.size(); ++i) {
+        if (varying[i].from >= 0) ways.back().row(static_cast<Index>(i)) -= term.row(varying[i].from);
+      }
+      Dense<Scalar> forces = Dense<Scalar>::Zero(moved.rows(), term.cols());
+      for (Index j = 0; j <= m; ++j) {
+        for (Index i = 0; i < forces.rows(); ++i)
+          forces.row(i) +=
+              slopes[static_cast<std::size_t>(i)](m - j) * ways[static_cast<std::size_t>(j)].row(i);
+      }
       term = (rates * term).eval();
-      term.middleRows(size, size).noalias() -= push * forces;
+      term.middleRows(n, n).noalias() -= push * forces;
       term /= static_cast<double>(m + 1);
       state += term;
       const double part = term.norm() / state.norm();
@@ -216,77 +315,43 @@ class TurnedMap {
     }
   }
 
-  /// The m-th term of the Taylor series of all springs' stiffness over a step.
-  Vector stiffness_term(double phase, double width, Index m) const {
-    const auto count = std::ssize(others_);
-    Vector terms = Vector::Zero(nodes_ * count);
-    for (Index node = 0; node < nodes_; ++node) {
-      const double here = phase - pi * static_cast<double>(node) / static_cast<double>(nodes_);
-      for (Index i = 0; i < count; ++i) {
-        terms(node * count + i) = others_[static_cast<std::size_t>(i)].stiffness.term(here, width, m);
-      }
-    }
-    return terms;
-  }
-
-  /// Of (p, v, x) while these slots stick, as do the contacts that never slip.
-  Dense<Scalar> generator(const std::vector<StickSchedule::Slot>& sticking) const {
-    const auto size = std::ssize(coordinates_);
-    Dense<Scalar> rates =
-        Dense<Scalar>::Zero(2 * size + std::ssize(sticking), 2 * size + std::ssize(sticking));
-    for (Index i = 0; i < size; ++i) {
-      const Oscillator& mode = coordinates_[static_cast<std::size_t>(i)].mode;
-      rates(i, size + i) = scale_(i);
-      rates(size + i, i) = -mode.frequency * mode.frequency / scale_(i);
-      rates(size + i, size + i) = -mode.damping;
-    }
-    const auto spring = [&](const auto& moved, double stiffness, Index slider) {
-      const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> push =
-          stiffness * scale_.cwiseInverse().cast<Scalar>().cwiseProduct(moved.adjoint());
-      rates.block(size, 0, size, size).noalias() -= push * moved;
-      if (slider >= 0) rates.col(slider).segment(size, size) += push;
+  /// Memories that are set come, those that are kept no longer go.
+  void change(const std::vector<Slot>& from, const std::vector<Slot>& to, Dense<Scalar>& state) const {
+    const Index n = size();
+    const auto old = [&](const Slot& wanted) {
+      const auto found =
+          std::find_if(from.begin(), from.end(), [&](const Slot& one) { return same(one, wanted); });
+      return found == from.end() ? Index{-1} : 2 * n + (found - from.begin());
     };
-    for (Index i = 0; i < springs_.size(); ++i) {
-      if (contacts_[static_cast<std::size_t>(i)].slips) continue;
-      for (Index node = 0; node < nodes_; ++node)
-        spring(relative_.row(node * springs_.size() + i), springs_(i), -1);
-    }
-    Index slider = 2 * size;
-    for (const StickSchedule::Slot& slot : sticking)
-      spring(row(slot), springs_(static_cast<Index>(slot.contact)), slider++);
-    return rates;
-  }
-
-  /// Sliders of what begins to stick come, those of what ceases to stick go.
-  void change(const std::vector<StickSchedule::Slot>& from, const std::vector<StickSchedule::Slot>& to,
-              Dense<Scalar>& state) const {
-    const auto size = std::ssize(coordinates_);
-    Dense<Scalar> next(2 * size + std::ssize(to), state.cols());
-    next.topRows(2 * size) = state.topRows(2 * size);
+    Dense<Scalar> next(2 * n + std::ssize(to), state.cols());
+    next.topRows(2 * n) = state.topRows(2 * n);
     for (Index i = 0; i < std::ssize(to); ++i) {
-      const StickSchedule::Slot& slot = to[static_cast<std::size_t>(i)];
-      const auto old = std::find(from.begin(), from.end(), slot);
-      if (old == from.end()) {
-        next.row(2 * size + i) = row(slot) * state.topRows(size);
-      } else {
-        next.row(2 * size + i) = state.row(2 * size + (old - from.begin()));
+      const Slot& slot = to[static_cast<std::size_t>(i)];
+      if (!slot.is_set) {
+        next.row(2 * n + i) = state.row(old(slot));
+        continue;
       }
+      const DisturbedLaw::Memory& memory = laws_[slot.element].memories[slot.memory];
+      const Row set =
+          memory.set.transpose().template cast<Scalar>() * rows_of(motion_, slot.element, slot.node);
+      next.row(2 * n + i) = set * state.topRows(n);
+      for (const auto& [of, part] : memory.of)
+        next.row(2 * n + i) += part * state.row(old({slot.element, static_cast<std::size_t>(of), slot.node}));
     }
     state.swap(next);
   }
 
   /// Each node takes the place of the one behind it.
   void turn_back(Dense<Scalar>& state) const {
-    const auto size = std::ssize(coordinates_);
-    for (Index i = 0; i < size; ++i) {
+    for (Index i = 0; i < size(); ++i) {
       const TurnedFlow::Coordinate& one = coordinates_[static_cast<std::size_t>(i)];
       const Complex factor = std::polar(1.0, -turned(one));
-      for (const Index place : {i, size + i}) {
+      for (const Index place : {i, size() + i}) {
         if constexpr (std::is_same_v<Scalar, Complex>) {
           state.row(place) *= factor;
-        } else if (one.part == TurnedFlow::Coordinate::Part::whole) {
+        } else if (one.part == Part::whole) {
           state.row(place) *= factor.real();
-        } else if (one.part == TurnedFlow::Coordinate::Part::real) {
+        } else if (one.part == Part::real) {
           const Eigen::RowVectorXd real = state.row(place);
           const Eigen::RowVectorXd imaginary = state.row(place + 1);
           state.row(place) = factor.real() * real - factor.imag() * imaginary;
@@ -296,20 +361,18 @@ class TurnedMap {
     }
     if (coordinates_.empty() || coordinates_.front().order % 2 == 0) return;
     for (std::size_t i = 0; i < schedule_.behind().size(); ++i) {
-      if (schedule_.behind()[i].node == 0) state.row(2 * size + static_cast<Index>(i)) *= -1;
+      if (schedule_.behind()[i].node == 0) state.row(2 * size() + static_cast<Index>(i)) *= -1;
     }
   }
 
   const std::vector<TurnedFlow::Coordinate>& coordinates_;
   Index nodes_;
-  Vector springs_;
   double eta_;
-  std::span<const StickPattern> elements_;
-  std::span<const StickPattern> contacts_;
-  std::span<const StickPattern> others_;
-  StickSchedule schedule_;
-  Dense<Scalar> relative_;      // node by node, its contacts
-  Dense<Scalar> other_motion_;  // node by node, its further coordinates
+  std::span<const DisturbedLaw> laws_;
+  LawSchedule schedule_;
+  std::vector<Index> first_;  // coordinate of each element
+  Index rows_ = 0;            // of a node
+  Dense<Scalar> motion_;      // of the coordinates, node by node
   Vector scale_;
   double rate_ = 0;
 };

@@ -234,6 +234,5 @@ TEST_CASE("Microslip takes part in branches, studies and derivatives, and is ref
   CHECK_THAT(
       peak(masses + replaced(narrow, "0.5", "0.2") + branch_text),
       WithinRel(peak(replaced(masses, "0.2", "0.4\nlimit_per_preload = 2") + nothing + branch_text), 1e-7));
-  CHECK_THAT(case_texts::error_of(text + "stability = true\n"),
-             ContainsSubstring("not beside element 'iwan', which has a memory"));
+  CHECK_NOTHROW(case_texts::read_text(text + "stability = true\n"));
 }

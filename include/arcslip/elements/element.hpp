@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/elements/disturbed_law.hpp"
 #include "arcslip/elements/jet.hpp"
 #include "arcslip/elements/piecewise_law.hpp"
 #include "arcslip/elements/varying_stiffness.hpp"
@@ -127,6 +128,15 @@ class Element {
   /// the energy and the maximum nothing is said.
   ElementForce change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
                       double load, bool beyond, const Way& way) const;
+
+  /// Whether it has a memory in every state, through which `disturbed` follows disturbances of odd motions.
+  virtual bool remembers() const { return false; }
+
+  /// What small disturbances of the motion x meet in this state, over a turn: a whole period or, of odd
+  /// orders, half of one. A contact of odd motions is told by hysteresis_loop.hpp. Throws std::logic_error
+  /// unless overridden.
+  virtual DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                                 bool beyond) const;
 
   /// What small disturbances of the motion x meet; a contact that slips has a memory and no such stiffness.
   /// Throws std::logic_error unless overridden: what has a memory in every state has none.

@@ -27,6 +27,10 @@ class Idle final : public Element {
                                      const HarmonicVector& /*x*/) const override {
     return {{0}};
   }
+  DisturbedLaw disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
+                         bool /*slips*/) const override {
+    return DisturbedLaw::constant(Matrix::Zero(1, 1));
+  }
   double threshold(double load) const override { return never_slips * load; }
   double threshold_by_log_load() const override { return 1; }
 

@@ -28,6 +28,8 @@ class Jenkins final : public Element {
     return {{stiffness_}};
   }
 
+  DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                         bool slips) const override;
   double threshold(double load) const override { return slip_per_load_ * load; }
   double threshold_by_log_load() const override { return 1; }
 

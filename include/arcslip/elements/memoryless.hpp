@@ -23,6 +23,8 @@ class MemorylessElement final : public Element {
   std::string beyond() const override { return beyond_; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
+  DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                         bool beyond) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
   double threshold(double /*load*/) const override { return law_.pieces().front().end.value; }
   double log_threshold_by_setting() const override {

@@ -9,6 +9,10 @@
 // (disturbance_flow.hpp), the others in cells of up to H + 2 waves, and of more than 16 such cells side by
 // side 16 that are evenly chosen: the cost does not depend on N.
 //
+// A response that is not odd repeats itself after a whole period alone: waves l and l + n hang together, in
+// gcd(n, N) classes, and all of it is told by cells, of the response's own waves one. So it is where an
+// element with a memory has no balance.
+//
 // In both ways every multiplier stands for one physical disturbance and every disturbance has one, but for
 // those of cells left out.
 
@@ -34,13 +38,14 @@ class RingDisturbances {
     bool is_own;       ///< whether it is real and travels as the response does, so that a fold may be near
     Index cell;        ///< of waves that it belongs to
     Complex in_cell;   ///< sigma as the cell has it
+    bool is_negative = false;  ///< whether mu is negative: sigma, real, has its modulus alone
   };
 
   /// What is found at one response.
   struct Disturbances {
     std::vector<Disturbance> all;  ///< cell by cell
-    /// For each symmetry that a response with a real exponent 0 would break a function that changes its sign
-    /// with this exponent.
+    /// For each symmetry that a response with a real exponent 0 would break, and each way in which its period
+    /// would double, a function that changes its sign with this exponent.
     std::vector<double> symmetries;
   };
 
@@ -48,10 +53,10 @@ class RingDisturbances {
   static bool is_exact(Index waves, int highest) { return waves < 2 * highest + 3; }
 
   /// The waves, 0 .. N/2, under which the structures are asked for.
-  static std::set<Index> waves(Index wave_number, Index nodes, int highest);
+  static std::set<Index> waves(Index wave_number, Index nodes, std::span<const int> orders);
 
-  /// How many symmetries there are.
-  std::size_t symmetries() const;
+  /// Of each of `symmetries` whether, instead, a multiplier -1 doubles the period.
+  const std::vector<bool>& doubles() const { return doubles_; }
 
   /// Whether exponents of motions that travel as the response does are those of its own harmonics, and so
   /// vanish where its folds are.
@@ -72,19 +77,28 @@ class RingDisturbances {
     TurnedFlow flow;
     Index wave;  ///< l of f = 0
     bool is_own;
-    int symmetries;  ///< real multipliers 1 and -1 break one each; of its own the latter alone
+    bool is_halved;  ///< whether its f are odd halves
+    /// A real nu that breaks a symmetry or doubles the period.
+    struct Test {
+      double at;             ///< 1 or -1
+      bool doubles = false;  ///< the period
+    };
+    std::vector<Test> tests;
   };
   struct Balanced {
     DisturbanceFlow own;
     DisturbanceFlow even;
   };
   struct Builder;
+  Disturbance seen(Index cell, const Complex& sigma, double eta) const;
   void add(Index cell, double eta, std::span<const StickPattern> elements, Disturbances& found) const;
   void add_balanced(double eta, std::span<const StickPattern> elements, Disturbances& found) const;
 
   RingWaves waves_;
+  bool is_odd_;
   std::optional<Balanced> balanced_;
   std::vector<Cell> cells_;
+  std::vector<bool> doubles_;
 };
 
 }  // namespace arcslip

@@ -21,6 +21,9 @@
 // the stiffness of smooth elements varies it is summed as a Taylor series to rounding, as the ring's motion
 // is.
 //
+// A response that is not odd repeats itself after a whole period alone. Then all f hang together, over twice
+// the angle: what is said here of f holds for 2 f, or 2 f + 1 of waves that stand half a wave aside.
+//
 // Where fewer f are given than hang together, M is their number: the others are taken for what these are.
 //
 // A mode that by itself grows more than e^16-fold in that time, as negative damping has it at high
@@ -51,21 +54,25 @@ class TurnedFlow {
   };
 
   /// Of M = `nodes` waves with f in steps of 2; of a self-conjugate class those from f = 0 or 1 to at most M.
-  /// `springs`: k of each contact; what is left of the waves' shapes is of further coordinates.
-  TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs);
+  /// `springs`: k of each contact; what is left of the waves' shapes is of further coordinates. `turn`, pi or
+  /// 2 pi: the angle after which the response repeats itself but for its sign.
+  TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, const Vector& springs, double turn = pi);
 
   /// How the class stands to its conjugate, and M.
   Kind kind() const { return kind_; }
   Index nodes() const { return nodes_; }
 
+  /// The largest |Im sigma|, eta M of an odd response.
+  double edge(double eta) const { return pi / turn_ * static_cast<double>(nodes_) * eta; }
+
   /// Whether no disturbance can grow, since no mode gains energy.
   bool is_passive() const;
 
-  /// sigma, lambda = 2 pi sigma, with |Im sigma| <= eta M; of real nu the imaginary part is just 0 or eta M,
-  /// of those on the unit circle to rounding the real part 0. In descending order of real parts, without
-  /// those of sliders that forget themselves, |nu| < 1e-13, and of rigid motions that all sliders follow,
-  /// which nothing resists; `own`: the response is one of these waves, and where no load drives it that of
-  /// its velocity is left out.
+  /// sigma, lambda = 2 pi sigma, with |Im sigma| <= edge; of real nu the imaginary part is just 0 or the
+  /// edge, of those on the unit circle to rounding the real part 0. In descending order of real parts,
+  /// without those of sliders that forget themselves, |nu| < 1e-13, and of rigid motions that all sliders
+  /// follow, which nothing resists; `own`: the response is one of these waves, and where no load drives it
+  /// that of its velocity is left out.
   std::vector<Complex> exponents(double eta, std::span<const StickPattern> elements, bool own = false) const;
 
   /// The wave, of 0 .. N - 1, that the disturbance with this exponent mostly is, as disturbed_wave.hpp says;
@@ -90,7 +97,7 @@ class TurnedFlow {
     std::vector<Coordinate> free;
   };
   Parts parts(double eta) const;
-  double step(double eta) const;  ///< time in which theta grows by pi/M
+  double step(double eta) const;  ///< time in which theta grows by turn/M
   template <class Use>
   auto with_flow(const std::vector<Coordinate>& held, double eta, std::span<const StickPattern> elements,
                  const Use& use) const;
@@ -100,6 +107,7 @@ class TurnedFlow {
   Index nodes_;
   std::vector<Coordinate> coordinates_;
   Vector springs_;
+  double turn_;
 };
 
 }  // namespace arcslip

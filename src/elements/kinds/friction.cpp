@@ -24,6 +24,7 @@ ElementKind friction_element() {
             PressedElement::Settings{s[2], s[0], s[1], s[3], s[4], values.usual_stiffness});
       }};
   kind.has_memory = true;
+  kind.follows = true;
   kind.is_odd = false;
   kind.closes = true;
   return kind;

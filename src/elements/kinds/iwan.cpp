@@ -43,6 +43,7 @@ ElementKind iwan_element() {
        {given_positive("spread", "per preload; over k how much further the last one slips"), true}},
       [](const ElementKind::Values& values) { return masing_of<UniformBackbone>(values); }};
   kind.has_memory = true;
+  kind.follows = true;
   return kind;
 }
 

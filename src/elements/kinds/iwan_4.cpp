@@ -62,6 +62,7 @@ ElementKind iwan_4_element() {
        {not_negative("beta", 0, "of sliders that slip last, over the spread ones")}},
       [](const ElementKind::Values& values) { return masing_of<FourParameterBackbone>(values); }};
   kind.has_memory = true;
+  kind.follows = true;
   return kind;
 }
 

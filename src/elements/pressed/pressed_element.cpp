@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/elements/pressed/pressed_law.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -88,6 +90,17 @@ void PressedElement::force_at(std::span<const int> orders, const HarmonicVector&
                    s.tangential.first * by(PressedForce::tangential_stiffness) +
                    s.normal.first * by(PressedForce::normal_stiffness) +
                    (s.normal_force.first + load * s.normal_per_load.first) * by(PressedForce::normal_force);
+}
+
+DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                                       bool beyond) const {
+  const Index n = std::ssize(orders);
+  const int highest = highest_order(orders);
+  const PressedSettings settings = at(load, 0);
+  const PressedArcs course(settings, PeriodicMotion(orders, x.head(n), highest),
+                           PeriodicMotion(orders, x.tail(n), highest),
+                           beyond ? Course::slips : Course::sticks);
+  return pressed_law(settings, course, 2);
 }
 
 /// W/sqrt(T^2 + B^2) of W = min (k_t r + mu n) - max (k_t r - mu n), T = max (k_t r + mu n) and B = min (k_t

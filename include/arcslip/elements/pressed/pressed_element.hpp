@@ -49,6 +49,8 @@ class PressedElement final : public Element {
   bool is_linear(bool beyond) const override { return !beyond && settings_.normal.value > 0; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
+  DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                         bool beyond) const override;
   StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                      bool beyond) const override;
 

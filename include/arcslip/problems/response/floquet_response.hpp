@@ -4,9 +4,10 @@
 // (ring_disturbances.hpp) are the eigenvalues that the engine counts along the branch. A pair crosses the
 // imaginary axis where a vibration with a second frequency branches off, and a real one zero at a fold; but
 // where the response that branches off repeats itself otherwise than this one, node by node or half period
-// by half period, it is a point where this symmetry breaks. No multiplier passes -1: that of a period is the
-// square of that of half a period, which the response does twice with turned signs, and so would need a pair
-// at +-j. A limit cycle's own velocity, whose multiplier is 1, does not count.
+// by half period, it is a point where this symmetry breaks. Of an odd response no multiplier passes -1: that
+// of a period is the square of that of half a period, which the response does twice with turned signs, and so
+// would need a pair at +-j; of another one the period doubles there. A limit cycle's own velocity, whose
+// multiplier is 1, does not count.
 //
 // At a fold the balance of harmonics is singular. Exponents taken exactly vanish there but for what the
 // harmonics leave out, or a reduction to modes; so that they change their number where the branch turns, the
@@ -16,6 +17,8 @@
 #include <map>
 #include <memory>
 #include <set>
+
+#include "arcslip/motion/swing.hpp"
 
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/problems/response/harmonic_cycle.hpp"
@@ -109,7 +112,7 @@ class FloquetOf : public Motion, public Floquet {
                                                           const continuation::Regime& regime) const override;
   Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const override;
   std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const override;
-  int finer_highest() const override { return finer_ ? finer_->system().orders.back() : 0; }
+  int finer_highest() const override { return finer_ ? highest_order(finer_->system().orders) : 0; }
   void observe_motion(const Vector& u, const Vector& p, const continuation::Regime& regime,
                       Vector& values) const override {
     Motion::observe(u, p, regime, values);
@@ -118,6 +121,7 @@ class FloquetOf : public Motion, public Floquet {
  private:
   static constexpr bool is_cycle = std::is_base_of_v<FreeVibration, Motion>;
 
+  DisturbedLaw law(Index element, const Vector& u, const Vector& p, const continuation::Regime& regime) const;
   std::vector<StickPattern> patterns(const Vector& u, const Vector& p,
                                      const continuation::Regime& regime) const;
   RingDisturbances::Disturbances found(const RingDisturbances& ring, const Vector& u, const Vector& p,
