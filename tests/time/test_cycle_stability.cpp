@@ -52,7 +52,7 @@ struct InTime {
     Guess same{at.unknowns, Vector(2), at.regime};
     same.unknowns.head<2>() << at.unknowns(FloquetCycle::amplitude), 0;
     same.parameters << at.unknowns(FloquetCycle::eta), at.parameters(FloquetCycle::preload);
-    state = motion.travelling(problems::contact_harmonics(response, same));
+    state = motion.travelling(problems::ring_harmonics(response, same));
   }
   static Ring unloaded(const SystemParameters& system) {
     Ring ring = build_ring(system);
