@@ -24,6 +24,8 @@ FreeVibration::FreeVibration(HarmonicSystem system, Layout layout)
     : HarmonicProblem(std::move(system), layout) {
   if (!all_odd(system_.orders))
     throw std::invalid_argument("FreeVibration: the mean and even harmonics are those of forced responses");
+  if (coordinates_.elements() < coordinates_.size())
+    throw std::invalid_argument("FreeVibration: elements act along one dof each");
 }
 
 /// The unknowns that are no motion stand in front.

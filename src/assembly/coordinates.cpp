@@ -17,7 +17,7 @@ namespace {
 /// own.
 ElementKind::Values values_of(const PlacedElement& placed, double nodes, double rate, double usual_stiffness,
                               Index varied = -1, double value = 0) {
-  ElementKind::Values values{{}, usual_stiffness, rate};
+  ElementKind::Values values{{}, usual_stiffness, rate, placed.closes()};
   for (Index i = 0; i < std::ssize(placed.settings); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double share = placed.kind->settings[k].scales_force ? 1 / nodes : 1;
@@ -53,10 +53,11 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
     const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
     const double damper = placed.place == Place::base ? 0 : 1;
     const double side = placed.closes_backwards ? -1 : 1;  // of the coordinate that closes
-    const double own = placed.kind->closes ? 1 : side;
+    const double own = placed.kind->closes == ElementKind::Closing::cannot ? side : 1;
     Coordinate one{own * base, own * damper, placed.dof, nullptr};
-    Coordinate closing{side * base, side * damper, placed.normal, nullptr};
-    const double usual = usual_stiffness(placed.kind->closes ? closing : one);
+    const Coordinate second{base, damper, placed.second, nullptr};
+    const Coordinate closing{side * base, side * damper, placed.normal, nullptr};
+    const double usual = usual_stiffness(placed.closes() ? closing : one);
     one.name = element_name(parameters, k);
     one.element = placed.kind->make(values_of(placed, nodes, rate, usual));
     for (Index i = 0; i < std::ssize(placed.settings); ++i) {
@@ -65,10 +66,15 @@ std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
         return placed.kind->make(values_of(placed, nodes, rate, usual, i, value));
       };
     }
-    closing.element = one.element;
-    closing.part = 1;
+    const auto element = one.element;
     all.push_back(std::move(one));
-    if (placed.kind->closes) all.push_back(std::move(closing));
+    const auto add = [&](Coordinate further, Index part) {
+      further.element = element;
+      further.part = part;
+      all.push_back(std::move(further));
+    };
+    if (placed.kind->slides == 2) add(second, 1);
+    if (placed.closes()) add(closing, placed.kind->slides);
   }
   std::stable_partition(all.begin(), all.end(),
                         [](const Coordinate& one) { return one.element->has_border(); });

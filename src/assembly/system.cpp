@@ -43,14 +43,20 @@ std::vector<int> all_up_to(int highest) {
 }
 
 std::vector<int> orders_up_to(int highest, const SystemParameters& system) {
-  constexpr int most = most_harmonics / 2 - 1;  // of elements in two coordinates
-  if (is_odd(system) && all_odd(system.harmonics)) return odd_up_to(highest);
-  return all_up_to(std::min(highest, most));
+  const int most = most_orders(system);
+  if (is_odd(system) && all_odd(system.harmonics)) return odd_up_to(std::min(highest, 2 * most - 1));
+  return all_up_to(std::min(highest, most - 1));
+}
+
+int most_orders(const SystemParameters& system) {
+  Index widest = is_odd(system) ? 1 : 2;
+  for (const PlacedElement& one : system.others) widest = std::max(widest, one.coordinates());
+  return most_harmonics / static_cast<int>(widest);
 }
 
 bool is_odd(const SystemParameters& system) {
   return std::all_of(system.others.begin(), system.others.end(),
-                     [](const PlacedElement& one) { return one.kind->is_odd; });
+                     [](const PlacedElement& one) { return one.is_odd(); });
 }
 
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {

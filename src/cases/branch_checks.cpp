@@ -34,18 +34,24 @@ void check_disturbed_waves(const TomlSection& section, const SystemParameters& s
 void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
-  if (problem.model != nullptr || all_odd(system.harmonics)) return;
-  const auto lifts = std::find_if(system.others.begin(), system.others.end(),
-                                  [](const PlacedElement& one) { return one.kind->closes; });
+  if (problem.model != nullptr) return;
+  const auto jumps = std::find_if(system.others.begin(), system.others.end(), [](const PlacedElement& one) {
+    return one.closes() || one.kind->slides > 1;
+  });
   using continuation::PointType;
   const auto is = [&](PointType type) { return branch.curve->type == type; };
-  if (lifts != system.others.end() && branch.curve &&
+  if (jumps != system.others.end() && branch.curve &&
       (is(PointType::peak) || is(PointType::trough) || is(PointType::fold)))
     branch_section.fail("curve",
                         fmt::format("not of folds, peaks and troughs beside element '{}': their second "
                                     "derivatives jump with every event within the period; for_each lists "
                                     "preloads whose branches have them",
-                                    lifts->kind->name));
+                                    jumps->kind->name));
+  if (jumps != system.others.end() && jumps->kind->slides > 1 && problem.response->has_own_frequency())
+    branch_section.fail("response", fmt::format("not beside element '{}': free vibration takes elements that "
+                                                "act along one dof each",
+                                                jumps->kind->name));
+  if (all_odd(system.harmonics)) return;
   const char* why = "the mean and even harmonics, which elements that are not odd call for, are balanced";
   if (problem.harmonics_tolerance) section.fail("harmonics", fmt::format(R"(not "auto" where {})", why));
   if (system.one_way || problem.response->has_own_frequency())

@@ -31,6 +31,32 @@ void read_name(PlacedElement& placed, const TomlSection& section) {
     section.mismatch("name", "a name of letters, digits and _");
 }
 
+/// The further dofs along which it slides and closes.
+void add_directions(const ElementKind& kind, std::vector<ElementKey>& keys) {
+  const auto dof = [](const char* name, Index PlacedElement::*member) {
+    return [=](PlacedElement& placed, const TomlSection& section) {
+      placed.*member = section.integer(name, at_least(1)) - 1;
+    };
+  };
+  if (kind.slides == 2)
+    keys.push_back(ElementKey::special(
+        "second", "integer >= 1", "at which of the contact dofs it slides in the other direction",
+        dof("second", &PlacedElement::second), required,
+        resolved([](const PlacedElement& placed) { return placed.second + 1; }), unlisted));
+  if (kind.closes == ElementKind::Closing::must)
+    keys.push_back(ElementKey::special(
+        "normal", "integer >= 1", "at which of the contact dofs it closes; `contact` is where it slides",
+        dof("normal", &PlacedElement::normal), required,
+        resolved([](const PlacedElement& placed) { return placed.normal + 1; }), unlisted));
+  if (kind.closes == ElementKind::Closing::may)
+    keys.push_back(ElementKey::special(
+        "normal", "integer >= 1", "at which of the contact dofs it closes; without it N is constant",
+        dof("normal", &PlacedElement::normal), otherwise("none"), resolved([](const PlacedElement& placed) {
+          return placed.closes() ? nlohmann::ordered_json(placed.normal + 1) : nlohmann::ordered_json();
+        }),
+        unlisted));
+}
+
 KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
   const auto contact = [](PlacedElement& placed, const TomlSection& section) {
     placed.dof = section.integer("contact", at_least(1)) - 1;
@@ -52,15 +78,8 @@ KeyTable<PlacedElement> keys_of(const ElementKind& kind) {
                           otherwise("its kind; of the second of a kind `clearance_2`"), unlisted),
       ElementKey::special("contact", "integer >= 1", "of sectors, at which of the contact dofs", contact,
                           resolved([](const PlacedElement& placed) { return placed.dof + 1; }), unlisted)};
-  if (kind.closes)
-    keys.push_back(ElementKey::special(
-        "normal", "integer >= 1", "at which of the contact dofs it closes; `contact` is where it slides",
-        [](PlacedElement& placed, const TomlSection& section) {
-          placed.normal = section.integer("normal", at_least(1)) - 1;
-        },
-        otherwise("required"), resolved([](const PlacedElement& placed) { return placed.normal + 1; }),
-        unlisted));
-  if (!kind.is_odd)
+  add_directions(kind, keys);
+  if (!kind.is_odd || kind.closes != ElementKind::Closing::cannot)
     keys.push_back(ElementKey::choice("closes", &PlacedElement::closes_backwards,
                                       {{"forwards", false}, {"backwards", true}},
                                       "whether it closes where the displacement of that dof grows or falls, "
@@ -95,12 +114,27 @@ void read_kind(PlacedElement& placed, const TomlDocument& document, const TomlSe
 void check_dofs(const TomlSection& section, const PlacedElement& placed, Index contacts) {
   if (placed.dof >= contacts)
     section.fail("contact", fmt::format("expected a contact from 1 to {}, got {}", contacts, placed.dof + 1));
-  if (!placed.kind->closes) return;
-  if (contacts < 2)
-    section.fail("normal", "a structure with one contact dof has no second one along which it could close");
-  if (placed.normal >= contacts || placed.normal == placed.dof)
-    section.fail("normal", fmt::format("expected a contact from 1 to {} other than {}, got {}", contacts,
-                                       placed.dof + 1, placed.normal + 1));
+  const auto check = [&](const char* key, const char* does, Index dof, const std::vector<Index>& taken) {
+    if (contacts <= std::ssize(taken))
+      section.fail(key, fmt::format("a structure with {} has no further one along which it could {}",
+                                    contacts == 1 ? "one contact dof" : "two contact dofs", does));
+    if (dof >= contacts || std::find(taken.begin(), taken.end(), dof) != taken.end())
+      section.fail(
+          key, fmt::format("expected a contact from 1 to {} other than {}{}, got {}", contacts, taken[0] + 1,
+                           taken.size() > 1 ? fmt::format(" and {}", taken[1] + 1) : "", dof + 1));
+  };
+  std::vector<Index> taken{placed.dof};
+  if (placed.kind->slides == 2) {
+    check("second", "slide", placed.second, taken);
+    taken.push_back(placed.second);
+  }
+  if (placed.closes()) return check("normal", "close", placed.normal, taken);
+  if (placed.closes_backwards && placed.kind->closes != ElementKind::Closing::cannot)
+    section.fail("closes", "without normal it does not close");
+  for (std::size_t i = 0; i < placed.settings.size(); ++i) {
+    if (placed.kind->settings[i].name == "normal_stiffness" && placed.settings[i] != 0)
+      section.fail("normal_stiffness", "needs normal, the contact along which it closes");
+  }
 }
 
 /// Refuses an element whose settings would have the names of another one's.

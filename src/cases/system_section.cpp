@@ -81,14 +81,16 @@ void complete_orders(const TomlSection& section, SystemParameters& system) {
   const bool is_listed = node != nullptr && node->is_array();
   if (is_odd(system)) {
     if (highest % 2 == 0) refuse_orders(section);
-    return;
+  } else {
+    if (!is_listed) system.harmonics = all_up_to(highest);
+    if (std::find(system.harmonics.begin(), system.harmonics.end(), 0) == system.harmonics.end())
+      section.fail("harmonics", "expected 0 among them, the mean, as elements are not odd");
   }
-  if (!is_listed) system.harmonics = all_up_to(highest);
-  if (std::find(system.harmonics.begin(), system.harmonics.end(), 0) == system.harmonics.end())
-    section.fail("harmonics", "expected 0 among them, the mean, as elements are not odd");
-  if (std::ssize(system.harmonics) > most_harmonics / 2)
-    section.fail("harmonics", fmt::format("expected at most {} of them beside elements that close, got {}",
-                                          most_harmonics / 2, system.harmonics.size()));
+  if (std::ssize(system.harmonics) > most_orders(system))
+    section.fail(
+        "harmonics",
+        fmt::format("expected at most {} of them beside elements that {}, got {}", most_orders(system),
+                    is_odd(system) ? "slide along two dofs" : "close", system.harmonics.size()));
 }
 
 /// Refuses structures that cannot travel as the waves of the harmonics.

@@ -8,6 +8,7 @@
 #include "arcslip/problems/ridges/response_slopes.hpp"
 #include "arcslip/zero_between.hpp"
 #include "branches.hpp"
+#include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
 #include "places.hpp"

@@ -7,29 +7,12 @@
 
 #include "arcslip/elements/jenkins.hpp"
 #include "catch.hpp"
-#include "random_systems.hpp"
+#include "pressed_motions.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
 
 namespace {
-
-std::vector<int> from_zero_to(int highest) {
-  std::vector<int> orders;
-  for (int h = 0; h <= highest; ++h) orders.push_back(h);
-  return orders;
-}
-
-ComplexVector random_course(RandomSystems& draw, int highest, double mean) {
-  ComplexVector x(highest + 1);
-  x(0) = draw.uniform(-mean, mean);
-  for (int h = 1; h <= highest; ++h) x(h) = std::polar(draw.uniform(0, 1.5) / h, draw.uniform(-pi, pi));
-  return x;
-}
-
-PressedSettings random_pressed(RandomSystems& draw) {
-  return {draw.uniform(0.1, 1), draw.uniform(0.5, 2), draw.uniform(0, 2), draw.uniform(-1, 3)};
-}
 
 /// Harmonics of both forces in the second period of a march.
 struct Marched {

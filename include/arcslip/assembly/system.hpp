@@ -45,9 +45,14 @@ struct PlacedElement {
   Index dof = 0;                                ///< which of the contact dofs, from 0
   std::vector<double> settings;                 ///< forces of rods and beams N times those of a node
   std::shared_ptr<const ElementKind> own = {};  ///< keeps a kind alive that is none of element_kinds()
-  Index normal = 0;               ///< of one that also closes, the contact dof along which it does
+  Index second = 0;                             ///< of one that slides along two, the other contact dof
+  Index normal = -1;              ///< of one that also closes, the contact dof along which it does; else -1
   bool closes_backwards = false;  ///< whether it closes where that one's coordinate, or of a one-sided
                                   ///< element its own, is negative
+
+  bool closes() const { return normal >= 0; }                              ///< whether it does
+  bool is_odd() const { return kind->is_odd && !closes(); }                ///< as its kind tells
+  Index coordinates() const { return kind->slides + (closes() ? 1 : 0); }  ///< in how many it acts
 };
 
 /// [system] of a case file, nondimensional throughout.
@@ -104,6 +109,9 @@ std::vector<int> odd_up_to(int highest);
 /// The same with 0 and the even ones between or, of a system whose elements are odd, without: 1, 0, 2, 3, ...
 std::vector<int> all_up_to(int highest);
 std::vector<int> orders_up_to(int highest, const SystemParameters& system);
+
+/// How many harmonics may be balanced.
+int most_orders(const SystemParameters& system);
 
 /// Whether an odd motion meets odd forces of all elements.
 bool is_odd(const SystemParameters& system);

@@ -90,8 +90,8 @@ class Element {
   /// Whether a cycle may take energy.
   virtual bool dissipates() const { return false; }
 
-  /// What may begin or end within a period, by name, as "lift_off": where along a branch it does, a continuous
-  /// function of the motion changes its sign.
+  /// What may begin or end within a period, by name, as "lift_off": where along a branch it does, a
+  /// continuous function of the motion changes its sign.
   virtual std::vector<std::string> events() const { return {}; }
   virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const;
 

@@ -21,6 +21,7 @@ struct ElementKind {
     std::vector<Jet> settings;   ///< in their order, with derivatives by one of them if it is continued
     double usual_stiffness = 1;  ///< the static one that its coordinate meets, > 0
     double rate = two_pi;        ///< w over eta, in the time that the structure's masses are given in
+    bool closes = false;         ///< whether there is a closing coordinate
   };
 
   std::string name;     ///< what case files call it
@@ -37,7 +38,10 @@ struct ElementKind {
   bool is_viscous = false;       ///< whether its force follows from the velocity
   bool is_odd = true;            ///< whether an odd motion meets an odd force
   bool takes_any_orders = true;  ///< whether even orders and 0 may be balanced beside it
-  bool closes = false;           ///< whether it acts along a second, closing coordinate
+  Index slides = 1;              ///< along how many coordinates it acts before a closing one
+
+  /// Whether it acts along a closing coordinate, which makes it one that is not odd.
+  enum class Closing { cannot, may, must } closes = Closing::cannot;
 };
 
 /// All of them, in alphabetical order.

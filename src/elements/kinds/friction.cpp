@@ -26,7 +26,7 @@ ElementKind friction_element() {
   kind.has_memory = true;
   kind.follows = true;
   kind.is_odd = false;
-  kind.closes = true;
+  kind.closes = ElementKind::Closing::must;
   return kind;
 }
 

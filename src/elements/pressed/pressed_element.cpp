@@ -38,14 +38,21 @@ double PressedElement::reference_stiffness(Index coordinate) const {
   return settings_.normal.value > 0 ? settings_.normal.value : settings_.reference;
 }
 
-PressedSettings PressedElement::at(double load, double setting) const {
+PressedSettings PressedElement::Settings::at(double load, double setting) const {
   const auto here = [setting](const Jet& number) { return shifted(number, setting).value; };
-  return {here(settings_.friction), here(settings_.tangential), here(settings_.normal),
-          here(settings_.normal_force) + load * here(settings_.normal_per_load)};
+  return {here(friction), here(tangential), here(normal), here(normal_force) + load * here(normal_per_load)};
+}
+
+double PressedElement::Settings::by_log_load(double load, double setting) const {
+  return load * shifted(normal_per_load, setting).value;
+}
+
+std::array<double, PressedForce::settings> PressedElement::Settings::rates(double load) const {
+  return {friction.first, tangential.first, normal.first, normal_force.first + load * normal_per_load.first};
 }
 
 bool PressedElement::rests_beyond(double load) const {
-  return !(settings_.friction.value > 0 && at(load, 0).normal_force > 0);
+  return !(settings_.friction.value > 0 && settings_.at(load, 0).normal_force > 0);
 }
 
 void PressedElement::force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
@@ -56,7 +63,7 @@ void PressedElement::force(std::span<const int> orders, const HarmonicVector& x,
 void PressedElement::force_at(std::span<const int> orders, const HarmonicVector& x, double load,
                               double setting, bool beyond, bool derivatives, ElementForce& out) const {
   const Index n = std::ssize(orders);
-  const PressedSettings settings = at(load, setting);
+  const PressedSettings settings = settings_.at(load, setting);
   const PressedForce found = pressed_force(settings, orders, x.head(n), x.tail(n), derivatives,
                                            beyond ? Course::slips : Course::sticks);
   const Index mean = n + place_of_mean(orders);
@@ -82,21 +89,20 @@ void PressedElement::force_at(std::span<const int> orders, const HarmonicVector&
     const bool is_force = which == PressedForce::normal_force;
     return both(found.tangential_by[which], found.normal_by[which], is_force ? rests_rate : 0);
   };
-  const Settings& s = settings_;
-  const double per_load = s.normal_per_load.value + setting * s.normal_per_load.first;
-  out.by_log_load = load * per_load * by(PressedForce::normal_force);
+  out.by_log_load = settings_.by_log_load(load, setting) * by(PressedForce::normal_force);
   if (!(settings_.scale() > 0)) return;
-  out.by_setting = s.friction.first * by(PressedForce::friction) +
-                   s.tangential.first * by(PressedForce::tangential_stiffness) +
-                   s.normal.first * by(PressedForce::normal_stiffness) +
-                   (s.normal_force.first + load * s.normal_per_load.first) * by(PressedForce::normal_force);
+  const auto rates = settings_.rates(load);
+  out.by_setting = rates[PressedForce::friction] * by(PressedForce::friction) +
+                   rates[PressedForce::tangential_stiffness] * by(PressedForce::tangential_stiffness) +
+                   rates[PressedForce::normal_stiffness] * by(PressedForce::normal_stiffness) +
+                   rates[PressedForce::normal_force] * by(PressedForce::normal_force);
 }
 
 DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
                                        bool beyond) const {
   const Index n = std::ssize(orders);
   const int highest = highest_order(orders);
-  const PressedSettings settings = at(load, 0);
+  const PressedSettings settings = settings_.at(load, 0);
   const PressedArcs course(settings, PeriodicMotion(orders, x.head(n), highest),
                            PeriodicMotion(orders, x.tail(n), highest),
                            beyond ? Course::slips : Course::sticks);
@@ -109,7 +115,7 @@ DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const Harmon
 StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVector& x,
                                    const Swing* /*known*/, double load, bool beyond) const {
   const Index n = std::ssize(orders);
-  const PressedSettings settings = at(load, 0);
+  const PressedSettings settings = settings_.at(load, 0);
   const int highest = highest_order(orders);
   const PeriodicMotion slides(orders, x.head(n), highest);
   const PeriodicMotion closes(orders, x.tail(n), highest);
@@ -146,16 +152,13 @@ StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVe
   return border;
 }
 
-/// The least of N_0 + k_n g, over the sizes of both: negative where the parts come apart.
-double PressedElement::event(Index /*which*/, std::span<const int> orders, const HarmonicVector& x,
-                             double load) const {
-  const Index n = std::ssize(orders);
-  const PressedSettings settings = at(load, 0);
-  const PeriodicMotion closes(orders, x.tail(n), highest_order(orders));
+double PressedElement::least_press(const PressedSettings& settings, std::span<const int> orders,
+                                   const Eigen::Ref<const HarmonicVector>& closing) {
+  const PeriodicMotion closes(orders, closing, highest_order(orders));
   double least = closes.value(0);
   for (const double angle : closes.derivative().zeros()) least = std::min(least, closes.value(angle));
   return (settings.normal_force + settings.normal_stiffness * least) /
-         (std::abs(settings.normal_force) + settings.normal_stiffness * x.tail(n).lpNorm<1>());
+         (std::abs(settings.normal_force) + settings.normal_stiffness * closing.lpNorm<1>());
 }
 
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

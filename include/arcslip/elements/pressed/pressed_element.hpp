@@ -29,6 +29,13 @@ class PressedElement final : public Element {
     double scale() const {
       return setting_scale(std::array{friction, tangential, normal, normal_force, normal_per_load});
     }
+
+    /// The settings with so much added to the one that is continued.
+    PressedSettings at(double load, double setting) const;
+
+    /// Of these the rates by ln(load), which is that of N_0, and by the setting that is continued.
+    double by_log_load(double load, double setting) const;
+    std::array<double, PressedForce::settings> rates(double load) const;
   };
 
   /// Throws std::invalid_argument of settings out of their range.
@@ -42,7 +49,10 @@ class PressedElement final : public Element {
   std::vector<std::string> events() const override {
     return settings_.normal.value > 0 ? std::vector<std::string>{"lift_off"} : std::vector<std::string>{};
   }
-  double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const override;
+  double event(Index /*which*/, std::span<const int> orders, const HarmonicVector& x,
+               double load) const override {
+    return least_press(settings(load), orders, x.tail(std::ssize(orders)));
+  }
   bool has_border() const override { return true; }
   std::string beyond() const override { return "slip"; }
   bool rests_beyond(double load) const override;
@@ -54,12 +64,14 @@ class PressedElement final : public Element {
   StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                      bool beyond) const override;
 
+  /// The least of N_0 + k_n g, over the sizes of both: negative where the parts come apart.
+  static double least_press(const PressedSettings& settings, std::span<const int> orders,
+                            const Eigen::Ref<const HarmonicVector>& closing);
+
   /// Its numbers under a load.
-  PressedSettings settings(double load) const { return at(load, 0); }
+  PressedSettings settings(double load) const { return settings_.at(load, 0); }
 
  private:
-  /// The settings with so much added to the one that is continued.
-  PressedSettings at(double load, double setting) const;
   void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,
                 bool beyond, bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,

@@ -1,0 +1,241 @@
+#include "arcslip/elements/circle/circle_contact.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "arcslip/elements/element.hpp"
+#include "arcslip/motion/swing.hpp"
+#include "elements/circle/circle_changes.hpp"
+#include "elements/pressed/arc_sums.hpp"
+
+namespace arcslip {
+namespace {
+
+using Course = PressedArcs::Course;
+using Phase = PressedArcs::Phase;
+
+CircleMotion motion_of(const PressedSettings& settings, std::span<const int> orders,
+                       const ComplexVector& motion) {
+  const Index n = std::ssize(orders);
+  if (n == 0 || (motion.size() != 2 * n && motion.size() != 3 * n))
+    throw std::invalid_argument("circle_force: two or three motions of at least one order");
+  if (!(settings.friction > 0)) throw std::invalid_argument("circle_force: friction must be positive");
+  const int highest = highest_order(orders);
+  const auto part = [&](Index which) {
+    return which < motion.size() / n ? PeriodicMotion(orders, motion.segment(which * n, n), highest)
+                                     : PeriodicMotion(ComplexVector::Zero(highest + 1));
+  };
+  return {settings, part(0), part(1), part(2)};
+}
+
+/// Forces and derivatives as sums over arcs.
+class CircleIntegrals {
+ public:
+  CircleIntegrals(const CircleMotion& motion, std::span<const int> orders)
+      : motion_(motion), orders_(orders), stick_(2 * motion.highest()), touch_(2 * motion.highest()) {
+    out_.harmonics.setZero(3 * n());
+  }
+
+  /// With the slider at a place for ever.
+  CircleForce stuck(bool derivatives) {
+    const RestingPlace place(motion_);
+    const ArcSums period(2 * motion_.highest(), 0, two_pi);
+    stick_.add(period);
+    touch_.add(period);
+    add_arcs();
+    const Index mean = std::find(orders_.begin(), orders_.end(), 0) - orders_.begin();
+    if (mean < n()) {
+      const Complex offset = place.offset + motion_.mean();
+      out_.harmonics(mean) -= offset.real();
+      out_.harmonics(n() + mean) -= offset.imag();
+    }
+    if (!derivatives) return std::move(out_);
+    const CircleColumns columns(motion_, orders_);
+    CircleChanges changes{
+        Matrix::Zero(2 * n(), columns.size()), Matrix::Zero(2 * n(), columns.size()), {}, {}, {}};
+    if (mean < n()) {
+      const Matrix offset = changes_of(motion_, place, columns);
+      changes.x.row(mean) = -offset.row(0);
+      changes.y.row(mean) = -offset.row(1);
+    }
+    add_derivatives(changes, columns);
+    return std::move(out_);
+  }
+
+  /// Slipping, or apart, now and then.
+  CircleForce moved(const CircleCourse& course, bool derivatives) {
+    if (course.arcs().empty()) {
+      set_unknown();
+      return std::move(out_);
+    }
+    for (const CircleCourse::Arc& arc : course.arcs()) {
+      if (arc.phase == Phase::apart) continue;
+      const ArcSums own(2 * motion_.highest(), arc.begin, arc.width);
+      touch_.add(own);
+      if (arc.phase == Phase::stick) stick_.add(own);
+    }
+    add_arcs();
+    const CircleColumns columns(motion_, derivatives ? orders_ : std::span<const int>());
+    CircleChanges changes = changes_of(motion_, course, columns, orders_);
+    for (Index a = 0; a < n(); ++a) {
+      out_.harmonics(a) += Complex(changes.force_x(a), changes.force_x(n() + a));
+      out_.harmonics(n() + a) += Complex(changes.force_y(a), changes.force_y(n() + a));
+    }
+    if (motion_.mean() != 0.0) remove_mean();
+    out_.slip_fraction = course.fraction(Phase::slip);
+    out_.apart_fraction = course.fraction(Phase::apart);
+    if (!derivatives) return std::move(out_);
+    close_period(course, changes);
+    add_derivatives(changes, columns);
+    return std::move(out_);
+  }
+
+ private:
+  Index n() const { return std::ssize(orders_); }
+
+  /// What does not settle is not a number, which shortens the step of who asks.
+  void set_unknown() {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    out_.harmonics.setConstant(unknown);
+    out_.linear.setConstant(3 * n(), 3 * n(), unknown);
+    out_.conjugate.setConstant(3 * n(), 3 * n(), unknown);
+    for (ComplexVector& by : out_.by) by.setConstant(3 * n(), unknown);
+  }
+
+  void add_arcs() {
+    const double k = motion_.settings().tangential_stiffness;
+    out_.harmonics.head(n()) += k * stick_.harmonics(motion_.x(), orders_);
+    out_.harmonics.segment(n(), n()) += k * stick_.harmonics(motion_.y(), orders_);
+    out_.harmonics.tail(n()) = touch_.harmonics(motion_.press(), orders_);
+    const Swing swing = Swing::at(motion_.press(), motion_.press().derivative().zeros());
+    out_.least_normal = std::max(0.0, swing.least.value);
+    out_.greatest_normal = std::max(0.0, swing.greatest.value);
+  }
+
+  /// In stick places are told relative to the mean of k_t r.
+  void remove_mean() {
+    const ComplexVector constant = stick_.harmonics(PeriodicMotion(ComplexVector::Ones(1)), orders_);
+    out_.harmonics.head(n()) -= motion_.mean().real() * constant;
+    out_.harmonics.segment(n(), n()) -= motion_.mean().imag() * constant;
+  }
+
+  /// A comes back after the period, whatever changes.
+  static void close_period(const CircleCourse& course, CircleChanges& changes) {
+    if (course.begins_apart() || course.arcs().front().phase == Phase::apart) return;
+    const Index last = changes.offset.cols() - 2;
+    const Eigen::Matrix2d by = Eigen::Matrix2d::Identity() - changes.offset.rightCols<2>();
+    const Matrix start = by.fullPivLu().solve(changes.offset.leftCols(last));
+    changes.x.leftCols(last) += changes.x.rightCols<2>() * start;
+    changes.y.leftCols(last) += changes.y.rightCols<2>() * start;
+  }
+
+  void add_derivatives(const CircleChanges& changes, const CircleColumns& columns) {
+    const double k = motion_.settings().tangential_stiffness;
+    out_.linear.setZero(3 * n(), 3 * n());
+    out_.conjugate.setZero(3 * n(), 3 * n());
+    put(stick_.derivative(orders_, k), 0);
+    put(stick_.derivative(orders_, k), 1);
+    put(touch_.derivative(orders_, motion_.settings().normal_stiffness), 2);
+    for (Index c = 0; c < 3; ++c) {
+      for (Index b = 0; b < n(); ++b) {
+        const ComplexVector by_real = column(changes, 2 * c * n() + b);
+        const ComplexVector by_imaginary = column(changes, (2 * c + 1) * n() + b) * Complex(0, 1);
+        out_.linear.col(c * n() + b).head(2 * n()) += 0.5 * (by_real - by_imaginary);
+        out_.conjugate.col(c * n() + b).head(2 * n()) += 0.5 * (by_real + by_imaginary);
+      }
+    }
+    for (Index s = 0; s < PressedForce::settings; ++s) {
+      ComplexVector& by = out_.by[static_cast<std::size_t>(s)];
+      by.setZero(3 * n());
+      by.head(2 * n()) = column(changes, columns.settings() + s);
+    }
+    ComplexVector& by_stiffness = out_.by[PressedForce::tangential_stiffness];
+    by_stiffness.head(n()) += stick_.harmonics(motion_.x(), orders_);
+    by_stiffness.segment(n(), n()) += stick_.harmonics(motion_.y(), orders_);
+    out_.by[PressedForce::normal_stiffness].tail(n()) = touch_.harmonics(motion_.closing(), orders_);
+    out_.by[PressedForce::normal_force].tail(n()) =
+        touch_.harmonics(PeriodicMotion(ComplexVector::Ones(1)), orders_);
+  }
+
+  /// Of both forces, as complex harmonics.
+  ComplexVector column(const CircleChanges& changes, Index which) const {
+    ComplexVector all(2 * n());
+    for (Index a = 0; a < n(); ++a) {
+      all(a) = Complex(changes.x(a, which), changes.x(n() + a, which));
+      all(n() + a) = Complex(changes.y(a, which), changes.y(n() + a, which));
+    }
+    return all;
+  }
+
+  void put(const HarmonicDerivative& part, Index coordinate) {
+    out_.linear.block(coordinate * n(), coordinate * n(), n(), n()) += part.linear;
+    out_.conjugate.block(coordinate * n(), coordinate * n(), n(), n()) += part.conjugate;
+  }
+
+  const CircleMotion& motion_;
+  std::span<const int> orders_;
+  ArcSums stick_;
+  ArcSums touch_;
+  CircleForce out_;
+};
+
+/// Where it slips by hardly anything, or beyond the border not at all, that of a smaller circle under which
+/// it does, and what the force changes by from there in proportion.
+CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
+  constexpr double hardly = 1e-10;
+  constexpr double clearly = 1e-3;
+  const CommonPoint point = least_excess(motion, clearly * motion.size());
+  const double less = hardly * motion.size() - point.excess;
+  if (less <= 0)
+    return CircleIntegrals(motion, orders)
+        .moved(CircleCourse(motion, point.offset, point.roomiest), derivatives);
+  const CircleMotion smaller = motion.tightened(less);
+  CircleForce force =
+      CircleIntegrals(smaller, orders).moved(CircleCourse(smaller, point.offset, point.roomiest), true);
+  force.harmonics += (less / motion.settings().friction) * force.by[PressedForce::normal_force];
+  return force;
+}
+
+}  // namespace
+
+CircleForce circle_force(const PressedSettings& settings, std::span<const int> orders,
+                         const ComplexVector& motion, bool derivatives, PressedArcs::Course course) {
+  const CircleMotion moves = motion_of(settings, orders, motion);
+  const Index n = std::ssize(orders);
+  bool sticks = course == Course::sticks;
+  if (course == Course::any) sticks = least_excess(moves, 0).excess <= 0;
+  CircleForce out =
+      sticks ? CircleIntegrals(moves, orders).stuck(derivatives) : slipping(moves, orders, derivatives);
+  out.energy = cycle_energy(orders, out.harmonics.head(n), motion.head(n)) +
+               cycle_energy(orders, out.harmonics.segment(n, n), motion.segment(n, n));
+  return out;
+}
+
+CircleRoom circle_room(const PressedSettings& settings, std::span<const int> orders,
+                       const ComplexVector& motion) {
+  const CircleMotion moves = motion_of(settings, orders, motion);
+  const CommonPoint point = least_excess(moves, std::numeric_limits<double>::infinity());
+  const CircleColumns columns(moves, orders);
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns.size());
+  for (const CommonPoint::Touch& touch : point.touches) {
+    const CircleMotion::Local here = moves.at(touch.angle);
+    const Complex pull = here.centre - point.offset;
+    const double far = std::abs(pull);
+    const bool is_one = point.touches.size() == 1;  // at the centre of a disc within all others
+    columns.add(touch.angle, {.centre = is_one ? 0 : touch.weight / far * pull, .radius = -touch.weight},
+                row);
+  }
+  const Index n = std::ssize(orders);
+  CircleRoom room{point.excess, ComplexVector(motion.size()), {}};
+  for (Index c = 0; c < motion.size() / n; ++c) {
+    for (Index a = 0; a < n; ++a)
+      room.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
+  }
+  for (Index s = 0; s < PressedForce::settings; ++s)
+    room.by[static_cast<std::size_t>(s)] = row(columns.settings() + s);
+  return room;
+}
+
+}  // namespace arcslip

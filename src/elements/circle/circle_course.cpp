@@ -1,0 +1,203 @@
+#include "elements/circle/circle_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/circle/circle_changes.hpp"
+#include "motion/bracketed_newton.hpp"
+
+namespace arcslip {
+namespace {
+
+constexpr std::size_t most_arcs = 2000;  // of a period
+
+}  // namespace
+
+CircleCourse::CircleCourse(const CircleMotion& motion, Complex guess, double begin)
+    : motion_(motion), begin_(begin) {
+  const PeriodicMotion& press = motion.press();
+  const std::vector<double> zeros = press.zeros();
+  std::vector<std::pair<double, double>> contacts;  // where the parts touch, begin and end
+  for (std::size_t i = 0; i < zeros.size(); ++i) {
+    const bool is_last = i + 1 == zeros.size();
+    const double end = is_last ? zeros.front() + two_pi : zeros[i + 1];
+    if (press.value(0.5 * (zeros[i] + end)) > 0) contacts.emplace_back(zeros[i], end);
+  }
+  if (contacts.size() == zeros.size()) {  // never apart, or always
+    if (press.value(begin) > 0)
+      settle(guess);
+    else
+      arcs_.push_back({Phase::apart, begin, two_pi, 0, {}});
+    return;
+  }
+  begins_apart_ = true;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    pass_contact(contacts[i].first, contacts[i].second, std::nullopt);
+    const double next = i + 1 < contacts.size() ? contacts[i + 1].first : contacts[0].first + two_pi;
+    if (next > contacts[i].second)
+      arcs_.push_back({Phase::apart, contacts[i].second, next - contacts[i].second, 0, {}});
+  }
+  if (is_endless_) arcs_.clear();
+}
+
+/// By Newton's method for A = A + what a period moves it by; now and then by a period alone.
+void CircleCourse::settle(Complex guess) {
+  constexpr int most_rounds = 80;
+  constexpr int alone = 8;
+  constexpr double settled = 1e-13;
+  constexpr double as_far_as_rounding_lets = 1e-9;
+  pass(guess);
+  Complex offset = guess + moved_;
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 1; round < most_rounds; ++round) {
+    pass(offset);
+    if (is_endless_) break;
+    const Eigen::Matrix2d by_offset = Eigen::Matrix2d::Identity() - offset_by_offset(motion_, *this);
+    const Eigen::Vector2d step = by_offset.fullPivLu().solve(Eigen::Vector2d(moved_.real(), moved_.imag()));
+    const double way = step.norm() / motion_.size();
+    if (way <= settled || (way <= as_far_as_rounding_lets && way > 0.5 * last)) return;
+    last = way;
+    const bool is_near = step.allFinite() && way < 1 && round % alone != 0;
+    offset += is_near ? Complex(step(0), step(1)) : moved_;
+  }
+  arcs_.clear();
+}
+
+void CircleCourse::pass(Complex offset) {
+  arcs_.clear();
+  moved_ = 0;
+  pass_contact(begin_, begin_ + two_pi, offset);
+}
+
+/// While the parts touch, with the slider at a place or, after having been apart, at none.
+void CircleCourse::pass_contact(double begin, double end, std::optional<Complex> offset) {
+  double at = begin;
+  Complex rests = 0;
+  std::optional<double> direction = std::nullopt;  // of slip
+  const CircleMotion::Local first = motion_.at(begin);
+  if (offset) {
+    rests = *offset;
+    const Complex force = first.centre - rests;
+    if (std::abs(force) >= first.radius) {
+      const double phase = std::arg(force);
+      rests = first.centre - std::polar(first.radius, phase);
+      moved_ += rests - *offset;
+      if (std::real(first.rate * std::polar(1.0, -phase)) > first.radius_rate) direction = phase;
+    }
+  } else if (std::abs(first.rate) > first.radius_rate) {
+    direction = std::arg(first.rate);
+  } else {
+    rests = first.centre;
+  }
+  while (at < end && arcs_.size() < most_arcs) {
+    if (!direction) {
+      const double until = leaves(at, end, rests);
+      arcs_.push_back({Phase::stick, at, until - at, rests, {}});
+      if (until >= end) return;
+      direction = std::arg(motion_.at(until).centre - rests);
+      at = until;
+    }
+    at = slip(at, end, !offset, *direction);
+    const Arc& arc = arcs_.back();
+    if (!arc.panels.empty()) direction = arc.panels.back().phase(panel_nodes - 1);
+    const CircleMotion::Local here = motion_.at(at);
+    rests = here.centre - std::polar(here.radius, *direction);
+    direction.reset();
+  }
+  if (at < end) is_endless_ = true;
+}
+
+/// Where the force reaches the circle, or the end. It falls from there at first where slip has ended.
+double CircleCourse::leaves(double begin, double end, Complex offset) const {
+  constexpr double rounding = 1e-15;
+  constexpr double same = 1e-9;
+  const PeriodicMotion excess = motion_.excess(offset, 0);
+  std::vector<double> turns;
+  for (const double zero : excess.derivative().zeros()) {
+    const double way = std::remainder(zero - begin - pi, two_pi) + pi;
+    if (way > same && begin + way < end) turns.push_back(begin + way);
+  }
+  std::sort(turns.begin(), turns.end());
+  turns.push_back(end);
+  const double zero = rounding * motion_.size() * motion_.size();
+  double last = begin;
+  for (const double turn : turns) {
+    if (excess.value(turn) > zero) {
+      if (excess.value(last) >= 0) return last;
+      return bracketed_newton(
+          [&](double theta) {
+            const PeriodicMotion::Local here = excess.at(theta);
+            return std::pair(here.value, here.first);
+          },
+          0.5 * (last + turn), last, turn, true);
+    }
+    last = turn;
+  }
+  return end;
+}
+
+/// Up to where v falls to 0, from nearly there, by Newton's method to rounding.
+SlipPanel CircleCourse::stopped(SlipPanel::Reach reach, double phase) const {
+  constexpr int steps = 3;
+  SlipPanel panel = SlipPanel::resolved(motion_, reach, phase);
+  for (int i = 0; i < steps; ++i) {
+    const double change = panel.after_stop();
+    if (!(std::abs(change) > 1e-16 && std::abs(change) < 1e-3 * reach.width)) break;
+    reach.width -= change;
+    panel = SlipPanel::resolved(motion_, reach, phase);
+  }
+  return panel;
+}
+
+/// Of slip, as wide as resolves it, but not wider than this; towards lift-off in the logarithm of the way
+/// that is left unless all of it is smooth.
+SlipPanel CircleCourse::next(double begin, double width, double end, bool lifts, double phase) const {
+  constexpr double shares = 0.998;  // of that way
+  const double rest = end - begin;
+  const bool is_last = width >= rest;
+  if (auto whole = SlipPanel::solved(motion_, {begin, std::min(width, rest), {}}, phase)) return *whole;
+  if (lifts && is_last) {
+    if (rest < SlipPanel::smallest * 10) return SlipPanel::resolved(motion_, {begin, rest, {}}, phase);
+    SlipPanel::Reach reach{begin, shares * rest, end};
+    for (;;) {
+      if (auto panel = SlipPanel::solved(motion_, reach, phase)) return *panel;
+      reach = reach.up_to(0.5);
+    }
+  }
+  SlipPanel::Reach reach{begin, std::min(width, rest), {}};
+  for (;;) {
+    reach.width = std::max(0.5 * reach.width, SlipPanel::smallest);
+    if (auto panel = SlipPanel::solved(motion_, reach, phase)) return *panel;
+  }
+}
+
+/// Adds an arc of slip and returns where it ends.
+double CircleCourse::slip(double begin, double end, bool lifts, double phase) {
+  Arc& arc = arcs_.emplace_back(Arc{Phase::slip, begin, 0, 0, {}});
+  const double widest = SlipPanel::widest(std::max(1, motion_.highest()));
+  double at = begin;
+  double width = widest;
+  while (at < end) {
+    SlipPanel panel = next(at, std::min(width, widest), end, lifts, phase);
+    const std::optional<double> stops = panel.stop();
+    if (stops && panel.reach.up_to(*stops).width <= SlipPanel::smallest) break;
+    if (stops) panel = stopped(panel.reach.up_to(*stops), phase);
+    for (Index j = 0; j < panel_nodes; ++j)
+      moved_ += panel.weight(j) * panel.slip(j) * std::polar(1.0, panel.phase(j));
+    at = panel.reach.width < end - at ? at + panel.reach.width : end;
+    phase = panel.phase(panel_nodes - 1);
+    width = 2 * panel.reach.width;
+    arc.panels.push_back(std::move(panel));
+    if (stops) break;
+  }
+  arc.width = at - begin;
+  return at;
+}
+
+double CircleCourse::fraction(Phase phase) const {
+  double sum = 0;
+  for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
+  return sum / two_pi;
+}
+
+}  // namespace arcslip

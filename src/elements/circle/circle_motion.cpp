@@ -1,0 +1,87 @@
+#include "elements/circle/circle_motion.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip {
+namespace {
+
+/// Adds sign x^2, by coefficients.
+void add_square(const ComplexVector& x, double sign, ComplexVector& sum) {
+  const Index highest = x.size() - 1;
+  const auto at = [&](Index h) {  // of both signs
+    return h == 0 ? x(0) : h > 0 ? 0.5 * x(h) : 0.5 * std::conj(x(-h));
+  };
+  for (Index h = 0; h <= 2 * highest; ++h) {
+    Complex part = 0;
+    for (Index a = h - highest; a <= highest; ++a) part += at(a) * at(h - a);
+    sum(h) += sign * (h == 0 ? 1.0 : 2.0) * part;
+  }
+}
+
+PeriodicMotion pressing(const PressedSettings& settings, const PeriodicMotion& closing) {
+  ComplexVector n = settings.normal_stiffness * closing.coefficients();
+  n(0) += settings.normal_force;
+  return PeriodicMotion(std::move(n));
+}
+
+}  // namespace
+
+CircleMotion::CircleMotion(const PressedSettings& settings, const PeriodicMotion& x, const PeriodicMotion& y,
+                           const PeriodicMotion& closing)
+    : settings_(settings),
+      x_(x),
+      y_(y),
+      closing_(closing),
+      press_(pressing(settings, closing)),
+      mean_(settings.tangential_stiffness * Complex(x.coefficients()(0).real(), y.coefficients()(0).real())),
+      wx_(settings.tangential_stiffness * x.coefficients()),
+      wy_(settings.tangential_stiffness * y.coefficients()),
+      b_(settings.friction * press_.coefficients()) {
+  if (!(settings.tangential_stiffness > 0 && settings.friction >= 0 && settings.normal_stiffness >= 0))
+    throw std::invalid_argument(
+        "CircleMotion: the tangential stiffness must be positive, friction and normal stiffness not "
+        "negative");
+  wx_(0) = wy_(0) = 0;
+  square_.setZero(2 * highest() + 1);
+  add_square(wx_, 1, square_);
+  add_square(wy_, 1, square_);
+  add_square(b_, -1, square_);
+  size_ = wx_.lpNorm<1>() + wy_.lpNorm<1>() + b_.lpNorm<1>();
+}
+
+CircleMotion CircleMotion::tightened(double less) const {
+  PressedSettings settings = settings_;
+  settings.normal_force -= less / settings.friction;
+  return {settings, x_, y_, closing_};
+}
+
+CircleMotion::Local CircleMotion::at(double theta) const {
+  const Complex turn = std::polar(1.0, theta);
+  Complex power = 1;
+  Local sum{0, 0, 0, b_(0).real(), 0, 0};
+  for (Index h = 1; h < b_.size(); ++h) {
+    power *= turn;
+    const auto order = static_cast<double>(h);
+    const Complex x = wx_(h) * power;
+    const Complex y = wy_(h) * power;
+    const Complex b = b_(h) * power;
+    const Complex here(x.real(), y.real());
+    sum.centre += here;
+    sum.rate -= order * Complex(x.imag(), y.imag());
+    sum.bend -= order * order * here;
+    sum.radius += b.real();
+    sum.radius_rate -= order * b.imag();
+    sum.radius_bend -= order * order * b.real();
+  }
+  return sum;
+}
+
+PeriodicMotion CircleMotion::excess(Complex offset, double more) const {
+  ComplexVector sum = square_;
+  sum.head(wx_.size()) -= 2 * offset.real() * wx_ + 2 * offset.imag() * wy_ + 2 * more * b_;
+  sum(0) += std::norm(offset) - more * more;
+  return PeriodicMotion(std::move(sum));
+}
+
+}  // namespace arcslip
