@@ -145,7 +145,7 @@ TEST_CASE("The element of the friction circle has exact derivatives by load and 
         const auto element = [&](double by) {
           std::vector<Jet> jets(values.begin(), values.end());
           jets[varied] = Jet(values[varied] + by, 1, 0);
-          return kind.make({jets, 1, closes ? 1.0 : 0.0});
+          return kind.make({jets, 1, two_pi, closes});
         };
         const auto at = [&](double by, bool beyond) {
           ElementForce out;
