@@ -105,6 +105,11 @@ class AllNodes {
  private:
   void assemble(const SystemParameters& parameters) {
     ring_.reset();
+    const auto rubs = [](const SectorContact& contact) { return contact.stiffness > 0; };
+    if (std::count_if(parameters.contacts.begin(), parameters.contacts.end(), rubs) > 1) {
+      reason_ = "several contacts are not held against their motion in time";
+      return;
+    }
     try {
       ring_ = build_ring(parameters);
     } catch (const std::invalid_argument& error) {
