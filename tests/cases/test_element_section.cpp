@@ -164,7 +164,8 @@ TEST_CASE("A linear spring of an element is one of the structure", "[cases]") {
   REQUIRE(heights[0].size() == heights[1].size());
   for (std::size_t i = 0; i < heights[0].size(); ++i) {
     INFO(i);
-    CHECK_THAT(heights[0][i], WithinRel(heights[1][i], 1e-8));
+    CHECK_THAT(heights[0][i],  // at a switch the loss is rounding
+               WithinRel(heights[1][i], 1e-8) || WithinAbs(heights[1][i], 1e-13));
   }
 }
 
