@@ -1,5 +1,6 @@
 #include "arcslip/continuation/curves/corner_slopes.hpp"
 
+#include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
@@ -82,9 +83,7 @@ bool CornerSlopes::begin(const BasePoint& point, int border) {
   for (const Side side : {arriving, leaving}) {
     Branch& branch = sides_[side];
     if (!set_tangent(point, branch)) return false;
-    const double rises = border_rate(point, branch);
-    if (rises == 0) return false;
-    if ((rises > 0) != (side == arriving)) branch.tangent = -branch.tangent;
+    if ((border_rate(point, branch) > 0) != (side == arriving)) branch.tangent = -branch.tangent;
   }
   return true;
 }
@@ -108,6 +107,13 @@ double CornerSlopes::slope(const BasePoint& point, Side side) {
   if (!set_tangent(at, there)) return std::nan("");
   const double value = base_.observe(at.unknowns, at.parameters, there.regime, observable_, gradient_);
   return rate(gradient_, active_, at_.scale, there.tangent) / std::abs(value);
+}
+
+bool CornerSlopes::touch(const BasePoint& point, double rate) {
+  return std::all_of(sides_.begin(), sides_.end(), [&](const Branch& side) {
+    Branch there = side;
+    return set_tangent(point, there) && std::abs(border_rate(point, there)) <= rate;
+  });
 }
 
 void CornerSlopes::follow(const BasePoint& point) {

@@ -56,7 +56,7 @@ ExtremumTracer::Inside ExtremumTracer::next_inside(const BasePoint& corner, Side
 /// The pieces that leave a point along a border of its regime.
 void ExtremumTracer::add_ledges(const BasePoint& at, int border, const Place& place,
                                 std::vector<Ledge>& all) {
-  if (!slopes_.begin(at, border)) return;
+  if (!slopes_.begin(at, border) || slopes_.touch(at, options_.tolerances.touches)) return;
   BorderProblem edge(base_, problem_.active(), border);
   for (const bool up : {true, false}) {
     const std::vector<BranchPoint> step = surely_off(edge, at, up, place.vanishing);

@@ -50,6 +50,7 @@ bool ExtremumTracer::enter(Side side) {
   if (is_satisfied()) return false;
   BasePoint corner = split(here);
   corner.regime = slopes_.regime(CornerSlopes::arriving);
+  if (slopes_.touch(corner, options_.tolerances.touches)) return pass(corner, side);
   corner = refined(corner, border_, side);
   const Guess moved = guess_at(corner);
   here.unknowns = moved.unknowns;
@@ -57,14 +58,9 @@ bool ExtremumTracer::enter(Side side) {
   const auto [inside, from] = next_inside(corner, side);
   const auto outer = slopes_.extremum_inside(corner, side, from);
   const bool turns = outer && distance(*outer) < narrow;
-  auto next =
+  const auto next =
       turns ? first_inside(corner, side, -inside, distance(*outer)) : first_inside(corner, side, inside, 0);
-  if (!next && !turns) next = straight_on(corner, side);
-  if (!next) {
-    stop(Stop::grazing_border,
-         fmt::format("the extremum leaves a border and no smooth one goes on from there, at {}", place()));
-    return false;
-  }
+  if (!next) return ends_at_border();
   Vector direction = way(here, row(*next, PointType::regular));
   if (turns) {
     const auto fold = fold_beside(corner, border_, side);
@@ -86,9 +82,32 @@ bool ExtremumTracer::enter(Side side) {
   return true;
 }
 
-/// The extremum in the regime of a side a little farther in the parameter than a corner. Where the observable
-/// is what the border is told by, its extremum comes to the border from the middle of one side and goes on in
-/// the middle of the other, and no point of the border beside it leads there.
+bool ExtremumTracer::ends_at_border() {
+  stop(Stop::grazing_border,
+       fmt::format("the extremum leaves a border and no smooth one goes on from there, at {}", place()));
+  return false;
+}
+
+/// Goes on from a corner where the response touches the border, as it does where the observable is what the
+/// border is told by: the extremum comes to the border from the middle of one side and goes on in the middle
+/// of the other, and no point of the border beside it leads there.
+bool ExtremumTracer::pass(const BasePoint& corner, Side side) {
+  BranchPoint& here = curve_.points.back();
+  const auto next = straight_on(corner, side);
+  if (!next) return ends_at_border();
+  const bool up = here.arrival(here.arrival.size() - 1) > 0;
+  const Branch ahead = trace_one_way(problem_, guess_at(*next), up, freely(shortest_way));
+  if (ahead.points.empty()) return ends_at_border();
+  const Vector direction = ahead.points.front().tangent;
+  here.tangent = direction;
+  turn(direction, slopes_.regime(side));
+  if (told_to_end_) return false;
+  passes_ = true;
+  smooth(guess_at(*next, direction), true, 0);
+  return true;
+}
+
+/// The extremum in the regime of a side a little farther in the parameter than a corner.
 std::optional<BasePoint> ExtremumTracer::straight_on(const BasePoint& corner, Side side) {
   const BranchPoint& here = curve_.points.back();
   const double arrival = here.arrival(here.arrival.size() - 1);

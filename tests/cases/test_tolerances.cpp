@@ -24,7 +24,8 @@ constexpr std::array all = {
     &Tolerances::significant,      &Tolerances::surely_imaginary, &Tolerances::zero_eigenvalue,
     &Tolerances::coincides,        &Tolerances::same_point,       &Tolerances::same_solution,
     &Tolerances::same_direction,   &Tolerances::no_slope,         &Tolerances::plain_slope,
-    &Tolerances::same_slope,       &Tolerances::on_extremum,      &Tolerances::beside_extremum};
+    &Tolerances::same_slope,       &Tolerances::touches,          &Tolerances::on_extremum,
+    &Tolerances::beside_extremum};
 static_assert(sizeof(Tolerances) == all.size() * sizeof(double), "one of them is left out");
 
 std::vector<TracedBranch> traced(const Case& input, const Tolerances& tolerances) {

@@ -37,6 +37,9 @@ class CornerSlopes {
   /// tangent.
   [[nodiscard]] bool begin(const BasePoint& point, int border);
 
+  /// Whether the pieces of both sides run along the border at a point of it, by its rate along them.
+  bool touch(const BasePoint& point, double rate);
+
   /// d ln|Y|/ds on one side, with s in the base's scale; the tangents are those of the last call to `begin`
   /// or `follow` as they go on. nan where the base cannot be evaluated.
   double slope(const BasePoint& point, Side side);

@@ -69,6 +69,8 @@ class ExtremumTracer {
   std::optional<Side> smooth_side(const Place& place);
   bool enter(Side side);
   std::optional<BasePoint> first_inside(const BasePoint& corner, Side side, double inside, double least);
+  bool ends_at_border();
+  bool pass(const BasePoint& corner, Side side);
   std::optional<BasePoint> straight_on(const BasePoint& corner, Side side);
   std::optional<BasePoint> fold_beside(const BasePoint& corner, int border, Side side);
   bool add_fold(const BasePoint& corner, int border, Side side);

@@ -60,6 +60,7 @@ struct Tolerances {
   double no_slope = 1e-10;        ///< vanishes but for rounding
   double plain_slope = 1e-8;      ///< does not, at points known to rounding, also where the response is sharp
   double same_slope = 1e-7;       ///< on both sides of a border, where one vanishes
+  double touches = 1e-5;          ///< a border's rate along a branch that touches it: the root of where
   double on_extremum = 1e-10;     ///< a row lies on its extremum: points are located as well
   double beside_extremum = 1e-8;  ///< a row lies next to its own: so near there is no other
 };
