@@ -97,8 +97,8 @@ TEST_CASE("Verified points agree with the ring in time as far as harmonics are m
     if (std::isnan(point.Y_time)) continue;
     ++timed;
     CHECK_THAT(point.Y_harmonics, WithinRel(point.Y_time, 2e-3));  // 15 harmonics
-    // where nothing slips both rings swing against each other as rigid bodies, which nothing damps; where slip
-    // begins it need not in time
+    // where nothing slips both rings swing against each other as rigid bodies, which nothing damps; where
+    // slip begins it need not in time
     const bool slips = at.regime != 0 && value(traced.front(), at, "R_over_S") > 1 + 1e-9;
     CHECK(point.growth < (slips ? 1 : 1 + 1e-9));
   }
