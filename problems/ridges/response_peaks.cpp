@@ -135,8 +135,10 @@ const Guess& ResponsePeaks::start(double across) {
     Guess guess = *near;
     guess.parameters(across_) = across;
     const continuation::Solution solution = continuation::solve(*response_.problem, guess);
-    if (solution.outcome == continuation::Correction::converged) {
-      guess.unknowns = solution.unknowns;
+    guess.unknowns = solution.unknowns;
+    const double on_border = response_.options.tolerances.both_sides;
+    if (solution.outcome == continuation::Correction::converged &&
+        crossed_border(*response_.problem, guess.unknowns, guess.parameters, guess.regime, on_border) < 0) {
       return *starts_.insert(place, std::move(guess));
     }
   }

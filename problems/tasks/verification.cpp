@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/balanced_points.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
@@ -46,15 +45,12 @@ double first_harmonic(const HarmonicResponse& problem, const Guess& at) {
   return values(HarmonicResponse::Y);
 }
 
-/// The solution near a guess, or on the way from a high preload where Newton's method does not find one.
-std::optional<Guess> solved(const HarmonicResponse& problem, Guess guess) {
-  const continuation::Solution near = continuation::solve(problem, guess);
-  if (near.outcome == continuation::Correction::converged) {
-    guess.unknowns = near.unknowns;
-    return guess;
-  }
+/// The solution in more harmonics near a point, or on the way from a high preload where that is not found.
+std::optional<Guess> solved_in_more(const HarmonicResponse& more, const HarmonicResponse& problem,
+                                    const Guess& at) {
+  if (auto near = solved_in(more, problem, at)) return near;
   try {
-    return problem.guess(guess.parameters);
+    return more.guess(at.parameters);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -105,11 +101,6 @@ class AllNodes {
  private:
   void assemble(const SystemParameters& parameters) {
     ring_.reset();
-    const auto rubs = [](const SectorContact& contact) { return contact.stiffness > 0; };
-    if (std::count_if(parameters.contacts.begin(), parameters.contacts.end(), rubs) > 1) {
-      reason_ = "several contacts are not held against their motion in time";
-      return;
-    }
     try {
       ring_ = build_ring(parameters);
     } catch (const std::invalid_argument& error) {
@@ -179,7 +170,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     const BranchPoint& point = branch.points[i];
     const Guess at = known.at(point);
     Verification one{i, first_harmonic(problem, at), power(problem, at).error(), highest, none, none, none};
-    const std::optional<Guess> better = solved(more, carried(problem, at, more));
+    const std::optional<Guess> better = solved_in_more(more, problem, at);
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {
       const TimedResponse timed = better ? ring->at(more, *better) : ring->at(problem, at);
