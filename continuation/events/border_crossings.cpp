@@ -1,6 +1,8 @@
 // The end of a regime.
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "arcslip/continuation/events/step_search.hpp"
@@ -60,18 +62,25 @@ Zero locate_border(Stepper& stepper, std::size_t m, double upper, double value) 
   return at_once && value > on_border ? where_it_is(on_border) : zero;
 }
 
-/// Where the branch crosses a border of its regime. A branch that comes beyond it by less than the tolerance,
-/// as where it all but touches it, stays inside.
-Zero border_crossing(Stepper& stepper, Index border) {
-  const auto m = static_cast<std::size_t>(stepper.monitors().tracked_count() + border);
+/// Whether a function that rises and then falls again along a piece stays below zero by far: four times as
+/// high as where the tangents of its ends meet, above which it does not come where it is concave.
+bool stays_low(const Monitor& from, const Monitor& to, double length) {
+  constexpr double sure = 4;
+  const double place = (to.value - from.value - to.slope * length) / (from.slope - to.slope);
+  const double higher = std::max(from.value, to.value);
+  const double top = from.value + from.slope * place;
+  return place > 0 && place < length && higher + sure * (top - higher) < 0;
+}
+
+/// Where the branch crosses a border of its regime up to a place of the step, where its function is `to`. A
+/// branch that comes beyond it by less than the tolerance, as where it all but touches it, stays inside.
+Zero border_crossing(Stepper& stepper, std::size_t m, double upper, const Monitor& to) {
   const double touch = stepper.tolerance();
   const double on_border = stepper.tolerances().on_border;
   const Monitor from = stepper.step().from[m];
-  const Monitor to = stepper.step().to[m];
-  double upper = stepper.step().distance;
   double value = to.value;
   if (value <= on_border || (value <= touch && to.slope < 0)) {
-    if (!(from.slope > 0 && to.slope < 0)) return {Zero::State::absent};
+    if (!(from.slope > 0 && to.slope < 0) || stays_low(from, to, upper)) return {Zero::State::absent};
     const Zero top = locate(stepper, {upper, from.slope, 1, to.slope},  // the border function's highest point
                             [m](Stepper& s) { return s.prober().probed().monitors[m].slope; });
     if (top.state != Zero::State::found || !stepper.prober().probe(top.s)) return {Zero::State::failed};
@@ -86,18 +95,44 @@ Zero border_crossing(Stepper& stepper, Index border) {
   return zero.state == Zero::State::absent ? Zero{Zero::State::failed} : zero;
 }
 
+/// The borders in the order in which they are probably crossed: by straight lines.
+std::vector<std::size_t> in_order(const Stepper& stepper) {
+  const Step& step = stepper.step();
+  const auto first = static_cast<std::size_t>(stepper.monitors().tracked_count());
+  std::vector<std::size_t> order(step.to.size() - first);
+  std::iota(order.begin(), order.end(), first);
+  const auto place = [&](std::size_t m) {
+    return step.to[m].value > 0 ? step.from[m].value / (step.from[m].value - step.to[m].value) : 1;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  return order;
+}
+
+/// One border after the other, up to the first place that is known: where there are many a step passes some, of
+/// which all but one are looked for in vain. Those that are reached together there are looked for in all of
+/// the step.
 void search_borders(StepSearch& step) {
   Stepper& stepper = step.stepper;
-  const auto count = static_cast<Index>(stepper.step().to.size()) - stepper.monitors().tracked_count();
-  std::vector<Event> reached;
-  for (Index b = 0; b < count; ++b) {
-    const Zero zero = border_crossing(stepper, b);
+  const double together = stepper.tolerances().together;
+  const auto first = static_cast<std::size_t>(stepper.monitors().tracked_count());
+  std::vector<Monitor> ahead = stepper.step().to;
+  double upper = step.upper();
+  bool is_reached = false;
+  for (const std::size_t m : in_order(stepper)) {
+    const bool at_upper = is_reached && std::abs(ahead[m].value) <= together;
+    const Zero zero = at_upper ? border_crossing(stepper, m, stepper.step().distance, stepper.step().to[m])
+                               : border_crossing(stepper, m, upper, ahead[m]);
     if (zero.state == Zero::State::failed) return step.fail();
-    if (zero.state == Zero::State::found)
-      reached.push_back({&border_crossings, PointType::regime_switch, b, zero.s});
+    if (zero.state == Zero::State::absent) continue;
+    step.note({&border_crossings, PointType::regime_switch, static_cast<Index>(m - first), zero.s});
+    is_reached = true;
+    if (step.upper() == upper) continue;
+    upper = step.upper();
+    if (!stepper.prober().probe(upper)) return step.fail();
+    ahead = stepper.prober().probed().monitors;
   }
-  if (reached.empty()) return;
-  for (const Event& event : reached) step.note(event);
+  if (!is_reached) return;
   if (!stepper.prober().probe(step.upper()) ||
       !stepper.resolved(step.upper(), stepper.prober().probed().monitors))
     step.fail();

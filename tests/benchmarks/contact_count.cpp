@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -55,8 +56,8 @@ void report(Index contacts, int highest) {
   continuation::TraceOptions options;
   options.parameter = "eta";
   options.from = 0.03;
-  options.to = 0.045;
-  options.max_points = 60;
+  options.to = 0.07;
+  options.max_seconds = 60;
   const continuation::Guess guess = problem.guess(options.from, 1);
   const Clock::time_point start = Clock::now();
   const continuation::Branch branch = continuation::trace(problem, guess, options);
@@ -68,12 +69,15 @@ void report(Index contacts, int highest) {
   const Clock::time_point again = Clock::now();
   for (int i = 0; i < times; ++i) lu.compute(some);
   const double factored = seconds_since(again) / times;
-  const auto points = static_cast<double>(branch.points.size());
+  const auto switches = std::count_if(branch.points.begin(), branch.points.end(), [](const auto& point) {
+    return point.type == continuation::PointType::regime_switch;
+  });
   fmt::print(
       "{:3} contacts, H = {}: {:4} unknowns, {:7.3g} ms each of {:.0f} evaluations a point, "
-      "{:.2f} of the factorisation alone\n",
-      contacts, highest, problem.size(), 1e3 * each, static_cast<double>(branch.work.factorizations) / points,
-      each / factored);
+      "{:.2f} of the factorisation alone; {} points with {} switches up to eta = {:.3g}\n",
+      contacts, highest, problem.size(), 1e3 * each,
+      static_cast<double>(branch.work.factorizations) / static_cast<double>(branch.points.size()),
+      each / factored, branch.points.size(), switches, branch.points.back().parameters(0));
 }
 
 }  // namespace
