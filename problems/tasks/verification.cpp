@@ -56,27 +56,28 @@ std::optional<Guess> solved_in_more(const HarmonicResponse& more, const Harmonic
   }
 }
 
-/// |y_1| of the ring's periodic motion nearest to the one that is given, and its largest Floquet multiplier;
-/// NaN where it does not settle.
+/// |y_1| of the ring's periodic motion nearest to the one that is given, and its largest Floquet multiplier.
 struct TimedResponse {
   double Y = none;
   double growth = none;
 };
 
+/// Throws std::runtime_error where it is not found.
 TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const Guess& at) {
   constexpr double settled = 1e-9;
   constexpr double sought = 1e-11;
   const double eta = at.parameters(HarmonicResponse::eta);
   RingMotion motion(ring, eta, at.parameters(HarmonicResponse::preload));
   const SettledMotion found = shoot(motion, motion.travelling(ring_harmonics(problem, at)), sought);
-  if (!(found.error < settled)) return {};
+  if (!(found.error < settled)) throw std::runtime_error("the motion does not settle");
   const double growth = floquet_stability(motion, found.state).growth();
   HarmonicRecord record(motion, {1}, true);
   next_state(motion, found.state, &record);
   return {std::abs(record.base()(0)), growth};
 }
 
-/// The ring in full under the harmonics of its load up to a highest one, or the reason why it has none.
+/// The ring in full under the harmonics of its load up to a highest one, or the reason why it has none or
+/// some of its motions were not found.
 class AllNodes {
  public:
   AllNodes(const SystemParameters& parameters, int highest) : parameters_(parameters) {
@@ -86,14 +87,15 @@ class AllNodes {
 
   const std::string& reason() const { return reason_; }
 
-  /// Y_1 and growth from a response on; NaN where there is no ring or it does not settle.
+  /// Y_1 and growth from a response on; NaN where there is no ring or it is not found.
   TimedResponse at(const HarmonicResponse& problem, const Guess& at) {
     if (!parameters_.varied.empty())
       assemble(with_parameter(parameters_, parameters_.varied, at.parameters(HarmonicResponse::further)));
     if (!ring_) return {};
     try {
       return in_time(*ring_, problem, at);
-    } catch (const std::runtime_error&) {  // elements that change without end
+    } catch (const std::runtime_error& error) {
+      reason_ = error.what();
       return {};
     }
   }

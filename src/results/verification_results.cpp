@@ -73,10 +73,12 @@ std::string interrupted_verification_row(std::size_t number) {
 std::string describe_verification(const VerifiedBranch& branch) {
   if (branch.points.empty()) return fmt::format("branch {}: no point to verify\n", branch.number);
   double power = 0;
-  long timed = 0;
   double growth = 0;
+  long unsolved = 0;
+  long timed = 0;
   for (const Verification& point : branch.points) {
     power = std::max(power, point.power_error);
+    unsolved += static_cast<long>(std::isnan(point.Y_harmonics));
     if (std::isnan(point.Y_time)) continue;
     ++timed;
     growth = std::max(growth, point.growth);
@@ -86,12 +88,13 @@ std::string describe_verification(const VerifiedBranch& branch) {
       "differs by {}",
       branch.number, branch.points.size(), power, branch.points.front().highest,
       largest(branch, &Verification::Y_harmonics));
+  if (unsolved > 0) text += fmt::format(", of {} none was found", unsolved);
   if (timed > 0) {
     text += fmt::format("; {} integrated in time: by {}; disturbances grow by at most {:.6g} a period", timed,
                         largest(branch, &Verification::Y_time), growth);
-  } else if (!branch.untimed.empty()) {
-    text += "; not integrated in time: " + branch.untimed;
   }
+  if (!branch.untimed.empty())
+    text += (timed > 0 ? "; others were not: " : "; not integrated in time: ") + branch.untimed;
   return text + "\n";
 }
 

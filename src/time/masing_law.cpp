@@ -10,7 +10,7 @@ namespace arcslip {
 namespace {
 
 constexpr Index degree = 4;
-constexpr Index deepest = 8;
+constexpr Index deepest = 24;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// F of a backbone as a continuous polynomial in each of its zones.

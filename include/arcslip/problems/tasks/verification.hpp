@@ -53,7 +53,7 @@ struct VerifyOptions {
   std::function<bool(std::size_t, std::size_t)> progress = {};
   std::function<void(const Verification&)> found = {};  ///< called with each result as soon as it is there
   std::function<void(const std::string&)> refused =
-      {};  ///< called at the end where nothing moves in time: why
+      {};  ///< called at the end where something was not found in time: why
 };
 
 /// Solves special points of such a branch, and some others, anew.
