@@ -3,7 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "time/kernel.hpp"
 
@@ -165,6 +167,15 @@ Round round_of(RingMotion& motion, RingState state) {
   return {std::move(state), std::move(next), gap};
 }
 
+/// One that a step has led to, maybe to a state that no motion has: infinitely far from closing.
+Round trial_of(RingMotion& motion, RingState state) {
+  try {
+    return round_of(motion, state);
+  } catch (const std::runtime_error&) {
+    return {state, state, std::numeric_limits<double>::infinity()};
+  }
+}
+
 /// Where an event that a short step moves keeps G(s) from coming nearer to s, the ring is marched instead,
 /// for the n periods in which every node takes every place.
 Round improved(RingMotion& motion, const Round& here, const RingState& base, const Vector& step) {
@@ -172,7 +183,7 @@ Round improved(RingMotion& motion, const Round& here, const RingState& base, con
   constexpr double progress = 0.9;
   double part = 0.5;
   for (int halving = 0; halving < most_halvings; ++halving, part /= 2) {
-    Round trial = round_of(motion, moved_by(base, part * step));
+    Round trial = trial_of(motion, moved_by(base, part * step));
     if (trial.gap < progress * here.gap) return trial;
   }
   RingState marched = here.next;
@@ -290,7 +301,7 @@ SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int r
     if (is_new) newton.emplace(motion, next_derivative(motion, here.state));
     const RingState base = newton->aligned(here.state, here.next);
     const Vector step = newton->step(base, here.next);
-    Round trial = round_of(motion, moved_by(base, step));
+    Round trial = trial_of(motion, moved_by(base, step));
     const bool is_good = trial.gap < well * here.gap;
     if (!is_good && !is_last) newton.reset();
     if (is_good || trial.gap < 0.9 * here.gap) {
