@@ -124,7 +124,7 @@ std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vec
   }
   for (Index i = this->contacts(); i < this->coordinates(); ++i) {
     const Element& element = this->coordinates_.element(i);
-    if (element.remembers()) {
+    if (element.is_told_by_law()) {
       all.push_back({.law = law(i, u, p, regime)});
     } else {
       all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, i))});

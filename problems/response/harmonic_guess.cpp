@@ -68,6 +68,7 @@ Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& 
   options.parameter = path.parameter_names()[static_cast<std::size_t>(parameter)];
   options.from = start.parameters(parameter);
   options.to = to;
+  options.bound *= std::max(1.0, to / options.from);  // as under a load, which motions grow with
   options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
   options.max_seconds = limits.max_seconds;
   options.go_on = limits.go_on;

@@ -80,10 +80,6 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory && !one.kind->follows)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
-    if (one.kind->is_viscous)
-      section.fail("stability",
-                   fmt::format("not beside element '{}', which is no stiffness; a damping matrix may hold it",
-                               one.kind->name));
   }
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");

@@ -73,6 +73,7 @@ void DisturbedLaw::add_slope(double begin, double width, const std::vector<Compl
 }
 
 void DisturbedLaw::scale(double factor) {
+  viscous *= factor;
   for (Piece& piece : pieces) {
     piece.stiffness *= factor;
     for (auto& [memory, force] : piece.held) force *= factor;

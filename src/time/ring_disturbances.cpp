@@ -176,13 +176,13 @@ struct RingDisturbances::Builder {
 RingDisturbances::RingDisturbances(const HarmonicSystem& system, const RingWaves& waves)
     : waves_(waves), is_odd_(all_odd(system.orders)) {
   const int highest = highest_order(system.orders);
-  const bool remembers = std::any_of(system.others.begin(), system.others.end(), [](const Coordinate& one) {
-    return one.element && one.element->remembers();
+  const bool has_laws = std::any_of(system.others.begin(), system.others.end(), [](const Coordinate& one) {
+    return one.element && one.element->is_told_by_law();
   });
-  Builder builder{waves_, contact_springs(system.contacts), system.others, highest, is_odd_, !remembers,
+  Builder builder{waves_, contact_springs(system.contacts), system.others, highest, is_odd_, !has_laws,
                   cells_};
   builder.build();
-  if (!builder.is_small() && is_odd_ && !remembers) {
+  if (!builder.is_small() && is_odd_ && !has_laws) {
     balanced_.emplace(
         Balanced{DisturbanceFlow(system, highest), DisturbanceFlow(even_system(system, waves), highest)});
   }

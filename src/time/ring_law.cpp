@@ -61,6 +61,31 @@ class PlainLaw final : public RingLaw {
   PiecewiseLaw law_;
 };
 
+/// A force against the velocity.
+class DashpotLaw final : public RingLaw {
+ public:
+  explicit DashpotLaw(double damping) : damping_(damping) {}
+
+  double steepest() const override { return 0; }
+  double viscous() const override { return damping_; }
+  RingBranch branch(int /*phase*/, std::span<const double> /*memory*/) const override { return {}; }
+  void events(int /*phase*/, std::span<const double> /*memory*/,
+              std::vector<RingEvent>& events) const override {
+    events.clear();
+  }
+  RingMemoryChange change(std::size_t /*which*/, const RingPlace& /*at*/, int& /*phase*/,
+                          std::span<double> /*memory*/) const override {
+    return {};
+  }
+  void begin(const Vector& /*x*/, const RingPlace& /*now*/, double /*force*/, int& phase,
+             std::span<double> /*memory*/) const override {
+    phase = 0;
+  }
+
+ private:
+  double damping_;
+};
+
 /// A spring in series with a slider under a normal force that may vary: the slider's place z is what it
 /// remembers.
 class SliderLaw final : public RingLaw {
@@ -169,6 +194,7 @@ class SliderLaw final : public RingLaw {
 
 std::unique_ptr<const RingLaw> ring_law(const Element& element, double load) {
   if (element.law() != nullptr) return std::make_unique<PlainLaw>(*element.law());
+  if (element.damping().value != 0) return std::make_unique<DashpotLaw>(element.damping().value);
   if (dynamic_cast<const Idle*>(&element) != nullptr) return nullptr;
   if (dynamic_cast<const Jenkins*>(&element) != nullptr) {
     const double k = element.reference_stiffness();

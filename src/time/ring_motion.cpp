@@ -59,15 +59,21 @@ RingMotion::RingMotion(const Ring& ring, double eta, double preload)
   if (!(load_ > 0)) throw std::invalid_argument("RingMotion: the contact must be loaded");
   const Index nodes = ring_.nodes();
   double springs = 0;
+  dragged_.resize(0, ring_.coordinates());
   for (const RingElements& one : ring_.elements) {
     std::shared_ptr<const RingLaw> law = ring_law(*one.element, load_);
     double bound = bound_of(ring_.motion.middleRows(one.sliding, nodes));
     if (one.closing >= 0) bound += bound_of(ring_.motion.middleRows(one.closing, nodes));
     springs += std::abs(one.factor) * law->steepest() * bound;
+    if (const double viscous = one.factor * law->viscous(); viscous != 0) {
+      dragged_.conservativeResize(dragged_.rows() + nodes, Eigen::NoChange);
+      dragged_.bottomRows(nodes) = std::sqrt(viscous) * ring_.motion.middleRows(one.sliding, nodes);
+    }
     families_.push_back({law, one.sliding, one.closing, memories_, one.factor});
     memories_ += law->memories() * nodes;
   }
-  const double half = ring_.damping.cwiseAbs().maxCoeff() / 2;
+  const double drag = dragged_.rows() > 0 ? bound_of(dragged_) : 0;
+  const double half = (ring_.damping.cwiseAbs().maxCoeff() + drag) / 2;
   rate_ = half + std::sqrt(half * half + ring_.stiffness.maxCoeff() + springs);
   longest_step_ = std::min(reach / rate_, period_ / steps_per_period);
   for (const RingLoad& one : ring_.loads) fastest_load_ = std::max(fastest_load_, one.order * frequency_);
@@ -157,11 +163,12 @@ void RingMotion::gather() {
   }
 }
 
-Vector RingMotion::forces(const Vector& x) const {
+Vector RingMotion::forces(const Vector& x, const Vector& rate) const {
   Vector all = offset_;
   for (Index e = 0; e < elements(); ++e) {
     const RingBranch& one = branch(e);
     const Index sliding = family(e).sliding + node(e);
+    all(sliding) += family(e).factor * family(e).law->viscous() * rate(sliding);
     double sum = 0;
     for (std::size_t k = one.powers.size(); k-- > 0;) sum = (sum + one.powers[k]) * (x(sliding) - one.origin);
     all(sliding) += sum;
@@ -225,6 +232,8 @@ bool RingMotion::expands(const RingState& state, double length) {
       }
       forces.noalias() -= varying_.motion.transpose() * local;
     }
+    if (dragged_.rows() > 0)
+      forces.noalias() -= (next / length) * dragged_.transpose() * (dragged_ * p.col(m + 1));
     if (m == 0) forces.noalias() -= ring_.motion.transpose() * offset_;
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
     const double size = p.middleCols(m + 1, 2).cwiseAbs().maxCoeff();

@@ -135,6 +135,10 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
       }
       force.noalias() = forces.motion.transpose() * local;
     }
+    if (motion_.dragged().rows() > 0) {
+      if (forces.rows.empty()) force.setZero();
+      force.noalias() += (up / h) * motion_.dragged().transpose() * (motion_.dragged() * next);
+    }
     // now becomes the term after `next`: in one pass through memory.
     const double step = -h * h / (up * (up + 1));
     for (Index c = 0; c < now.cols(); ++c) {
@@ -159,7 +163,7 @@ void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
   constexpr double longest = 8;  // over the fastest rate
   const double rate = motion_.fastest_rate();
   const double leap = std::min(stretch.length, LinearLeap::reach / rate);
-  if (LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
+  if (motion_.dragged().rows() == 0 && LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
     Matrix constant = Matrix::Zero(std::ssize(stretch.forces.rows), columns.position.cols());
     for (const Remembered& one : stretch.memory)
       constant.row(one.place) += one.coefficient * columns.memory.row(one.number);
@@ -235,7 +239,9 @@ Matrix RingTangent::wave_by_wave() const {
     }
     Matrix stiffness = rows.transpose() * gains;
     stiffness.diagonal() += ring.stiffness(which);
-    const Vector damping = ring.damping(which);
+    const Matrix dragged = motion_.dragged()(Eigen::all, which);
+    Matrix damping = dragged.transpose() * dragged;
+    damping.diagonal() += ring.damping(which);
     Matrix state = Matrix::Zero(2 * count, 3 * count);  // by position, velocity and a constant force
     state.leftCols(2 * count).setIdentity();
     Matrix push = Matrix::Zero(count, 3 * count);
@@ -247,7 +253,7 @@ Matrix RingTangent::wave_by_wave() const {
       state.topRows(count) += next;
       for (Index m = 0; m + 2 <= order; ++m) {
         const auto up = static_cast<double>(m + 1);
-        Matrix force = -stiffness * now - (up / h) * (damping.asDiagonal() * next);
+        Matrix force = -stiffness * now - (up / h) * (damping * next);
         if (m == 0) force += push;
         now = next;
         next = force * (h * h / (up * (up + 1)));

@@ -183,6 +183,7 @@ class TurnedMap {
       for (Index node = 0; node < nodes_; ++node) {
         const Dense<Scalar> own = rows_of(moved, e, node);
         const Dense<Scalar> kept = followed(e, own);
+        if (laws_[e].viscous != 0) felt.push_back(own.row(0));
         for (const DisturbedLaw::Piece& piece : laws_[e].pieces) {
           Dense<Scalar> forces = piece.stiffness.template cast<Scalar>() * own;
           for (Index i = 0; i < own.rows(); ++i) {
@@ -210,6 +211,7 @@ class TurnedMap {
   Dense<Scalar> generator(const Interval& interval, std::vector<Varying>& varying) const {
     const Index n = size();
     const Index all = 2 * n + std::ssize(interval.slots);
+    const auto scale = scale_.template cast<Scalar>().asDiagonal();
     Dense<Scalar> rates = Dense<Scalar>::Zero(all, all);
     for (Index i = 0; i < n; ++i) {
       const Oscillator& mode = coordinates_[static_cast<std::size_t>(i)].mode;
@@ -222,6 +224,8 @@ class TurnedMap {
         const DisturbedLaw::Piece& piece = schedule_.piece(interval, e, node);
         const auto moved = rows_of(motion_, e, node);
         const Dense<Scalar> push = pushed(moved);
+        if (laws_[e].viscous != 0)
+          rates.block(n, n, n, n).noalias() -= laws_[e].viscous * push * moved * scale;
         if (!piece.stiffness.isZero(0))
           rates.block(n, 0, n, n).noalias() -= push * (piece.stiffness.template cast<Scalar>() * moved);
         for (const auto& [memory, force] : piece.held) {

@@ -9,6 +9,7 @@
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/problems/response/power_balance.hpp"
+#include "arcslip/problems/tasks/verification.hpp"
 #include "branches.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
@@ -184,9 +185,11 @@ TEST_CASE("A dashpot is damping of the structure, in responses, curves of peaks 
   const std::string dashpot =
       fmt::format("[[element]]\nkind = \"dashpot\"\nat = \"base\"\ndamping = {:.17g}\n", 2 * more * 3);
   const std::string task = GENERATE(
-      "[branch]\nparameter = \"eta\"\nfrom = 0.2\nto = 5\n[continuation]\nstop_at = [0.4, 1.2, 1.9]\n",
+      "[branch]\nparameter = \"eta\"\nfrom = 0.2\nto = 5\nstability = true\n[continuation]\nstop_at = [0.4, "
+      "1.2, 1.9]\n",
       "[branch]\ncurve = \"peak\"\nparameters = [\"eta\", \"P\"]\nwindow = [0.8, 2.0]\nfrom = 0.3\nto = 1.5\n"
       "[continuation]\nstop_at = [0.5, 1.0]\n");
+  const bool is_curve = task.find("curve") != std::string::npos;
   std::array<std::vector<double>, 2> heights;
   for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
     const Case input =
@@ -198,6 +201,14 @@ TEST_CASE("A dashpot is damping of the structure, in responses, curves of peaks 
         if (point.type == continuation::PointType::regular) continue;
         for (const char* name : {"eta", "P", "Y", "dissipated"})
           heights[which].push_back(value(one, point, name));
+        if (!is_curve) heights[which].push_back(value(one, point, "growth"));
+      }
+      if (is_curve) continue;
+      for (const problems::Verification& point : problems::verify(
+               input.branches[0].problem.system, one.base.harmonics, one.branch, {.samples = 0})) {
+        if (one.branch.points[point.point].type == continuation::PointType::regular) continue;
+        heights[which].push_back(point.Y_time);
+        CHECK_THAT(point.Y_time, WithinRel(point.Y_harmonics, 1e-5));
       }
     }
   }

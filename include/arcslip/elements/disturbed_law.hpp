@@ -3,7 +3,7 @@
 // What small disturbances dx of a periodic motion meet in an element over a turn, a whole period or, of odd
 // responses, half of one: linear laws, one after the other,
 //
-//   df = K dx + sum_j h_j m_j + k(theta) (dx - m_r),
+//   df = K dx + C d(dx)/dtau + sum_j h_j m_j + k(theta) (dx - m_r),   theta = eta tau,
 //
 // with memories m_j = a_j dx + sum_l b_jl m_l that are set at one phase and kept for a while. Where a piece
 // ends with the motion, its force is continuous or turns back there, so that the end's own change adds
@@ -48,6 +48,7 @@ struct DisturbedLaw {
   Index coordinates = 1;           ///< how many
   std::vector<Piece> pieces = {};  ///< one after the other; a single one may hold all the time
   std::vector<Memory> memories = {};
+  double viscous = 0;  ///< C, at all times, of an element of one coordinate
 
   /// df = K dx at all times.
   static DisturbedLaw constant(const Matrix& stiffness);

@@ -129,8 +129,9 @@ class Element {
   ElementForce change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
                       double load, bool beyond, const Way& way) const;
 
-  /// Whether it has a memory in every state, through which `disturbed` follows disturbances of odd motions.
-  virtual bool remembers() const { return false; }
+  /// Whether `disturbed` tells what disturbances of odd motions meet, as it has a memory in every state or a
+  /// force that follows from the velocity.
+  virtual bool is_told_by_law() const { return false; }
 
   /// What small disturbances of the motion x meet in this state, over a turn: a whole period or, of odd
   /// orders, half of one. A contact of odd motions is told by hysteresis_loop.hpp. Throws std::logic_error

@@ -35,7 +35,6 @@ struct ElementKind {
   std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values
   bool has_memory = false;       ///< whether its force follows from the way that the motion has taken
   bool follows = false;          ///< whether small disturbances are followed through that memory
-  bool is_viscous = false;       ///< whether its force follows from the velocity
   bool is_odd = true;            ///< whether an odd motion meets an odd force
   bool takes_any_orders = true;  ///< whether even orders and 0 may be balanced beside it
   Index slides = 1;              ///< along how many coordinates it acts before a closing one

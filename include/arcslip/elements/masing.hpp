@@ -45,7 +45,7 @@ class MasingElement final : public Element {
   MasingElement(Made made, double setting_scale);
 
   double reference_stiffness(Index /*coordinate*/ = 0) const override { return backbone_->slope(0); }
-  bool remembers() const override { return true; }
+  bool is_told_by_law() const override { return true; }
   DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
                          bool beyond) const override;
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,

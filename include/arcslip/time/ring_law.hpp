@@ -5,9 +5,10 @@
 //
 //   f = sum_k c_k (x - o)^k + c_g g + f_0,   N = k_n g + N_0
 //
-// until a function a x + b g - level, or a x' + b g' - level, rises through zero. It then goes on in another
-// phase, perhaps with a new value in its memory, a few numbers such as the place of a slider. Forces are
-// continuous at such events, so that memory alone carries what the past has been.
+// beside a force that follows from the velocity in all phases, until a function a x + b g - level, or a x' +
+// b g' - level, rises through zero. It then goes on in another phase, perhaps with a new value in its memory,
+// a few numbers such as the place of a slider. Forces are continuous at such events, so that memory alone
+// carries what the past has been.
 //
 // A law whose force is no such polynomial within a phase, as that of a friction circle that slips, needs a
 // state which is integrated beside the motion: RingBranch is where it would be told, RingMotion where it
@@ -69,6 +70,8 @@ class RingLaw {
 
   /// Bounds on its stiffness whatever the phase, of polynomials of the first degree.
   virtual double steepest() const = 0;
+  /// The force against x over dx/dt.
+  virtual double viscous() const { return 0; }
 
   /// Phase of one at rest, where all memory is 0.
   virtual int phase_at_rest() const { return 0; }

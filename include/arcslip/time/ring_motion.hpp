@@ -131,9 +131,12 @@ class RingMotion {
 
   /// What holds since the last event of what was advanced.
   const VaryingForces& varying() const { return varying_; }
+  /// The same of the forces that follow from velocities in all phases: their rows of X, times the roots of
+  /// their coefficients over dx/dt.
+  const Matrix& dragged() const { return dragged_; }
   const RingBranch& branch(Index which) const { return branches_[static_cast<std::size_t>(which)]; }
-  /// Forces there at displacements x of all coordinates.
-  Vector forces(const Vector& x) const;
+  /// Forces there at displacements x and velocities of all coordinates.
+  Vector forces(const Vector& x, const Vector& rate) const;
 
  private:
   struct Crossing {
@@ -167,6 +170,7 @@ class RingMotion {
   std::vector<RingBranch> branches_;
   std::vector<std::vector<RingEvent>> events_;
   VaryingForces varying_;
+  Matrix dragged_;
   std::vector<Index> places_;  ///< of the coordinates among the varying ones, or -1
   Vector offset_;              ///< of all coordinates, forces that do not vary
   RingSegment segment_;

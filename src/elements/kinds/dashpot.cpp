@@ -16,6 +16,13 @@ class Dashpot final : public Element {
   }
   bool dissipates() const override { return true; }
   Jet damping() const override { return damping_; }
+  bool is_told_by_law() const override { return true; }
+  DisturbedLaw disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
+                         bool /*beyond*/) const override {
+    DisturbedLaw law = DisturbedLaw::constant(Matrix::Zero(1, 1));
+    law.viscous = two_pi * damping_.value;
+    return law;
+  }
 
  private:
   void second(const ElementForce& /*at*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
@@ -36,7 +43,6 @@ ElementKind dashpot_element() {
                      return std::make_shared<Dashpot>(values.settings[0] * (values.rate / two_pi),
                                                       values.usual_stiffness);
                    }};
-  kind.is_viscous = true;
   return kind;
 }
 
