@@ -295,22 +295,41 @@ class TurnedMap {
       slopes.push_back(varying[i].slope->terms(phase + varying[i].phase, width));
     }
     const Dense<Scalar> push = (width / eta_) * pushed(moved);
-    std::vector<Dense<Scalar>> ways;  // terms of their motions
+    std::vector<Dense<Scalar>> ways;  // terms of their motions, each in a column
+    const Index slots = state.rows() - 2 * n;
+    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> turns = rates.block(0, n, n, n).diagonal();
+    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> fades = rates.block(n, n, n, n).diagonal();
+    const bool dragged =
+        std::any_of(laws_.begin(), laws_.end(), [](const DisturbedLaw& law) { return law.viscous != 0; });
+    Dense<Scalar> forces;
+    Dense<Scalar> next;
     Dense<Scalar> term = state;
     double last = 1;
     for (Index m = 0; m < slopes.front().size(); ++m) {
-      ways.push_back(moved * term.topRows(n));
+      ways.push_back(term.topRows(n).transpose() * moved.transpose());
       for (std::size_t i = 0; i < varying.size(); ++i) {
-        if (varying[i].from >= 0) ways.back().row(static_cast<Index>(i)) -= term.row(varying[i].from);
+        if (varying[i].from >= 0)
+          ways.back().col(static_cast<Index>(i)) -= term.row(varying[i].from).transpose();
       }
-      Dense<Scalar> forces = Dense<Scalar>::Zero(moved.rows(), term.cols());
+      forces.setZero(term.cols(), moved.rows());
       for (Index j = 0; j <= m; ++j) {
-        for (Index i = 0; i < forces.rows(); ++i)
-          forces.row(i) +=
-              slopes[static_cast<std::size_t>(i)](m - j) * ways[static_cast<std::size_t>(j)].row(i);
+        for (Index i = 0; i < forces.cols(); ++i) {
+          const double slope = slopes[static_cast<std::size_t>(i)](m - j);
+          if (slope != 0) forces.col(i) += slope * ways[static_cast<std::size_t>(j)].col(i);
+        }
       }
-      term = (rates * term).eval();
-      term.middleRows(n, n).noalias() -= push * forces;
+      next.setZero(term.rows(), term.cols());
+      next.topRows(n) = turns.asDiagonal() * term.middleRows(n, n);
+      next.middleRows(n, n).noalias() = rates.block(n, 0, n, n) * term.topRows(n);
+      if (dragged) {
+        next.middleRows(n, n).noalias() += rates.block(n, n, n, n) * term.middleRows(n, n);
+      } else {
+        next.middleRows(n, n) += fades.asDiagonal() * term.middleRows(n, n);
+      }
+      if (m == 0)  // memories rest, so that only their first term is there
+        next.middleRows(n, n).noalias() += rates.block(n, 2 * n, n, slots) * term.bottomRows(slots);
+      next.middleRows(n, n).noalias() -= push * forces.transpose();
+      term.swap(next);
       term /= static_cast<double>(m + 1);
       state += term;
       const double part = term.norm() / state.norm();
