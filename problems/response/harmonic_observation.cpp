@@ -33,7 +33,7 @@ class HarmonicProblem::Observation {
       case Measure::lag: return lag_of(quantity);
       case Measure::dissipated: return dissipated(quantity.which);
       case Measure::energy: return energy(quantity.which);
-      case Measure::greatest: return greatest(quantity.of);
+      case Measure::greatest: return greatest(quantity.of, quantity.which);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
       case Measure::reading: return elements_[at(quantity.which)].readings[at(quantity.order)];
     }
@@ -68,8 +68,19 @@ class HarmonicProblem::Observation {
     constexpr double rounding = 1e-15;
     const Complex z = phasor(quantity.of, quantity.which, quantity.order);
     const double size = std::abs(z);
-    if (size > rounding * u_.norm()) add(quantity.of, quantity.which, quantity.order, part / size * z);
+    if (gradient_ != nullptr && size > rounding * usual_size(quantity))
+      add(quantity.of, quantity.which, quantity.order, part / size * z);
     return size;
+  }
+
+  /// What rounding of a motion is measured by: of an output by the parts that it is the
+  /// sum of in the first harmonic.
+  double usual_size(const Quantity& quantity) {
+    if (quantity.of != Body::output) return u_.norm();
+    const Row row = row_of(quantity.of, quantity.which, 0);
+    const auto parts = row.response.compliance.row(row.index).head(row.forces.size());
+    return std::abs(row.response.free(row.index)) +
+           parts.transpose().cwiseProduct(row.forces).cwiseAbs().sum();
   }
 
   double mean(const Quantity& quantity) {
@@ -118,12 +129,12 @@ class HarmonicProblem::Observation {
   }
 
   /// The greatest value in time, which changes as the value at its own time.
-  double greatest(Body of) {
+  double greatest(Body of, Index which) {
     HarmonicVector motion(problem_.harmonics());
-    for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, 0, a);
+    for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, which, a);
     const Swing swing = Swing::of(system_.orders, motion);
     for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a)
-      add(of, 0, a, swing.peak_by(system_.orders[at(a)]));
+      add(of, which, a, swing.peak_by(system_.orders[at(a)]));
     return swing.peak();
   }
 
@@ -211,7 +222,7 @@ class HarmonicProblem::Observation {
     }
   };
   Row row_of(Body of, Index which, Index order) {
-    const ContactOutput* output = of == Body::output ? &system_.outputs[at(which)] : nullptr;
+    const ContactOutput* output = of == Body::output ? &system_.output(which, order) : nullptr;
     const ContactModes* structure = output != nullptr ? &output->modes : &system_.damper[at(order)];
     const bool is_base = output != nullptr && output->on_base;
     if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, work_.response);

@@ -1,5 +1,7 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,22 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
   quantities_.push_back({"Y_peak", Measure::greatest, Body::base});
   quantities_.push_back({"U_peak", Measure::greatest, Body::damper});
   add_other_harmonics();
+  add_outputs_in_time();
+}
+
+/// The other harmonics of outputs, and their greatest values in time.
+void HarmonicResponse::add_outputs_in_time() {
+  if (system_.outputs_of_orders.empty()) return;
+  for (Index i = 0; i < std::ssize(system_.outputs); ++i) {
+    const ContactOutput& output = system_.outputs[at(i)];
+    if (output.is_lag) continue;
+    quantities_.push_back({output.name + "_peak", Measure::greatest, Body::output, i});
+    for (Index a = 1; a < harmonics(); ++a) {
+      const int h = system_.orders[at(a)];
+      quantities_.push_back({fmt::format("{}_h{}", output.name, h),
+                             h == 0 ? Measure::mean : Measure::amplitude, Body::output, i, a});
+    }
+  }
 }
 
 HarmonicVector HarmonicResponse::motion(const Vector& u, Index coordinate) const {

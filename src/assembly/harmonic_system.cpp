@@ -87,6 +87,9 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value) {
   for (ContactModes& damper : other.damper) damper = damper.varied(variation.damper);
   for (ContactOutput& output : other.outputs)
     output.modes = output.modes.varied(output.on_base ? variation.base : variation.damper);
+  for (std::vector<ContactOutput>& of_order : other.outputs_of_orders)
+    for (ContactOutput& output : of_order)
+      output.modes = output.modes.varied(output.on_base ? variation.base : variation.damper);
   other.preload_growth = variation.preload_growth;
   other.base_loss_per_zeta.viscous *= variation.base_viscous;
   for (Index i = 0; i < std::ssize(other.contacts); ++i) {
@@ -130,6 +133,8 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));
     system.contacts = std::move(of_order.contacts);
+    system.outputs_of_orders.resize(system.orders.size());
+    system.outputs_of_orders.back() = std::move(of_order.outputs);
   }
   system.preload_growth = parameters.preload_growth;
   system.one_way = parameters.one_way;

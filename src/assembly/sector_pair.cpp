@@ -144,32 +144,55 @@ struct Part {
   bool is_base;
   const char* letter;
 
+  using Terms = std::vector<SectorOutput::Term>;
+
   /// The contacts and, if one is asked for, an output after them.
-  ContactModes contacts(std::optional<Index> output = {}) const {
+  ContactModes contacts(const Terms& output = {}) const {
+    const bool is_seen = !output.empty();
     const Index count = std::ssize(part.sector.contacts);
     std::vector<ContactMode> list;
     for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
       const auto column = static_cast<Index>(k);
       ContactMode mode{modes.frequencies[k], modes.shapes.col(column).head(count),
                        force * modes.loads(column)};
-      if (output) {
+      if (is_seen) {
         mode.shape.conservativeResize(count + 1);
-        mode.shape(count) = modes.shapes(count + *output, column);
+        mode.shape(count) = 0;
+        for (const auto& [place, weight] : output)
+          mode.shape(count) += weight * modes.shapes(count + place, column);
       }
       list.push_back(std::move(mode));
     }
-    const ContactModes modal(count + (output ? 1 : 0), std::move(list), loss);
+    const ContactModes modal(count + (is_seen ? 1 : 0), std::move(list), loss);
     if (solves == nullptr) return modal;
-    if (output) {
-      return modal.solved_by([solves = solves, output = *output](
-                                 double eta, double load) { return solves->with_output(output, eta, load); },
-                             force);
+    if (is_seen) {
+      return modal.solved_by(
+          [solves = solves, output](double eta, double load) { return combined(*solves, output, eta, load); },
+          force);
     }
     return modal.solved_by([solves = solves](double eta, double load) { return solves->at(eta, load); },
                            force,
                            [solves = solves](double eta, double load, const ContactVector& forces) {
                              return solves->work(eta, load, forces);
                            });
+  }
+
+  static ContactReceptance combined(const FullReceptance& solves, const Terms& terms, double eta,
+                                    double load) {
+    ContactReceptance sum;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      ContactReceptance one = solves.with_output(terms[i].output, eta, load);
+      const Index m = one.free.size() - 1;
+      one.compliance.row(m) *= terms[i].weight;
+      one.free(m) *= terms[i].weight;
+      if (i == 0) {
+        sum = std::move(one);
+        continue;
+      }
+      sum.compliance.row(m) += one.compliance.row(m);
+      sum.free(m) += one.free(m);
+    }
+    return sum;
   }
 
   ContactModes driven() const {
@@ -180,10 +203,12 @@ struct Part {
   }
 
   void add_outputs(std::vector<ContactOutput>& outputs) const {
-    for (Index i = 0; i < std::ssize(part.sector.outputs); ++i) {
+    for (Index i = 0; i < std::ssize(part.sector.outputs) - part.untold; ++i) {
       const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
-      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts(i), is_base});
+      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts({{i, 1}}), is_base});
     }
+    for (const auto& [name, terms] : part.combinations)
+      outputs.push_back({fmt::format("{}_{}", letter, name), contacts(terms), is_base});
   }
 };
 

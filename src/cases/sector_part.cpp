@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <optional>
 
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/sectors/matrix_market.hpp"
+#include "cases/output_weights.hpp"
 #include "keys/input_file.hpp"
 
 namespace arcslip {
@@ -94,6 +96,37 @@ void read_load(PartSettings& part, const TomlSection& section) {
     for (std::size_t i = 0; i < dofs.size(); ++i) load(dofs[i]) += Complex(real[i], imaginary[i]);
   }
   if (load.isZero(0)) section.fail("load", "expected a force that is not 0");
+}
+
+/// A file of them, or a table of a name for each.
+void read_weights(PartSettings& part, const TomlSection& section) {
+  const char* expected = "a file of weights, or a table { NAME = { dof = [...], value = [...] } }";
+  if (section.require("weights", expected).is_string()) {
+    std::vector<Index> all(static_cast<std::size_t>(part.sector.mass.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    const auto rows =
+        parsed(part, section, "weights", largest_list, [&](const std::string& text, const std::string& path) {
+          return arcslip::read_weights(text, path, std::ssize(all));
+        });
+    for (const WeightRow& row : rows)
+      add_combination(part, row.name, all, {row.weights.begin(), row.weights.end()}, section);
+    return;
+  }
+  const TomlSection tables = section.inside("weights", expected);
+  if (tables.table()->empty()) section.fail("weights", "expected one output or more, got none");
+  for (const auto& [key, node] : *tables.table()) {
+    const TomlSection table = tables.inside(key.str(), "a table { dof = [...], value = [...] }");
+    table.allow_only({"dof", "value"});
+    table.require("dof", "an array of dofs");
+    table.require("value", "an array of numbers");
+    const std::vector<Index> dofs = listed(part, table, "dof");
+    const std::vector<double> values = table.numbers("value", any_number());
+    if (dofs.empty()) table.fail("dof", "expected one dof or more, got none");
+    if (values.size() != dofs.size())
+      table.fail("value",
+                 fmt::format("expected {} numbers, as many as dofs, got {}", dofs.size(), values.size()));
+    add_combination(part, std::string(key.str()), dofs, values, section);
+  }
 }
 
 void read_coordinates(PartSettings& part, const TomlSection& section) {
@@ -226,6 +259,12 @@ KeyTable<PartSettings> keys_of_part(bool loaded) {
       dofs("output", &F::outputs,
            "whose amplitudes follow in `branches.csv`: `Y_40` of the base, `U_40` of the damper",
            otherwise("none")),
+      PartKey::special(
+          "weights", "file or table",
+          "outputs that are sums of dofs times weights, as stresses: a table `{ NAME = { dof, value } }` "
+          "of lists, or a CSV file of rows `NAME, w_1, w_2, ...` with one weight for each dof; columns "
+          "`Y_NAME`, `U_NAME`",
+          read_weights, otherwise("none")),
       PartKey::special(
           "coordinates", "file",
           "where the dofs are, for `--shapes`: a line `dof x y z dx dy dz` for each, its place and "

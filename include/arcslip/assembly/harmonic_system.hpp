@@ -24,12 +24,21 @@ struct HarmonicSystem {
   std::vector<ContactModes> damper;            ///< of each order, without load
   std::vector<SectorContact> contacts;         ///< in the order of the structures' own
   double preload_growth = 0;                   ///< P_2 of the preload P + P_2 eta^2
-  std::vector<ContactOutput> outputs = {};     ///< of which the first harmonic is wanted
+  std::vector<ContactOutput> outputs = {};     ///< wanted, in the first harmonic
   std::vector<Coordinate> others = {};         ///< in which elements act beside the contacts
   bool one_way = false;                        ///< whether contacts do not act back on the base
   Loss base_loss_per_zeta = {};                ///< the base's loss over zeta_B
   Loss base_loss_fixed = {};                   ///< the rest of it
   std::optional<SystemParameter> varied = {};  ///< which may be continued beside eta and the preload
+
+  /// The outputs of each order, in which those of the first one come first; empty where it is that alone.
+  std::vector<std::vector<ContactOutput>> outputs_of_orders = {};
+
+  /// An output in the harmonic at this position among the orders.
+  const ContactOutput& output(Index which, Index order) const {
+    const auto i = static_cast<std::size_t>(which);
+    return order == 0 ? outputs[i] : outputs_of_orders[static_cast<std::size_t>(order)][i];
+  }
 };
 
 /// The system at a value of its parameter `varied`, which it then has no more.

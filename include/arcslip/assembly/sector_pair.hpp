@@ -27,6 +27,17 @@ enum class SectorPath { reduced, full };
 /// As case files have it: its name.
 std::string to_string(SectorPath path);
 
+/// A linear combination of the outputs of a sector, whose motion is wanted.
+struct SectorOutput {
+  /// One of them.
+  struct Term {
+    Index output;   ///< its position
+    double weight;  ///< finite
+  };
+  std::string name;         ///< the column's, behind Y_ or U_
+  std::vector<Term> terms;  ///< one or more
+};
+
 /// One of the two with its damping: zeta times that of a kind, and what is there besides.
 struct SectorPart {
   FiniteSector sector;  ///< checked, with a contact; with damping on the full path only
@@ -35,6 +46,8 @@ struct SectorPart {
   Loss fixed;                                          ///< what is there besides
   std::uint64_t fingerprint = 0;                       ///< of the files it was read from
   std::vector<DofPlace> places = {};                   ///< of the dofs, or none
+  std::vector<SectorOutput> combinations = {};         ///< that are wanted beside the sector's outputs
+  Index untold = 0;  ///< how many of these, the last ones, are there for combinations alone
 
   /// Whether it is damped where zeta is 0.
   bool is_damped() const { return sector.damping.size() != 0 || fixed.viscous != 0 || fixed.mass != 0; }

@@ -129,6 +129,7 @@ class HarmonicResponse : public HarmonicProblem {
   }
   /// Which elements are in their second state at rest.
   continuation::Regime at_rest(const Vector& p) const;
+  void add_outputs_in_time();
   bool is_odd_;  ///< whether all harmonics are odd
 
   /// Whether there is a response at these parameters.
