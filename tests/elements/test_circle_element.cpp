@@ -103,10 +103,8 @@ TEST_CASE("The friction circle goes on smoothly where it begins to slip", "[circ
     REQUIRE(std::abs(circle_room(s, orders, motion).excess) < 1e-12);
     const CircleForce slips = circle_force(s, orders, motion, true, Course::slips);
     const CircleForce sticks = circle_force(s, orders, motion, true, Course::sticks);
-    // the mean, of a sliding place across the motion, begins to change as the root of what it slips by
-    const ComplexVector jump = slips.harmonics - sticks.harmonics;
-    CHECK(jump.segment(1, 3).norm() + jump.segment(5, 3).norm() < 1e-11);
-    CHECK(std::abs(jump(0)) + std::abs(jump(4)) < 1e-4);
+    // of a sliding place across the motion the mean changes as the root of the excess, which is rounding
+    CHECK((slips.harmonics - sticks.harmonics).norm() < 1e-9);
     CHECK((slips.linear - sticks.linear).norm() > 1e-2);
     // both ways along the normal force, the side of slip in proportion
     const auto at = [&](double by) {

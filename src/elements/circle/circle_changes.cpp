@@ -154,31 +154,6 @@ class CirclePassage {
   Row direction_;  // of phi
 };
 
-/// Of the most central place.
-Matrix changes_of_centre(const CircleMotion& motion, const CommonPoint& point, const CircleColumns& columns) {
-  const TouchConditions conditions(motion, point);
-  Matrix rest = Matrix::Zero(conditions.rest.size(), columns.size());
-  const Index count = std::ssize(point.touches);
-  for (Index k = 0; k < count; ++k) {
-    const double angle = point.touches[static_cast<std::size_t>(k)].angle;
-    const CircleMotion::Local w = motion.at(angle);
-    const Complex pull = w.centre - point.offset;
-    const double radius = w.radius + point.excess;
-    const double weight = conditions.weight(k);
-    const auto add = [&](Index row, const Share& share) {
-      Row sum = Row::Zero(columns.size());
-      columns.add(angle, share, sum);
-      rest.row(row) += sum;
-    };
-    add(0, {.centre = weight});
-    add(1, {.centre = Complex(0, weight)});
-    add(2, {.radius = weight});
-    add(3 + k, {.centre = -pull, .radius = radius});
-    add(3 + count + k, {.centre = -w.rate, .rate = -pull, .radius = w.radius_rate, .radius_rate = radius});
-  }
-  return conditions.by.completeOrthogonalDecomposition().solve(rest).topRows(2);
-}
-
 }  // namespace
 
 void CircleColumns::add(double theta, const Share& share, Eigen::Ref<Row> row) const {
@@ -227,9 +202,33 @@ Eigen::Matrix2d offset_by_offset(const CircleMotion& motion, const CircleCourse&
   return changes_of(motion, course, CircleColumns(motion, {}), {}).offset;
 }
 
+Matrix changes_of(const CircleMotion& motion, const CommonPoint& point, const CircleColumns& columns) {
+  const TouchConditions conditions(motion, point);
+  Matrix rest = Matrix::Zero(conditions.rest.size(), columns.size());
+  const Index count = std::ssize(point.touches);
+  for (Index k = 0; k < count; ++k) {
+    const double angle = point.touches[static_cast<std::size_t>(k)].angle;
+    const CircleMotion::Local w = motion.at(angle);
+    const Complex pull = w.centre - point.offset;
+    const double radius = w.radius + point.excess;
+    const double weight = conditions.weight(k);
+    const auto add = [&](Index row, const Share& share) {
+      Row sum = Row::Zero(columns.size());
+      columns.add(angle, share, sum);
+      rest.row(row) += sum;
+    };
+    add(0, {.centre = weight});
+    add(1, {.centre = Complex(0, weight)});
+    add(2, {.radius = weight});
+    add(3 + k, {.centre = -pull, .radius = radius});
+    add(3 + count + k, {.centre = -w.rate, .rate = -pull, .radius = w.radius_rate, .radius_rate = radius});
+  }
+  return conditions.by.completeOrthogonalDecomposition().solve(rest).topRows(2);
+}
+
 Matrix changes_of(const CircleMotion& motion, const RestingPlace& place, const CircleColumns& columns) {
   if (place.part == 1) return Matrix::Zero(2, columns.size());
-  const Matrix centre = changes_of_centre(motion, place.centre, columns);
+  const Matrix centre = changes_of(motion, place.centre, columns);
   if (place.part == 0) return centre;
   // A = (1 - part) centre with the mean, and |w - A| = b at the disc that ends the way
   const CircleMotion::Local disc = motion.at(place.angle);

@@ -58,6 +58,9 @@ CircleChanges changes_of(const CircleMotion& motion, const CircleCourse& course,
 /// Of A at the end of the period by A at its begin.
 Eigen::Matrix2d offset_by_offset(const CircleMotion& motion, const CircleCourse& course);
 
+/// Of the most central place, two rows.
+Matrix changes_of(const CircleMotion& motion, const CommonPoint& point, const CircleColumns& columns);
+
 /// Of the place of a slider that sticks for ever, two rows.
 Matrix changes_of(const CircleMotion& motion, const RestingPlace& place, const CircleColumns& columns);
 

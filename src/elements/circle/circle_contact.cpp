@@ -39,8 +39,8 @@ class CircleIntegrals {
   }
 
   /// With the slider at a place for ever.
-  CircleForce stuck(bool derivatives) {
-    const RestingPlace place(motion_);
+  template <class Place>
+  CircleForce stuck(const Place& place, bool derivatives) {
     const ArcSums period(2 * motion_.highest(), 0, two_pi);
     stick_.add(period);
     touch_.add(period);
@@ -181,42 +181,8 @@ class CircleIntegrals {
   CircleForce out_;
 };
 
-/// Where it slips by hardly anything, or beyond the border not at all, that of a smaller circle under which
-/// it does, and what the force changes by from there in proportion.
-CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
-  constexpr double hardly = 1e-10;
-  constexpr double clearly = 1e-3;
-  const CommonPoint point = least_excess(motion, clearly * motion.size());
-  const double less = hardly * motion.size() - point.excess;
-  if (less <= 0)
-    return CircleIntegrals(motion, orders)
-        .moved(CircleCourse(motion, point.offset, point.roomiest), derivatives);
-  const CircleMotion smaller = motion.tightened(less);
-  CircleForce force =
-      CircleIntegrals(smaller, orders).moved(CircleCourse(smaller, point.offset, point.roomiest), true);
-  force.harmonics += (less / motion.settings().friction) * force.by[PressedForce::normal_force];
-  return force;
-}
-
-}  // namespace
-
-CircleForce circle_force(const PressedSettings& settings, std::span<const int> orders,
-                         const ComplexVector& motion, bool derivatives, PressedArcs::Course course) {
-  const CircleMotion moves = motion_of(settings, orders, motion);
-  const Index n = std::ssize(orders);
-  bool sticks = course == Course::sticks;
-  if (course == Course::any) sticks = least_excess(moves, 0).excess <= 0;
-  CircleForce out =
-      sticks ? CircleIntegrals(moves, orders).stuck(derivatives) : slipping(moves, orders, derivatives);
-  out.energy = cycle_energy(orders, out.harmonics.head(n), motion.head(n)) +
-               cycle_energy(orders, out.harmonics.segment(n, n), motion.segment(n, n));
-  return out;
-}
-
-CircleRoom circle_room(const PressedSettings& settings, std::span<const int> orders,
-                       const ComplexVector& motion) {
-  const CircleMotion moves = motion_of(settings, orders, motion);
-  const CommonPoint point = least_excess(moves, std::numeric_limits<double>::infinity());
+/// What the most central place tells of it.
+CircleRoom room_of(const CircleMotion& moves, std::span<const int> orders, const CommonPoint& point) {
   const CircleColumns columns(moves, orders);
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns.size());
   for (const CommonPoint::Touch& touch : point.touches) {
@@ -228,13 +194,99 @@ CircleRoom circle_room(const PressedSettings& settings, std::span<const int> ord
                 row);
   }
   const Index n = std::ssize(orders);
-  CircleRoom room{point.excess, ComplexVector(motion.size()), {}};
-  for (Index c = 0; c < motion.size() / n; ++c) {
+  CircleRoom room{point.excess, ComplexVector(3 * n), {}};
+  for (Index c = 0; c < 3; ++c) {
     for (Index a = 0; a < n; ++a)
       room.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
   }
   for (Index s = 0; s < PressedForce::settings; ++s)
     room.by[static_cast<std::size_t>(s)] = row(columns.settings() + s);
+  return room;
+}
+
+/// Where it slips by hardly anything, or beyond the border not at all: between what it is at the border,
+/// where the slider has one place, and under a smaller circle in which it slips just so, in proportion to the
+/// excess. The force begins to change as a root of that, so that no derivative at the border would do.
+class HardlySlipping {
+ public:
+  /// With the most central place of a motion, to be used below this excess.
+  HardlySlipping(const CircleMotion& motion, std::span<const int> orders, const CommonPoint& point,
+                 double hardly)
+      : motion_(motion), orders_(orders), point_(point), hardly_(hardly) {}
+
+  CircleForce force(bool derivatives) const {
+    const double part = point_.excess / hardly_;
+    const CircleMotion smaller = motion_.tightened(hardly_ - point_.excess);
+    CircleForce slips = CircleIntegrals(smaller, orders_)
+                            .moved(CircleCourse(smaller, point_.offset, point_.roomiest), derivatives);
+    CircleForce out = CircleIntegrals(motion_, orders_).stuck(point_, derivatives);
+    const Index sliding = 2 * std::ssize(orders_);
+    const ComplexVector more = slips.harmonics.head(sliding) - out.harmonics.head(sliding);
+    out.harmonics.head(sliding) += part * more;
+    out.slip_fraction = slips.slip_fraction;
+    if (derivatives) add_derivatives(slips, part, more, out);
+    return out;
+  }
+
+ private:
+  void add_derivatives(const CircleForce& slips, double part, const ComplexVector& more,
+                       CircleForce& out) const {
+    const Index sliding = more.size();
+    const CircleRoom room = room_of(motion_, orders_, point_);
+    const double friction = motion_.settings().friction;
+    const ComplexVector by_press = slips.by[PressedForce::normal_force].head(sliding);
+    const ComplexVector by_excess = more / hardly_ + (part / friction) * by_press;
+    const Index size = room.by_motion.size();
+    const auto between = [&](auto&& from, const auto& to) { from += part * (to - from); };
+    between(out.linear.topRows(sliding), slips.linear.topRows(sliding));
+    between(out.conjugate.topRows(sliding), slips.conjugate.topRows(sliding));
+    out.linear.topLeftCorner(sliding, size) += 0.5 * by_excess * room.by_motion.adjoint();
+    out.conjugate.topLeftCorner(sliding, size) += 0.5 * by_excess * room.by_motion.transpose();
+    for (std::size_t s = 0; s < PressedForce::settings; ++s) {
+      between(out.by[s].head(sliding), slips.by[s].head(sliding));
+      out.by[s].head(sliding) += room.by[s] * by_excess;
+    }
+    out.by[PressedForce::friction].head(sliding) +=
+        part * (hardly_ - point_.excess) / (friction * friction) * by_press;
+  }
+
+  const CircleMotion& motion_;
+  std::span<const int> orders_;
+  const CommonPoint& point_;
+  double hardly_;
+};
+
+CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
+  constexpr double hardly = 1e-10;
+  constexpr double clearly = 1e-3;
+  const CommonPoint point = least_excess(motion, clearly * motion.size());
+  if (point.excess < hardly * motion.size())
+    return HardlySlipping(motion, orders, point, hardly * motion.size()).force(derivatives);
+  return CircleIntegrals(motion, orders)
+      .moved(CircleCourse(motion, point.offset, point.roomiest), derivatives);
+}
+
+}  // namespace
+
+CircleForce circle_force(const PressedSettings& settings, std::span<const int> orders,
+                         const ComplexVector& motion, bool derivatives, PressedArcs::Course course) {
+  const CircleMotion moves = motion_of(settings, orders, motion);
+  const Index n = std::ssize(orders);
+  bool sticks = course == Course::sticks;
+  if (course == Course::any) sticks = least_excess(moves, 0).excess <= 0;
+  CircleForce out = sticks ? CircleIntegrals(moves, orders).stuck(RestingPlace(moves), derivatives)
+                           : slipping(moves, orders, derivatives);
+  out.energy = cycle_energy(orders, out.harmonics.head(n), motion.head(n)) +
+               cycle_energy(orders, out.harmonics.segment(n, n), motion.segment(n, n));
+  return out;
+}
+
+CircleRoom circle_room(const PressedSettings& settings, std::span<const int> orders,
+                       const ComplexVector& motion) {
+  const CircleMotion moves = motion_of(settings, orders, motion);
+  const CommonPoint point = least_excess(moves, std::numeric_limits<double>::infinity());
+  CircleRoom room = room_of(moves, orders, point);
+  room.by_motion.conservativeResize(motion.size());
   return room;
 }
 
