@@ -27,13 +27,16 @@ PeriodicMotion::PeriodicMotion(std::span<const int> orders, const ComplexVector&
 
 PeriodicMotion::Local PeriodicMotion::at(double theta) const {
   const Complex turn = std::polar(1.0, theta);
-  Complex power = 1;
+  double cosine = 1;  // of h theta, by real products, which unlike complex ones look for no infinities
+  double sine = 0;
   Local sum{coefficients_(0).real(), 0};
   for (Index h = 1; h < coefficients_.size(); ++h) {
-    power *= turn;
-    const Complex part = coefficients_(h) * power;
-    sum.value += part.real();
-    sum.first -= static_cast<double>(h) * part.imag();
+    const double before = cosine;
+    cosine = before * turn.real() - sine * turn.imag();
+    sine = before * turn.imag() + sine * turn.real();
+    const Complex own = coefficients_(h);
+    sum.value += own.real() * cosine - own.imag() * sine;
+    sum.first -= static_cast<double>(h) * (own.real() * sine + own.imag() * cosine);
   }
   return sum;
 }

@@ -5,6 +5,7 @@
 
 #include "elements/circle/circle_changes.hpp"
 #include "motion/bracketed_newton.hpp"
+#include "motion/isolated_zeros.hpp"
 
 namespace arcslip {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t most_arcs = 2000;  // of a period
 }  // namespace
 
 CircleCourse::CircleCourse(const CircleMotion& motion, Complex guess, double begin)
-    : motion_(motion), begin_(begin) {
+    : motion_(motion), begin_(begin), width_(SlipPanel::widest(std::max(1, motion.highest()))) {
   const PeriodicMotion& press = motion.press();
   const std::vector<double> zeros = press.zeros();
   std::vector<std::pair<double, double>> contacts;  // where the parts touch, begin and end
@@ -108,30 +109,40 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
 }
 
 /// Where the force reaches the circle, or the end. It falls from there at first where slip has ended.
+/// Extremes of the excess are looked for one part of the period after the other, as stick may be short.
 double CircleCourse::leaves(double begin, double end, Complex offset) const {
   constexpr double rounding = 1e-15;
   constexpr double same = 1e-9;
+  constexpr double part = two_pi / 8;
   const PeriodicMotion excess = motion_.excess(offset, 0);
-  std::vector<double> turns;
-  for (const double zero : excess.derivative().zeros()) {
-    const double way = std::remainder(zero - begin - pi, two_pi) + pi;
-    if (way > same && begin + way < end) turns.push_back(begin + way);
-  }
-  std::sort(turns.begin(), turns.end());
-  turns.push_back(end);
+  const PeriodicMotion slope = excess.derivative();
+  const auto at = [](const PeriodicMotion& motion) {
+    return [&motion](double theta) {
+      const PeriodicMotion::Local here = motion.at(theta);
+      return std::pair(here.value, here.first);
+    };
+  };
+  double bound = 0;  // of the slope's second derivative
+  for (Index h = 1; h < slope.coefficients().size(); ++h)
+    bound += std::pow(static_cast<double>(h), 2) * std::abs(slope.coefficients()(h));
   const double zero = rounding * motion_.size() * motion_.size();
   double last = begin;
-  for (const double turn : turns) {
-    if (excess.value(turn) > zero) {
-      if (excess.value(last) >= 0) return last;
-      return bracketed_newton(
-          [&](double theta) {
-            const PeriodicMotion::Local here = excess.at(theta);
-            return std::pair(here.value, here.first);
-          },
-          0.5 * (last + turn), last, turn, true);
+  std::vector<double> turns;
+  for (double from = begin; from < end; from += part) {
+    turns.clear();
+    if (bound > 0) {
+      isolate_zeros(at(slope), bound, from, part, 1, [&](double theta) {
+        if (theta > begin + same && theta < end) turns.push_back(theta);
+      });
     }
-    last = turn;
+    if (from + part >= end) turns.push_back(end);
+    for (const double turn : turns) {
+      if (excess.value(turn) > zero) {
+        if (excess.value(last) >= 0) return last;
+        return bracketed_newton(at(excess), 0.5 * (last + turn), last, turn, true);
+      }
+      last = turn;
+    }
   }
   return end;
 }
@@ -149,36 +160,35 @@ SlipPanel CircleCourse::stopped(SlipPanel::Reach reach, double phase) const {
   return panel;
 }
 
-/// Of slip, as wide as resolves it, but not wider than this; towards lift-off in the logarithm of the way
-/// that is left unless all of it is smooth.
-SlipPanel CircleCourse::next(double begin, double width, double end, bool lifts, double phase) const {
+/// Of slip, as wide as resolves it; towards lift-off in the logarithm of the way that is left unless all of
+/// it is smooth.
+SlipPanel CircleCourse::next(double begin, double end, bool lifts, double phase) {
   constexpr double shares = 0.998;  // of that way
   const double rest = end - begin;
-  const bool is_last = width >= rest;
-  if (auto whole = SlipPanel::solved(motion_, {begin, std::min(width, rest), {}}, phase)) return *whole;
-  if (lifts && is_last) {
+  const bool is_last = width_ >= rest;
+  const double widest = SlipPanel::widest(std::max(1, motion_.highest()));
+  SlipPanel::Reach reach{begin, std::min({width_, widest, rest}), {}};
+  double wider = 1;
+  auto panel = SlipPanel::solved(motion_, reach, phase, wider);
+  if (!panel && lifts && is_last) {
     if (rest < SlipPanel::smallest * 10) return SlipPanel::resolved(motion_, {begin, rest, {}}, phase);
-    SlipPanel::Reach reach{begin, shares * rest, end};
-    for (;;) {
-      if (auto panel = SlipPanel::solved(motion_, reach, phase)) return *panel;
-      reach = reach.up_to(0.5);
-    }
+    reach = {begin, shares * rest, end};
+    panel = SlipPanel::solved(motion_, reach, phase, wider);
+    for (; !panel; panel = SlipPanel::solved(motion_, reach, phase, wider))
+      reach = reach.up_to(std::min(wider, 0.8));
   }
-  SlipPanel::Reach reach{begin, std::min(width, rest), {}};
-  for (;;) {
-    reach.width = std::max(0.5 * reach.width, SlipPanel::smallest);
-    if (auto panel = SlipPanel::solved(motion_, reach, phase)) return *panel;
-  }
+  for (; !panel; panel = SlipPanel::solved(motion_, reach, phase, wider))
+    reach.width = std::max(std::min(wider, 0.8) * reach.width, SlipPanel::smallest);
+  width_ = std::min(wider * reach.width, widest);
+  return *panel;
 }
 
 /// Adds an arc of slip and returns where it ends.
 double CircleCourse::slip(double begin, double end, bool lifts, double phase) {
   Arc& arc = arcs_.emplace_back(Arc{Phase::slip, begin, 0, 0, {}});
-  const double widest = SlipPanel::widest(std::max(1, motion_.highest()));
   double at = begin;
-  double width = widest;
   while (at < end) {
-    SlipPanel panel = next(at, std::min(width, widest), end, lifts, phase);
+    SlipPanel panel = next(at, end, lifts, phase);
     const std::optional<double> stops = panel.stop();
     if (stops && panel.reach.up_to(*stops).width <= SlipPanel::smallest) break;
     if (stops) panel = stopped(panel.reach.up_to(*stops), phase);
@@ -186,7 +196,6 @@ double CircleCourse::slip(double begin, double end, bool lifts, double phase) {
       moved_ += panel.weight(j) * panel.slip(j) * std::polar(1.0, panel.phase(j));
     at = panel.reach.width < end - at ? at + panel.reach.width : end;
     phase = panel.phase(panel_nodes - 1);
-    width = 2 * panel.reach.width;
     arc.panels.push_back(std::move(panel));
     if (stops) break;
   }

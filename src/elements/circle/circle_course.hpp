@@ -52,12 +52,13 @@ class CircleCourse {
   void pass_contact(double begin, double end, std::optional<Complex> offset);
   double leaves(double begin, double end, Complex offset) const;
   double slip(double begin, double end, bool lifts, double phase);
-  SlipPanel next(double begin, double width, double end, bool lifts, double phase) const;
+  SlipPanel next(double begin, double end, bool lifts, double phase);
   SlipPanel stopped(SlipPanel::Reach reach, double phase) const;
   void settle(Complex guess);
 
   const CircleMotion& motion_;
   double begin_;
+  double width_;  // that resolves slip where it was looked at last
   bool begins_apart_ = false;
   std::vector<Arc> arcs_;
   bool is_endless_ = false;

@@ -58,21 +58,24 @@ CircleMotion CircleMotion::tightened(double less) const {
 
 CircleMotion::Local CircleMotion::at(double theta) const {
   const Complex turn = std::polar(1.0, theta);
-  Complex power = 1;
+  double cosine = 1;  // of h theta
+  double sine = 0;
   Local sum{0, 0, 0, b_(0).real(), 0, 0};
   for (Index h = 1; h < b_.size(); ++h) {
-    power *= turn;
+    const double before = cosine;
+    cosine = before * turn.real() - sine * turn.imag();
+    sine = before * turn.imag() + sine * turn.real();
     const auto order = static_cast<double>(h);
-    const Complex x = wx_(h) * power;
-    const Complex y = wy_(h) * power;
-    const Complex b = b_(h) * power;
-    const Complex here(x.real(), y.real());
-    sum.centre += here;
-    sum.rate -= order * Complex(x.imag(), y.imag());
-    sum.bend -= order * order * here;
-    sum.radius += b.real();
-    sum.radius_rate -= order * b.imag();
-    sum.radius_bend -= order * order * b.real();
+    const auto here = [&](Complex own) { return own.real() * cosine - own.imag() * sine; };
+    const auto rate = [&](Complex own) { return -order * (own.real() * sine + own.imag() * cosine); };
+    const Complex centre(here(wx_(h)), here(wy_(h)));
+    sum.centre += centre;
+    sum.rate += Complex(rate(wx_(h)), rate(wy_(h)));
+    sum.bend -= order * order * centre;
+    const double radius = here(b_(h));
+    sum.radius += radius;
+    sum.radius_rate += rate(b_(h));
+    sum.radius_bend -= order * order * radius;
   }
   return sum;
 }

@@ -106,11 +106,14 @@ PanelMatrix equation(const SlipPanel& panel) {
   return a;
 }
 
-/// Newton's method; false where it leaves.
+/// Newton's method with a matrix that is made anew while steps are long; false where it leaves.
 bool converge(const std::array<CircleMotion::Local, panel_nodes>& local, SlipPanel& panel) {
   constexpr double farthest = 2;  // of phi from its start
-  constexpr double close = 1e-8;  // whose square is rounding
-  for (int i = 0; i < 12; ++i) {
+  constexpr double far = 0.03;    // to keep the matrix
+  constexpr double rounding = 1e-15;
+  Eigen::PartialPivLU<PanelMatrix> matrix;
+  double since = far;  // it was made
+  for (int i = 0; i < 16; ++i) {
     PanelVector across;
     for (Index j = 0; j < panel_nodes; ++j) {
       const CircleMotion::Local& here = local[static_cast<std::size_t>(j)];
@@ -120,11 +123,17 @@ bool converge(const std::array<CircleMotion::Local, panel_nodes>& local, SlipPan
     }
     panel.turn();
     const PanelVector rest = panel.radius.cwiseProduct(panel.turning) - across;
-    const PanelVector step = equation(panel).partialPivLu().solve(rest);
+    if (since >= far) {
+      matrix.compute(equation(panel));
+      since = 0;
+    }
+    const PanelVector step = matrix.solve(rest);
     if (!step.allFinite()) return false;
     panel.phase -= step;
     if ((panel.phase.array() - panel.start).abs().maxCoeff() > farthest) return false;
-    if (step.lpNorm<Eigen::Infinity>() < close) return true;
+    const double way = step.lpNorm<Eigen::Infinity>();
+    since += way;
+    if (way * since < rounding) return true;
   }
   return false;
 }
@@ -139,14 +148,19 @@ SlipPanel::Reach SlipPanel::Reach::up_to(double part) const {
   return {begin, -rest * std::expm1(part * std::log1p(-width / rest)), apart};
 }
 
-std::optional<SlipPanel> SlipPanel::solved(const CircleMotion& motion, const Reach& reach, double start) {
+std::optional<SlipPanel> SlipPanel::solved(const CircleMotion& motion, const Reach& reach, double start,
+                                           double& wider) {
   constexpr double rounding = 1e-13;  // of the force
+  constexpr double least = 0.25;
+  constexpr double most = 2.5;
+  constexpr double decay = 14;  // of the last coefficients, as powers of the width
   bool converges = false;
   const SlipPanel panel = of(motion, reach, start, converges);
   const PanelCourse bends = scheme().coefficients * with_start(0, panel.phase.array() - start);
-  const double error = std::max(std::abs(bends(panel_nodes)), std::abs(bends(panel_nodes - 1)));
-  const bool is_resolved =
-      converges && error * panel.radius.lpNorm<Eigen::Infinity>() <= rounding * motion.size();
+  const double error = std::max(std::abs(bends(panel_nodes)), std::abs(bends(panel_nodes - 1))) *
+                       panel.radius.lpNorm<Eigen::Infinity>() / (rounding * motion.size());
+  wider = converges ? std::clamp(0.9 * std::pow(error, -1 / decay), least, most) : least;
+  const bool is_resolved = converges && error <= 1;
   return is_resolved || reach.width <= smallest ? std::optional(panel) : std::nullopt;
 }
 
@@ -170,8 +184,14 @@ SlipPanel SlipPanel::of(const CircleMotion& motion, const Reach& reach, double s
   const Complex turned = first.rate * std::polar(1.0, -start);
   panel.start_slip = turned.real() - first.radius_rate;
   const double turns = turned.imag() / first.radius;
+  const double bends =
+      (std::imag(first.bend * std::polar(1.0, -start)) - turns * (turned.real() + first.radius_rate)) /
+      first.radius;
   const bool is_slow = std::abs(turns) * reach.width < 1;
-  panel.phase = start + (is_slow ? turns : 0) * (panel.angle.array() - reach.begin);
+  const bool is_smooth = is_slow && std::abs(bends) * reach.width * reach.width < 1;
+  panel.phase = start + (panel.angle.array() - reach.begin) *
+                            ((is_slow ? turns : 0) +
+                             (is_smooth ? 0.5 * bends : 0) * (panel.angle.array() - reach.begin));
   converges = converge(local, panel);
   if (!converges) panel.phase.setConstant(start);
   panel.turn();

@@ -45,7 +45,9 @@ struct SlipPanel {
   PanelVector along;    ///< Re(w' e^{-i phi})
 
   /// With phi(begin) = start; none where it is not resolved to rounding, unless the width is `smallest`.
-  static std::optional<SlipPanel> solved(const CircleMotion& motion, const Reach& reach, double start);
+  /// `wider` becomes how many times wider it would be resolved just so.
+  static std::optional<SlipPanel> solved(const CircleMotion& motion, const Reach& reach, double start,
+                                         double& wider);
   static constexpr double smallest = 1e-12;  ///< of theta
 
   /// The same of a width at which it is resolved.
