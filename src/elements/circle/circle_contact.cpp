@@ -204,64 +204,88 @@ CircleRoom room_of(const CircleMotion& moves, std::span<const int> orders, const
   return room;
 }
 
-/// Where it slips by hardly anything, or beyond the border not at all: between what it is at the border,
-/// where the slider has one place, and under a smaller circle in which it slips just so, in proportion to the
-/// excess. The force begins to change as a root of that, so that no derivative at the border would do.
-class HardlySlipping {
+/// Where the excess is hardly anything, or on the other side of the border: between what the force is at the
+/// border, where the slider has one place, and under a circle of such a size that the excess is just so, in
+/// proportion to the excess. The force changes as a root of that, so that no derivative at the border would
+/// do.
+class BesideBorder {
  public:
-  /// With the most central place of a motion, to be used below this excess.
-  HardlySlipping(const CircleMotion& motion, std::span<const int> orders, const CommonPoint& point,
-                 double hardly)
-      : motion_(motion), orders_(orders), point_(point), hardly_(hardly) {}
+  /// With the most central place of a motion. An excess just so is on the side of slip if it is positive.
+  BesideBorder(const CircleMotion& motion, std::span<const int> orders, const CommonPoint& point,
+               double just_so)
+      : motion_(motion),
+        orders_(orders),
+        point_(point),
+        just_so_(just_so),
+        other_(motion.tightened(just_so - point.excess)) {
+    constexpr double farthest = 1e5;  // parts on the other side, lest they lose all digits
+    const double ratio = point.excess / just_so;
+    const double bound = ratio < 0 ? 1 / (1 - ratio / farthest) : 1;
+    part_ = ratio * bound;
+    part_by_excess_ = bound * bound / just_so;
+  }
 
   CircleForce force(bool derivatives) const {
-    const double part = point_.excess / hardly_;
-    const CircleMotion smaller = motion_.tightened(hardly_ - point_.excess);
-    CircleForce slips = CircleIntegrals(smaller, orders_)
-                            .moved(CircleCourse(smaller, point_.offset, point_.roomiest), derivatives);
+    const CircleForce there = just_so(derivatives);
     CircleForce out = CircleIntegrals(motion_, orders_).stuck(point_, derivatives);
     const Index sliding = 2 * std::ssize(orders_);
-    const ComplexVector more = slips.harmonics.head(sliding) - out.harmonics.head(sliding);
-    out.harmonics.head(sliding) += part * more;
-    out.slip_fraction = slips.slip_fraction;
-    if (derivatives) add_derivatives(slips, part, more, out);
+    const ComplexVector more = there.harmonics.head(sliding) - out.harmonics.head(sliding);
+    out.harmonics.head(sliding) += part_ * more;
+    out.slip_fraction = there.slip_fraction;
+    if (derivatives) add_derivatives(there, more, out);
     return out;
   }
 
  private:
-  void add_derivatives(const CircleForce& slips, double part, const ComplexVector& more,
-                       CircleForce& out) const {
+  CircleForce just_so(bool derivatives) const {
+    CircleIntegrals integrals(other_, orders_);
+    return just_so_ > 0 ? integrals.moved(CircleCourse(other_, point_.offset, point_.roomiest), derivatives)
+                        : integrals.stuck(RestingPlace(other_), derivatives);
+  }
+
+  void add_derivatives(const CircleForce& there, const ComplexVector& more, CircleForce& out) const {
     const Index sliding = more.size();
     const CircleRoom room = room_of(motion_, orders_, point_);
     const double friction = motion_.settings().friction;
-    const ComplexVector by_press = slips.by[PressedForce::normal_force].head(sliding);
-    const ComplexVector by_excess = more / hardly_ + (part / friction) * by_press;
-    const Index size = room.by_motion.size();
-    const auto between = [&](auto&& from, const auto& to) { from += part * (to - from); };
-    between(out.linear.topRows(sliding), slips.linear.topRows(sliding));
-    between(out.conjugate.topRows(sliding), slips.conjugate.topRows(sliding));
-    out.linear.topLeftCorner(sliding, size) += 0.5 * by_excess * room.by_motion.adjoint();
-    out.conjugate.topLeftCorner(sliding, size) += 0.5 * by_excess * room.by_motion.transpose();
+    const ComplexVector by_press = there.by[PressedForce::normal_force].head(sliding);
+    const ComplexVector by_excess = part_by_excess_ * more + (part_ / friction) * by_press;
+    const auto between = [&](auto&& from, const auto& to) { from += part_ * (to - from); };
+    between(out.linear.topRows(sliding), there.linear.topRows(sliding));
+    between(out.conjugate.topRows(sliding), there.conjugate.topRows(sliding));
+    out.linear.topRows(sliding) += 0.5 * by_excess * room.by_motion.adjoint();
+    out.conjugate.topRows(sliding) += 0.5 * by_excess * room.by_motion.transpose();
     for (std::size_t s = 0; s < PressedForce::settings; ++s) {
-      between(out.by[s].head(sliding), slips.by[s].head(sliding));
+      between(out.by[s].head(sliding), there.by[s].head(sliding));
       out.by[s].head(sliding) += room.by[s] * by_excess;
     }
     out.by[PressedForce::friction].head(sliding) +=
-        part * (hardly_ - point_.excess) / (friction * friction) * by_press;
+        part_ * (just_so_ - point_.excess) / (friction * friction) * by_press;
   }
 
   const CircleMotion& motion_;
   std::span<const int> orders_;
   const CommonPoint& point_;
-  double hardly_;
+  double just_so_;
+  CircleMotion other_;
+  double part_;
+  double part_by_excess_;
 };
 
+constexpr double hardly = 1e-10;  // of excess, over the size of the motion
+
+CircleForce sticking(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
+  const RestingPlace place(motion);
+  const double just_so = -hardly * motion.size();
+  if (place.part < 1 && place.centre.excess > just_so)
+    return BesideBorder(motion, orders, place.centre, just_so).force(derivatives);
+  return CircleIntegrals(motion, orders).stuck(place, derivatives);
+}
+
 CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
-  constexpr double hardly = 1e-10;
   constexpr double clearly = 1e-3;
   const CommonPoint point = least_excess(motion, clearly * motion.size());
-  if (point.excess < hardly * motion.size())
-    return HardlySlipping(motion, orders, point, hardly * motion.size()).force(derivatives);
+  const double just_so = hardly * motion.size();
+  if (point.excess < just_so) return BesideBorder(motion, orders, point, just_so).force(derivatives);
   return CircleIntegrals(motion, orders)
       .moved(CircleCourse(motion, point.offset, point.roomiest), derivatives);
 }
@@ -274,8 +298,7 @@ CircleForce circle_force(const PressedSettings& settings, std::span<const int> o
   const Index n = std::ssize(orders);
   bool sticks = course == Course::sticks;
   if (course == Course::any) sticks = least_excess(moves, 0).excess <= 0;
-  CircleForce out = sticks ? CircleIntegrals(moves, orders).stuck(RestingPlace(moves), derivatives)
-                           : slipping(moves, orders, derivatives);
+  CircleForce out = sticks ? sticking(moves, orders, derivatives) : slipping(moves, orders, derivatives);
   out.energy = cycle_energy(orders, out.harmonics.head(n), motion.head(n)) +
                cycle_energy(orders, out.harmonics.segment(n, n), motion.segment(n, n));
   return out;
