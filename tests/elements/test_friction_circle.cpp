@@ -1,6 +1,7 @@
 // Friction in a plane against closed forms, the contact in one direction, marches in time and differences.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -250,5 +251,48 @@ TEST_CASE("Published loops in one direction are met along any line of the plane"
       const auto at = static_cast<std::size_t>(2 * h);
       CHECK(std::abs(along(h) - Complex(row.f[at - 1], -row.f[at])) < 1.5e-7);  // as printed
     }
+  }
+}
+
+TEST_CASE("Published motions and states at rest of friction in three directions are met", "[circle]") {
+  // tmdsimpy tests/jax/test_elastic_dry_fric_3d.py: k_t = 2, k_n = 2.5, mu = 0.75, along lines of the plane,
+  // on which its two sliders and the circle do the same up to their limits
+  const PressedSettings s{.75, 2, 2.5, 0};
+  const std::vector<int> orders = from_zero_to(3);
+  const std::vector<std::vector<double>> courses{
+      {.75, 2, 1.3, 0, 0, 1, 0},
+      {.1, .2, .05, .1, .1, .1, 0},
+      {4.29653115, 4.29165565, 2.8307871, 4.17186848, 3.37441948, .80543152, 3.55638299}};
+  for (const std::vector<double>& c : courses) {
+    ComplexVector course(4);
+    course << c[0], Complex(c[1], -c[2]), Complex(c[3], -c[4]), Complex(c[5], -c[6]);
+    for (const Complex way : {Complex(5, 3), Complex(.2, .3), Complex(5, 7), Complex(1e3, 1e4)}) {
+      for (const double closed : {1.5, 5.7, -0.2, 0.0}) {
+        CAPTURE(c[0], way, closed);
+        const ComplexVector g = closed * ComplexVector::Unit(4, 0);
+        const ComplexVector r = std::abs(way) * course;
+        const CircleForce force = circle_force(s, orders, along_line(r, std::arg(way), g), true, Course::any);
+        const PressedForce line = pressed_force(s, orders, r, g, false);
+        ComplexVector known(8);
+        known << way.real() / std::abs(way) * line.tangential, way.imag() / std::abs(way) * line.tangential;
+        const double exact = std::abs(way) < 1e3 ? 1e-12 : 1e-11;
+        CHECK((force.harmonics.head(8) - known).norm() < exact);
+        CHECK(force.linear.allFinite());
+        if (closed <= 0) CHECK(force.harmonics.norm() == 0);
+      }
+    }
+  }
+  const Complex far = 1.875 * Complex(15, -8) / 17.0;
+  for (const auto& [at, force, press] :
+       {std::array<Complex, 3>{{0, 0, -1}}, std::array<Complex, 3>{{Complex(.1, -.1), Complex(.2, -.2), 1}},
+        std::array<Complex, 3>{{Complex(15, -8), far, 1}},
+        std::array<Complex, 3>{{Complex(-15, 8), -far, 1}}}) {
+    ComplexVector motion = ComplexVector::Zero(12);
+    motion(0) = at.real();
+    motion(4) = at.imag();
+    motion(8) = press;
+    const CircleForce rest = circle_force(s, orders, motion, false, Course::any);
+    CHECK(std::abs(Complex(rest.harmonics(0).real(), rest.harmonics(4).real()) - force) < 1e-12);
+    CHECK(std::abs(rest.harmonics(8) - 2.5 * std::max(0.0, press.real())) < 1e-12);
   }
 }

@@ -11,7 +11,7 @@
 //
 // Harmonics are those of x = x_0 + Re sum_h x_h e^{jh theta} of each direction. What the contact does is
 // found arc by arc without sampling, see src/elements/circle: forces to some 1e-12 of k_t r and mu N,
-// derivatives to some 1e-10, where slip hardly begins to 1e-5.
+// derivatives to some 1e-10; within 1e-10 of the border of stick forces to some 1e-6, derivatives to 1e-5.
 
 #include <array>
 #include <span>
