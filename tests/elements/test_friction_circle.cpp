@@ -255,7 +255,7 @@ TEST_CASE("Published loops in one direction are met along any line of the plane"
 }
 
 TEST_CASE("Published motions and states at rest of friction in three directions are met", "[circle]") {
-  // tmdsimpy tests/jax/test_elastic_dry_fric_3d.py: k_t = 2, k_n = 2.5, mu = 0.75, along lines of the plane,
+  // tmdsimpy tests/jax/test_jax_3d_eldry.py: k_t = 2, k_n = 2.5, mu = 0.75, along lines of the plane,
   // on which its two sliders and the circle do the same up to their limits
   const PressedSettings s{.75, 2, 2.5, 0};
   const std::vector<int> orders = from_zero_to(3);
