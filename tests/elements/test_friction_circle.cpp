@@ -266,7 +266,9 @@ TEST_CASE("Published motions and states at rest of friction in three directions 
   for (const std::vector<double>& c : courses) {
     ComplexVector course(4);
     course << c[0], Complex(c[1], -c[2]), Complex(c[3], -c[4]), Complex(c[5], -c[6]);
-    for (const Complex way : {Complex(5, 3), Complex(.2, .3), Complex(5, 7), Complex(1e3, 1e4)}) {
+    for (const Complex way :
+         {Complex(5, 3), Complex(.2, .3), Complex(5, 7), Complex(1e3, 1e4), Complex(1e10, 2e10)}) {
+      if (std::abs(way) > 1e5 && &c != &courses[1]) continue;  // published for that alone
       for (const double closed : {1.5, 5.7, -0.2, 0.0}) {
         CAPTURE(c[0], way, closed);
         const ComplexVector g = closed * ComplexVector::Unit(4, 0);
@@ -275,7 +277,7 @@ TEST_CASE("Published motions and states at rest of friction in three directions 
         const PressedForce line = pressed_force(s, orders, r, g, false);
         ComplexVector known(8);
         known << way.real() / std::abs(way) * line.tangential, way.imag() / std::abs(way) * line.tangential;
-        const double exact = std::abs(way) < 1e3 ? 1e-12 : 1e-11;
+        const double exact = std::abs(way) < 1e3 ? 1e-12 : std::abs(way) < 1e5 ? 1e-11 : 1e-8;
         CHECK((force.harmonics.head(8) - known).norm() < exact);
         CHECK(force.linear.allFinite());
         if (closed <= 0) CHECK(force.harmonics.norm() == 0);

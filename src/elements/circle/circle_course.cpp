@@ -114,13 +114,16 @@ double CircleCourse::leaves(double begin, double end, Complex offset) const {
   constexpr double rounding = 1e-15;
   constexpr double same = 1e-9;
   constexpr double part = two_pi / 8;
-  const PeriodicMotion excess = motion_.excess(offset, 0);
-  const PeriodicMotion slope = excess.derivative();
-  const auto at = [](const PeriodicMotion& motion) {
-    return [&motion](double theta) {
-      const PeriodicMotion::Local here = motion.at(theta);
-      return std::pair(here.value, here.first);
-    };
+  const PeriodicMotion slope = motion_.excess(offset, 0).derivative();
+  const auto slope_at = [&](double theta) {
+    const PeriodicMotion::Local here = slope.at(theta);
+    return std::pair(here.value, here.first);
+  };
+  const auto excess = [&](double theta) {  // by its terms: of long ways the coefficients cancel
+    const CircleMotion::Local here = motion_.at(theta);
+    const Complex pull = here.centre - offset;
+    return std::pair(std::norm(pull) - here.radius * here.radius,
+                     2 * (dot(pull, here.rate) - here.radius * here.radius_rate));
   };
   double bound = 0;  // of the slope's second derivative
   for (Index h = 1; h < slope.coefficients().size(); ++h)
@@ -131,15 +134,15 @@ double CircleCourse::leaves(double begin, double end, Complex offset) const {
   for (double from = begin; from < end; from += part) {
     turns.clear();
     if (bound > 0) {
-      isolate_zeros(at(slope), bound, from, part, 1, [&](double theta) {
+      isolate_zeros(slope_at, bound, from, part, 1, [&](double theta) {
         if (theta > begin + same && theta < end) turns.push_back(theta);
       });
     }
     if (from + part >= end) turns.push_back(end);
     for (const double turn : turns) {
-      if (excess.value(turn) > zero) {
-        if (excess.value(last) >= 0) return last;
-        return bracketed_newton(at(excess), 0.5 * (last + turn), last, turn, true);
+      if (excess(turn).first > zero) {
+        if (excess(last).first >= 0) return last;
+        return bracketed_newton(excess, 0.5 * (last + turn), last, turn, true);
       }
       last = turn;
     }
