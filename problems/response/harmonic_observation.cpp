@@ -35,7 +35,7 @@ class HarmonicProblem::Observation {
       case Measure::energy: return energy(quantity.which);
       case Measure::greatest: return greatest(quantity.of, quantity.which);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
-      case Measure::reading: return elements_[at(quantity.which)].readings[at(quantity.order)];
+      case Measure::reading: return reading(quantity.which, quantity.order);
     }
     return 0;
   }
@@ -126,6 +126,16 @@ class HarmonicProblem::Observation {
       }
     }
     return element.energy;
+  }
+
+  double reading(Index of, Index which) {
+    if (gradient_ == nullptr) return elements_[at(of)].readings[at(which)];
+    const MotionNumber told = problem_.with_element(of, u_, p_, [&](const Element& element) {
+      return element.reading(which, system_.orders, problem_.element_motion(u_, p_, of),
+                             problem_.load(of, u_, p_));
+    });
+    problem_.add(told, of, u_, p_, *gradient_);
+    return told.value;
   }
 
   /// The greatest value in time, which changes as the value at its own time.
@@ -248,8 +258,9 @@ std::vector<continuation::Observable> HarmonicProblem::observables() const {
     const bool is_lag = quantity.measure == Measure::lag;
     const bool by_solves =
         quantity.of == Body::output && !is_lag && system_.outputs[at(quantity.which)].modes.is_solved();
-    const bool has_gradient =
-        quantity.measure != Measure::force && quantity.measure != Measure::reading && !by_solves;
+    const bool is_reading = quantity.measure == Measure::reading;
+    const bool has_gradient = is_reading ? coordinates_.element(quantity.which).has_gradient(quantity.order)
+                                         : quantity.measure != Measure::force && !by_solves;
     all.push_back({quantity.name, has_gradient});
     if (is_lag) all.back() = angle(quantity.name);
   }

@@ -164,21 +164,27 @@ int HarmonicProblem::crossed_border(const continuation::Guess& at) const {
 
 double HarmonicProblem::border(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                int border, continuation::Gradient* gradient) const {
-  const StateBorder at_border = with_element(border, u, p, [&](const Element& element) {
+  const MotionNumber at_border = with_element(border, u, p, [&](const Element& element) {
     return element.border(system_.orders, element_motion(u, p, border), known_swing(u, p, border),
                           load(border, u, p), slips(regime, border));
   });
   if (gradient == nullptr) return at_border.value;
   gradient->unknowns.setZero();
   gradient->parameters.setZero();
-  for (Index a = 0; a < at_border.by_motion.size(); ++a) {
-    const Index place = 2 * (coordinates_.first(border) * harmonics() + a);
-    add(place_of(place), at_border.by_motion(a).real(), *gradient);
-    add(place_of(place + 1), at_border.by_motion(a).imag(), *gradient);
-  }
-  add_log_load(at_border.by_log_load, border, u, p, *gradient);
-  if (first(border).varied) add(layout_.varied, at_border.by_setting, *gradient);
+  add(at_border, border, u, p, *gradient);
   return at_border.value;
+}
+
+/// A number of an element, with all its derivatives.
+void HarmonicProblem::add(const MotionNumber& number, Index element, const Vector& u, const Vector& p,
+                          continuation::Gradient& gradient) const {
+  for (Index a = 0; a < number.by_motion.size(); ++a) {
+    const Index place = 2 * (coordinates_.first(element) * harmonics() + a);
+    add(place_of(place), number.by_motion(a).real(), gradient);
+    add(place_of(place + 1), number.by_motion(a).imag(), gradient);
+  }
+  add_log_load(number.by_log_load, element, u, p, gradient);
+  if (first(element).varied) add(layout_.varied, number.by_setting, gradient);
 }
 
 double HarmonicProblem::synthesised_force(const Vector& /*u*/, const Vector& /*p*/,

@@ -85,8 +85,8 @@ ElementForce Element::change(const ElementForce& at, std::span<const int> orders
   return change;
 }
 
-StateBorder Element::border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
-                            double load, bool beyond) const {
+MotionNumber Element::border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
+                             double load, bool beyond) const {
   const Swing swing = known != nullptr ? *known : Swing::of(orders, x);
   const double amplitude = forgets_mean() ? swing.half() : swing.peak();
   const double limit = threshold(load);
@@ -94,8 +94,9 @@ StateBorder Element::border(std::span<const int> orders, const HarmonicVector& x
   const double square = amplitude * amplitude;
   const double sum = square + limit * limit;
   const double slope = sign * 4 * limit * limit / (sum * sum);  // by A^2/2
-  StateBorder border{sign * (square - limit * limit) / sum, HarmonicVector(std::ssize(orders)),
-                     -slope * square * threshold_by_log_load(), -slope * square * log_threshold_by_setting()};
+  MotionNumber border{sign * (square - limit * limit) / sum, HarmonicVector(std::ssize(orders)),
+                      -slope * square * threshold_by_log_load(),
+                      -slope * square * log_threshold_by_setting()};
   for (Index a = 0; a < border.by_motion.size(); ++a) {
     const int h = orders[static_cast<std::size_t>(a)];
     border.by_motion(a) = slope * amplitude * (forgets_mean() ? swing.half_by(h) : swing.peak_by(h));
@@ -144,6 +145,11 @@ double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexV
 double Element::event(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
                       double /*load*/) const {
   throw std::logic_error("Element: it has no events");
+}
+
+MotionNumber Element::reading(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
+                              double /*load*/) const {
+  throw std::logic_error("Element: it has no gradient of a reading");
 }
 
 double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }

@@ -166,7 +166,7 @@ TEST_CASE("The element of the friction circle has exact derivatives by load and 
           const auto border = [&](double by) {
             return element(0.7 * by)->border(orders, x + by * way, nullptr, 0.8 * std::exp(0.3 * by), beyond);
           };
-          const StateBorder here = border(0);
+          const MotionNumber here = border(0);
           double slopes = 0.3 * here.by_log_load + 0.7 * here.by_setting;
           for (Index a = 0; a < size; ++a) slopes += std::real(std::conj(here.by_motion(a)) * way(a));
           CHECK_THAT(slopes, WithinAbs(difference([&](double by) { return border(by).value; }, 1e-5), 1e-8));

@@ -60,9 +60,9 @@ struct ElementForce {
 double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexVector>& force,
                     const Eigen::Ref<const ComplexVector>& x);
 
-/// Where a state of an element ends.
-struct StateBorder {
-  double value;              ///< negative inside
+/// A number that follows from a motion.
+struct MotionNumber {
+  double value;
   HarmonicVector by_motion;  ///< derivatives by Re x_h and Im x_h as real and imaginary part
   double by_log_load;        ///< by ln(load)
   double by_setting;         ///< by a setting of the element that is continued
@@ -86,6 +86,10 @@ class Element {
 
   /// What its force comes with beside energy and swing, by name.
   virtual std::vector<std::string> readings() const { return {}; }
+  /// Whether one of these has derivatives, and that one with them; throws std::logic_error of others.
+  virtual bool has_gradient(Index /*reading*/) const { return false; }
+  virtual MotionNumber reading(Index which, std::span<const int> orders, const HarmonicVector& x,
+                               double load) const;
 
   /// Whether a cycle may take energy.
   virtual bool dissipates() const { return false; }
@@ -146,8 +150,8 @@ class Element {
   /// The border of one that has one, of one coordinate (A^2 - S^2)/(A^2 + S^2) = tanh ln(A/S) in the first
   /// state and its negative beyond, smooth where the motion is zero. A is max |x| or, of one that forgets the
   /// mean, half of the motion's range; `known` is its swing, if it is.
-  virtual StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
-                             double load, bool beyond) const;
+  virtual MotionNumber border(std::span<const int> orders, const HarmonicVector& x, const Swing* known,
+                              double load, bool beyond) const;
 
   /// Whether its border is reached by how far the motion goes from side to side, wherever its middle is.
   virtual bool forgets_mean() const { return false; }

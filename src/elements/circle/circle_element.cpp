@@ -57,8 +57,8 @@ void CircleElement::force_at(std::span<const int> orders, const HarmonicVector& 
 }
 
 /// The excess over the root of the mean squares of k_t r, without its mean, and of mu n.
-StateBorder CircleElement::border(std::span<const int> orders, const HarmonicVector& x,
-                                  const Swing* /*known*/, double load, bool beyond) const {
+MotionNumber CircleElement::border(std::span<const int> orders, const HarmonicVector& x,
+                                   const Swing* /*known*/, double load, bool beyond) const {
   const Index n = std::ssize(orders);
   const PressedSettings settings = settings_.at(load, 0);
   const CircleRoom room = circle_room(settings, orders, x);
@@ -91,7 +91,7 @@ StateBorder CircleElement::border(std::span<const int> orders, const HarmonicVec
     by[PressedForce::friction] += mu * settings.normal_force * settings.normal_force;
     by[PressedForce::normal_force] += mu * mu * settings.normal_force;
   }
-  StateBorder border{0, HarmonicVector::Zero(x.size()), 0, 0};
+  MotionNumber border{0, HarmonicVector::Zero(x.size()), 0, 0};
   if (!(square > 0)) return border;
   const double root = std::sqrt(square);
   const double sign = beyond ? -1 : 1;

@@ -112,8 +112,8 @@ DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const Harmon
 /// W/sqrt(T^2 + B^2) of W = min (k_t r + mu n) - max (k_t r - mu n), T = max (k_t r + mu n) and B = min (k_t
 /// r
 /// - mu n).
-StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVector& x,
-                                   const Swing* /*known*/, double load, bool beyond) const {
+MotionNumber PressedElement::border(std::span<const int> orders, const HarmonicVector& x,
+                                    const Swing* /*known*/, double load, bool beyond) const {
   const Index n = std::ssize(orders);
   const PressedSettings settings = settings_.at(load, 0);
   const int highest = highest_order(orders);
@@ -124,7 +124,7 @@ StateBorder PressedElement::border(std::span<const int> orders, const HarmonicVe
   const double bottom = course.lowest_low().low;
   const double norm = std::hypot(top, bottom);
   const double sign = beyond ? 1 : -1;
-  StateBorder border{0, HarmonicVector::Zero(2 * n), 0, 0};
+  MotionNumber border{0, HarmonicVector::Zero(2 * n), 0, 0};
   if (!(norm > 0)) return border;
   border.value = sign * course.room() / norm;
   const double k = settings.tangential_stiffness;
@@ -159,6 +159,29 @@ double PressedElement::least_press(const PressedSettings& settings, std::span<co
   for (const double angle : closes.derivative().zeros()) least = std::min(least, closes.value(angle));
   return (settings.normal_force + settings.normal_stiffness * least) /
          (std::abs(settings.normal_force) + settings.normal_stiffness * closing.lpNorm<1>());
+}
+
+MotionNumber PressedElement::extreme_press(const Settings& settings, std::span<const int> orders,
+                                           const HarmonicVector& x, double load, Index closing,
+                                           bool greatest) {
+  const Index n = std::ssize(orders);
+  const PressedSettings here = settings.at(load, 0);
+  MotionNumber found{here.normal_force, HarmonicVector::Zero(x.size()), settings.by_log_load(load, 0), 0};
+  const auto rates = settings.rates(load);
+  found.by_setting = rates[PressedForce::normal_force];
+  if (closing * n < x.size()) {
+    const PeriodicMotion closes(orders, x.segment(closing * n, n), highest_order(orders));
+    const Swing swing = Swing::at(closes, closes.derivative().zeros());
+    const OddMotion::Maximum& place = greatest ? swing.greatest : swing.least;
+    found.value += here.normal_stiffness * place.value;
+    found.by_setting += rates[PressedForce::normal_stiffness] * place.value;
+    for (Index a = 0; a < n; ++a) {
+      found.by_motion(closing * n + a) =
+          std::polar(here.normal_stiffness, -orders[static_cast<std::size_t>(a)] * place.angle);
+    }
+  }
+  if (found.value > 0) return found;
+  return {0, HarmonicVector::Zero(x.size()), 0, 0};
 }
 
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

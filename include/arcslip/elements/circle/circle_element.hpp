@@ -22,6 +22,11 @@ class CircleElement final : public Element {
   double reference_stiffness(Index coordinate = 0) const override;
   bool is_odd() const override { return !closes_; }
   std::vector<std::string> readings() const override { return {"N_min", "N_max", "slip", "apart"}; }
+  bool has_gradient(Index reading) const override { return reading < 2; }
+  MotionNumber reading(Index which, std::span<const int> orders, const HarmonicVector& x,
+                       double load) const override {
+    return PressedElement::extreme_press(settings_, orders, x, load, 2, which == 1);
+  }
   bool dissipates() const override { return true; }
   std::vector<std::string> events() const override {
     return closes_ && settings_.normal.value > 0 ? std::vector<std::string>{"lift_off"}
@@ -37,8 +42,8 @@ class CircleElement final : public Element {
   bool is_linear(bool beyond) const override { return !beyond && (!closes_ || settings_.normal.value > 0); }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
-  StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
-                     bool beyond) const override;
+  MotionNumber border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
+                      bool beyond) const override;
 
  private:
   void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,

@@ -45,6 +45,11 @@ class PressedElement final : public Element {
   double reference_stiffness(Index coordinate = 0) const override;
   bool is_odd() const override { return false; }
   std::vector<std::string> readings() const override { return {"N_min", "N_max", "slip", "apart"}; }
+  bool has_gradient(Index reading) const override { return reading < 2; }
+  MotionNumber reading(Index which, std::span<const int> orders, const HarmonicVector& x,
+                       double load) const override {
+    return extreme_press(settings_, orders, x, load, 1, which == 1);
+  }
   bool dissipates() const override { return true; }
   std::vector<std::string> events() const override {
     return settings_.normal.value > 0 ? std::vector<std::string>{"lift_off"} : std::vector<std::string>{};
@@ -61,12 +66,16 @@ class PressedElement final : public Element {
              ElementForce& out) const override;
   DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
                          bool beyond) const override;
-  StateBorder border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
-                     bool beyond) const override;
+  MotionNumber border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
+                      bool beyond) const override;
 
   /// The least of N_0 + k_n g, over the sizes of both: negative where the parts come apart.
   static double least_press(const PressedSettings& settings, std::span<const int> orders,
                             const Eigen::Ref<const HarmonicVector>& closing);
+
+  /// The least or greatest of max(0, N_0 + k_n g) over a motion of which g is this coordinate, or none.
+  static MotionNumber extreme_press(const Settings& settings, std::span<const int> orders,
+                                    const HarmonicVector& x, double load, Index closing, bool greatest);
 
   /// Its numbers under a load.
   PressedSettings settings(double load) const { return settings_.at(load, 0); }

@@ -256,6 +256,8 @@ class HarmonicProblem : public continuation::Problem {
   /// Where Re or Im of a harmonic stands, by its position among those of all.
   Place place_of(Index unknown) const;
   static void add(const Place& place, double value, continuation::Gradient& gradient);
+  void add(const MotionNumber& number, Index element, const Vector& u, const Vector& p,
+           continuation::Gradient& gradient) const;
   /// Adds what is `value` times a change of the logarithm of an element's load.
   void add_log_load(double value, Index element, const Vector& u, const Vector& p,
                     continuation::Gradient& gradient) const;
