@@ -109,9 +109,9 @@ std::vector<std::size_t> in_order(const Stepper& stepper) {
   return order;
 }
 
-/// One border after the other, up to the first place that is known: where there are many a step passes some, of
-/// which all but one are looked for in vain. Those that are reached together there are looked for in all of
-/// the step.
+/// One border after the other, up to the first place that is known: where there are many a step passes some,
+/// of which all but one are looked for in vain. Those that are reached together there are looked for in all
+/// of the step.
 void search_borders(StepSearch& step) {
   Stepper& stepper = step.stepper;
   const double together = stepper.tolerances().together;
