@@ -204,7 +204,9 @@ std::unique_ptr<const RingLaw> ring_law(const Element& element, double load) {
     return std::make_unique<SliderLaw>(pressed->settings(load));
   if (const auto* masing = dynamic_cast<const MasingElement*>(&element))
     return masing_law(masing->backbone(), load);
-  throw std::invalid_argument("an element that is known by samples of its force has no motion in time here");
+  throw std::invalid_argument(
+      "friction in a plane and elements that are known by samples of their force have no motion in time "
+      "here");
 }
 
 }  // namespace arcslip
