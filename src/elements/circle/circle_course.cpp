@@ -81,7 +81,7 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
     const Complex force = first.centre - rests;
     if (std::abs(force) >= first.radius) {
       const double phase = std::arg(force);
-      rests = first.centre - std::polar(first.radius, phase);
+      rests = first.centre - first.radius * std::polar(1.0, phase);
       moved_ += rests - *offset;
       if (std::real(first.rate * std::polar(1.0, -phase)) > first.radius_rate) direction = phase;
     }
@@ -102,7 +102,7 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
     const Arc& arc = arcs_.back();
     if (!arc.panels.empty()) direction = arc.panels.back().phase(panel_nodes - 1);
     const CircleMotion::Local here = motion_.at(at);
-    rests = here.centre - std::polar(here.radius, *direction);
+    rests = here.centre - here.radius * std::polar(1.0, *direction);
     direction.reset();
   }
   if (at < end) is_endless_ = true;
