@@ -298,9 +298,6 @@ class TurnedMap {
     std::vector<Dense<Scalar>> ways;  // terms of their motions, each in a column
     const Index slots = state.rows() - 2 * n;
     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> turns = rates.block(0, n, n, n).diagonal();
-    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> fades = rates.block(n, n, n, n).diagonal();
-    const bool dragged =
-        std::any_of(laws_.begin(), laws_.end(), [](const DisturbedLaw& law) { return law.viscous != 0; });
     Dense<Scalar> forces;
     Dense<Scalar> next;
     Dense<Scalar> term = state;
@@ -320,12 +317,7 @@ class TurnedMap {
       }
       next.setZero(term.rows(), term.cols());
       next.topRows(n) = turns.asDiagonal() * term.middleRows(n, n);
-      next.middleRows(n, n).noalias() = rates.block(n, 0, n, n) * term.topRows(n);
-      if (dragged) {
-        next.middleRows(n, n).noalias() += rates.block(n, n, n, n) * term.middleRows(n, n);
-      } else {
-        next.middleRows(n, n) += fades.asDiagonal() * term.middleRows(n, n);
-      }
+      next.middleRows(n, n).noalias() = rates.block(n, 0, n, 2 * n) * term.topRows(2 * n);
       if (m == 0)  // memories rest, so that only their first term is there
         next.middleRows(n, n).noalias() += rates.block(n, 2 * n, n, slots) * term.bottomRows(slots);
       next.middleRows(n, n).noalias() -= push * forces.transpose();

@@ -26,4 +26,18 @@ inline PressedSettings random_pressed(RandomSystems& draw) {
   return {draw.uniform(0.1, 1), draw.uniform(0.5, 2), draw.uniform(0, 2), draw.uniform(-1, 3)};
 }
 
+/// Harmonics f0 c1 s1 c2 s2 c3 s3 of friction with k_t = 2, k_n = 2.5, mu = 0.75 under r = X cos
+/// theta, N = k_n max(0, n0 + n1 cos(theta - phi)); the first is Caughey's loop.
+struct PublishedLoop {
+  double X, n0, n1, phi;
+  std::vector<double> f;
+};
+inline std::vector<PublishedLoop> published_loops() {
+  return {{5, 1.5, 0, 0, {0, 2.3063833, -2.5738338, 0, 0, .6750446, .5295127}},
+          {5, 1.5, .9, pi / 2, {-.7799905, 2.2615872, -2.5517966, .7624896, .5069082, .6032107, .4563630}},
+          {5, 1.5, .9, pi / 3, {-.1477671, 2.3472949, -2.4130291, 1.0788891, .4432549, .4690568, .4549281}},
+          {5, 1.5, 2.1, pi / 3, {-.3646009, 2.4161268, -2.0987473, 2.1132815, .8470408, .0299844, .4077671}},
+          {2, 1.5, .9, 0, {1.5391530, 2.9714227, -.9659197, .0790543, .2388725, -.1821661, .1865300}}};
+}
+
 }  // namespace arcslip::testing
