@@ -57,7 +57,7 @@ struct Collocation {
 
 bool LinearLeap::pays(const Ring& ring, const VaryingForces& forces, double length) {
   constexpr double fading = 5;
-  return forces.curved.empty() && 10 * std::ssize(forces.rows) <= ring.coordinates() &&
+  return forces.are_linear() && 10 * std::ssize(forces.rows) <= ring.coordinates() &&
          ring.damping.cwiseAbs().maxCoeff() * length < fading;
 }
 

@@ -134,21 +134,21 @@ class MasingLaw final : public RingLaw {
     const double side = now.side;
     const double end = pieces_.end(now.zone);
     events.clear();
-    events.push_back({-side, 0, 0, true});
-    events.push_back({side, 0, side * turning(now, memory) + scale(now) * end});
+    events.push_back({RingEvent::Of::rate, -side});
+    events.push_back({RingEvent::Of::place, side, 0, side * turning(now, memory) + scale(now) * end});
     if (now.depth == 0) return;
     // A little before the loop closes, so that cycles which just do so are one kind of motion. The two
     // branches touch: forces differ by the square of it.
     constexpr double early = 1e-6;
     const double last = turning(now, memory);
     const double close = now.depth == 1 ? -last : memory[static_cast<std::size_t>(now.depth - 2)];
-    events.push_back({side, 0, side * close - early * std::abs(close - last)});
+    events.push_back({RingEvent::Of::place, side, 0, side * close - early * std::abs(close - last)});
   }
 
-  RingMemoryChange change(std::size_t which, const RingPlace& at, int& phase,
-                          std::span<double> memory) const override {
+  RingMemoryChanges change(std::size_t which, const RingPlace& at, int& phase,
+                           std::span<double> memory) const override {
     Phase now = unpacked(phase);
-    RingMemoryChange change;
+    RingMemoryChanges changes;
     if (which == 1) {
       ++now.zone;
     } else if (which == 2) {
@@ -157,14 +157,14 @@ class MasingLaw final : public RingLaw {
     } else {
       if (now.depth > 0 || now.side * at.x > 0) {
         if (now.depth == deepest) throw std::runtime_error("microslip: too many loops within loops");
-        change = {now.depth, 1, 0};
+        changes.push_back({now.depth, 1});
         memory[static_cast<std::size_t>(now.depth++)] = at.x;
       }
       now.side = -now.side;
       now.zone = 0;
     }
     phase = packed(now);
-    return change;
+    return changes;
   }
 
   bool needs(int phase, Index number) const override { return number < unpacked(phase).depth; }
@@ -174,7 +174,7 @@ class MasingLaw final : public RingLaw {
     return {number, 0, 0};
   }
 
-  void begin(const Vector& x, const RingPlace& now, double /*force*/, int& phase,
+  void begin(const Vector& x, const RingPlace& now, const Complex& /*force*/, int& phase,
              std::span<double> memory) const override {
     Index greatest = 0;
     x.cwiseAbs().maxCoeff(&greatest);

@@ -248,10 +248,12 @@ void add_elements(const Coordinates& coordinates, Ring& ring) {
   for (Index e = 0; e < coordinates.elements(); ++e) {
     const Index first = coordinates.first(e);
     const Coordinate& one = coordinates[first];
-    if (ring_law(*one.element, 1) == nullptr) continue;
-    const bool closes = one.element->coordinates() > 1;
-    ring.elements.push_back(
-        {one.element, first * ring.nodes(), closes ? (first + 1) * ring.nodes() : -1, one.factor});
+    const auto law = ring_law(*one.element, 1);
+    if (law == nullptr) continue;
+    const Index slides = law->circle() == nullptr ? 1 : 2;
+    const auto row = [&](Index which, bool exists) { return exists ? (first + which) * ring.nodes() : -1; };
+    ring.elements.push_back({one.element, row(0, true), row(1, slides > 1),
+                             row(slides, one.element->coordinates() > slides), one.factor});
   }
 }
 

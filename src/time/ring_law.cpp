@@ -4,9 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/elements/circle/circle_element.hpp"
 #include "arcslip/elements/idle.hpp"
 #include "arcslip/elements/jenkins.hpp"
 #include "arcslip/elements/pressed/pressed_element.hpp"
+#include "time/circle_law.hpp"
 #include "time/masing_law.hpp"
 
 namespace arcslip {
@@ -43,16 +45,16 @@ class PlainLaw final : public RingLaw {
 
   void events(int zone, std::span<const double> /*memory*/, std::vector<RingEvent>& events) const override {
     const auto [low, high] = law_.ends(zone);
-    events = {{1, 0, high}, {-1, 0, -low}};
+    events = {{RingEvent::Of::place, 1, 0, high}, {RingEvent::Of::place, -1, 0, -low}};
   }
 
-  RingMemoryChange change(std::size_t which, const RingPlace& /*at*/, int& zone,
-                          std::span<double> /*memory*/) const override {
+  RingMemoryChanges change(std::size_t which, const RingPlace& /*at*/, int& zone,
+                           std::span<double> /*memory*/) const override {
     zone += which == 0 ? 1 : -1;
     return {};
   }
 
-  void begin(const Vector& /*x*/, const RingPlace& now, double /*force*/, int& zone,
+  void begin(const Vector& /*x*/, const RingPlace& now, const Complex& /*force*/, int& zone,
              std::span<double> /*memory*/) const override {
     zone = law_.zone_at(now.x);
   }
@@ -73,11 +75,11 @@ class DashpotLaw final : public RingLaw {
               std::vector<RingEvent>& events) const override {
     events.clear();
   }
-  RingMemoryChange change(std::size_t /*which*/, const RingPlace& /*at*/, int& /*phase*/,
-                          std::span<double> /*memory*/) const override {
+  RingMemoryChanges change(std::size_t /*which*/, const RingPlace& /*at*/, int& /*phase*/,
+                           std::span<double> /*memory*/) const override {
     return {};
   }
-  void begin(const Vector& /*x*/, const RingPlace& /*now*/, double /*force*/, int& phase,
+  void begin(const Vector& /*x*/, const RingPlace& /*now*/, const Complex& /*force*/, int& phase,
              std::span<double> /*memory*/) const override {
     phase = 0;
   }
@@ -125,18 +127,19 @@ class SliderLaw final : public RingLaw {
   void events(int phase, std::span<const double> memory, std::vector<RingEvent>& events) const override {
     events.clear();
     if (phase == apart) {
-      events.push_back({0, normal_, -press_});
+      events.push_back({RingEvent::Of::place, 0, normal_, -press_});
     } else if (phase == stick) {
       for (const double side : {1.0, -1.0})
-        events.push_back({side * k_, -mu_ * normal_, side * k_ * memory[0] + mu_ * press_});
+        events.push_back(
+            {RingEvent::Of::place, side * k_, -mu_ * normal_, side * k_ * memory[0] + mu_ * press_});
     } else {
-      events.push_back({-phase * k_, mu_ * normal_, 0, true});
-      if (normal_ > 0) events.push_back({0, -normal_, press_});
+      events.push_back({RingEvent::Of::rate, -phase * k_, mu_ * normal_});
+      if (normal_ > 0) events.push_back({RingEvent::Of::place, 0, -normal_, press_});
     }
   }
 
-  RingMemoryChange change(std::size_t which, const RingPlace& at, int& phase,
-                          std::span<double> memory) const override {
+  RingMemoryChanges change(std::size_t which, const RingPlace& at, int& phase,
+                           std::span<double> memory) const override {
     if (phase == stick) {
       phase = which == 0 ? 1 : -1;
       return {};
@@ -148,7 +151,7 @@ class SliderLaw final : public RingLaw {
     }
     const RingMemoryChange left = idle(phase, at, 0, memory);
     phase = stick;
-    return left;
+    return {left};
   }
 
   bool needs(int phase, Index /*number*/) const override { return phase == stick; }
@@ -161,11 +164,11 @@ class SliderLaw final : public RingLaw {
     return {number, 1, -phase * mu_ / k_ * normal_};
   }
 
-  void begin(const Vector& /*x*/, const RingPlace& now, double force, int& phase,
+  void begin(const Vector& /*x*/, const RingPlace& now, const Complex& force, int& phase,
              std::span<double> memory) const override {
     const double limit = mu_ * (press_ + normal_ * now.g);
     phase = press_ + normal_ * now.g >= 0 ? stick : apart;
-    memory[0] = now.x - (phase == stick ? std::clamp(force, -limit, limit) / k_ : 0);
+    memory[0] = now.x - (phase == stick ? std::clamp(force.real(), -limit, limit) / k_ : 0);
   }
 
  private:
@@ -173,14 +176,14 @@ class SliderLaw final : public RingLaw {
   static constexpr int stick = 0;
   static constexpr int apart = 2;
 
-  RingMemoryChange touch(const RingPlace& at, int& phase, std::span<double> memory) const {
+  RingMemoryChanges touch(const RingPlace& at, int& phase, std::span<double> memory) const {
     if (k_ * std::abs(at.x_rate) > mu_ * normal_ * at.g_rate) {
       phase = at.x_rate > 0 ? 1 : -1;
       return {};
     }
     phase = stick;
     memory[0] = at.x;
-    return {0, 1, -at.x_rate / at.g_rate};
+    return {{0, 1, -at.x_rate / at.g_rate}};
   }
 
   double mu_;
@@ -204,9 +207,10 @@ std::unique_ptr<const RingLaw> ring_law(const Element& element, double load) {
     return std::make_unique<SliderLaw>(pressed->settings(load));
   if (const auto* masing = dynamic_cast<const MasingElement*>(&element))
     return masing_law(masing->backbone(), load);
+  if (const auto* circle = dynamic_cast<const CircleElement*>(&element))
+    return circle_law(circle->settings(load));
   throw std::invalid_argument(
-      "friction in a plane and elements that are known by samples of their force have no motion in time "
-      "here");
+      "elements that are known by samples of their force have no motion in time here");
 }
 
 }  // namespace arcslip

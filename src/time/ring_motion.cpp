@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
-#include "time/first_crossing.hpp"
 #include "time/law_series.hpp"
 
 namespace arcslip {
@@ -16,7 +14,6 @@ namespace {
 constexpr double reach = 8;
 constexpr double steps_per_period = 64;  // at least, so that quadrature resolves high harmonics
 constexpr double negligible = 1e-18;
-constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
 /// A bound on the largest eigenvalue of X X^T.
 double bound_of(const Matrix& rows) {
@@ -63,13 +60,15 @@ RingMotion::RingMotion(const Ring& ring, double eta, double preload)
   for (const RingElements& one : ring_.elements) {
     std::shared_ptr<const RingLaw> law = ring_law(*one.element, load_);
     double bound = bound_of(ring_.motion.middleRows(one.sliding, nodes));
-    if (one.closing >= 0) bound += bound_of(ring_.motion.middleRows(one.closing, nodes));
+    for (const Index more : {one.across, one.closing}) {
+      if (more >= 0) bound += bound_of(ring_.motion.middleRows(more, nodes));
+    }
     springs += std::abs(one.factor) * law->steepest() * bound;
     if (const double viscous = one.factor * law->viscous(); viscous != 0) {
       dragged_.conservativeResize(dragged_.rows() + nodes, Eigen::NoChange);
       dragged_.bottomRows(nodes) = std::sqrt(viscous) * ring_.motion.middleRows(one.sliding, nodes);
     }
-    families_.push_back({law, one.sliding, one.closing, memories_, one.factor});
+    families_.push_back({law, one.sliding, one.across, one.closing, memories_, one.factor});
     memories_ += law->memories() * nodes;
   }
   const double drag = dragged_.rows() > 0 ? bound_of(dragged_) : 0;
@@ -89,12 +88,16 @@ std::vector<double> RingMotion::memory_of(Index which, const RingState& state) c
 }
 
 RingPlace RingMotion::place_of(Index which, const Vector& position, const Vector& velocity) const {
-  const auto sliding = ring_.motion.row(family(which).sliding + node(which));
-  RingPlace place{sliding.dot(position), sliding.dot(velocity)};
-  if (family(which).closing < 0) return place;
-  const auto closing = ring_.motion.row(family(which).closing + node(which));
-  place.g = closing.dot(position);
-  place.g_rate = closing.dot(velocity);
+  const auto at = [&](Index first, double& value, double& rate) {
+    if (first < 0) return;
+    const auto row = ring_.motion.row(first + node(which));
+    value = row.dot(position);
+    rate = row.dot(velocity);
+  };
+  RingPlace place{};
+  at(family(which).sliding, place.x, place.x_rate);
+  at(family(which).across, place.y, place.y_rate);
+  at(family(which).closing, place.g, place.g_rate);
   return place;
 }
 
@@ -107,7 +110,8 @@ void RingMotion::refresh(Index which, const RingState& state) {
   for (auto* terms : {&branch.powers, &branch.by_memory}) {
     for (double& term : *terms) term *= factor;
   }
-  for (double* term : {&branch.offset, &branch.by_closing, &branch.closing_stiffness, &branch.closing_offset})
+  for (double* term : {&branch.offset, &branch.across, &branch.by_closing, &branch.closing_stiffness,
+                       &branch.closing_offset})
     *term *= factor;
   family(which).law->events(state.phase[e], memory, events_[e]);
 }
@@ -117,10 +121,12 @@ void RingMotion::refresh_all(const RingState& state) {
   gather();
 }
 
-void RingMotion::add_row(Index row) {
-  if (places_[static_cast<std::size_t>(row)] >= 0) return;
-  places_[static_cast<std::size_t>(row)] = std::ssize(varying_.rows);
+Index RingMotion::add_row(Index row) {
+  Index& place = places_[static_cast<std::size_t>(row)];
+  if (place >= 0) return place;
+  place = std::ssize(varying_.rows);
   varying_.rows.push_back(row);
+  return place;
 }
 
 /// The forces that vary, and the others.
@@ -129,13 +135,19 @@ void RingMotion::gather() {
   offset_.setZero(ring_.motion.rows());
   varying_.rows.clear();
   varying_.curved.clear();
+  varying_.circles.clear();
   for (Index e = 0; e < elements(); ++e) {
     const RingBranch& one = branch(e);
     const Index sliding = family(e).sliding + node(e);
+    const Index across = family(e).across + node(e);
     const Index closing = family(e).closing + node(e);
+    const bool closes = family(e).closing >= 0;
     offset_(sliding) += one.offset;
     if (!one.powers.empty() || one.by_closing != 0) add_row(sliding);
-    if (family(e).closing < 0) continue;
+    if (one.across != 0) add_row(across);
+    if (one.slips_round)
+      varying_.circles.push_back({e, add_row(sliding), add_row(across), closes ? add_row(closing) : -1});
+    if (!closes) continue;
     offset_(closing) += one.closing_offset;
     if (one.by_closing != 0 || one.closing_stiffness != 0) add_row(closing);
   }
@@ -153,6 +165,11 @@ void RingMotion::gather() {
       if (one.powers.size() == 1) varying_.linear(place) = one.powers[0];
       if (one.powers.size() > 1) varying_.curved.emplace_back(place, one.powers);
     }
+    if (one.across != 0) {
+      const Index across = places_[static_cast<std::size_t>(family(e).across + node(e))];
+      varying_.linear(across) = one.across;
+      varying_.origin(across) = one.across_origin;
+    }
     if (family(e).closing < 0) continue;
     const Index closing = places_[static_cast<std::size_t>(family(e).closing + node(e))];
     if (closing < 0) continue;
@@ -163,8 +180,17 @@ void RingMotion::gather() {
   }
 }
 
-Vector RingMotion::forces(const Vector& x, const Vector& rate) const {
+Vector RingMotion::forces(const RingSegment& segment, double ratio, const Vector& x,
+                          const Vector& rate) const {
   Vector all = offset_;
+  if (!varying_.circles.empty()) {
+    const Vector slip = RingSegment::value(segment.slip, ratio);
+    for (std::size_t i = 0; i < varying_.circles.size(); ++i) {
+      const VaryingForces::Circle& circle = varying_.circles[i];
+      all(varying_.rows[static_cast<std::size_t>(circle.x)]) += slip(2 * static_cast<Index>(i));
+      all(varying_.rows[static_cast<std::size_t>(circle.y)]) += slip(2 * static_cast<Index>(i) + 1);
+    }
+  }
   for (Index e = 0; e < elements(); ++e) {
     const RingBranch& one = branch(e);
     const Index sliding = family(e).sliding + node(e);
@@ -172,6 +198,10 @@ Vector RingMotion::forces(const Vector& x, const Vector& rate) const {
     double sum = 0;
     for (std::size_t k = one.powers.size(); k-- > 0;) sum = (sum + one.powers[k]) * (x(sliding) - one.origin);
     all(sliding) += sum;
+    if (one.across != 0) {
+      const Index across = family(e).across + node(e);
+      all(across) += one.across * (x(across) - one.across_origin);
+    }
     if (family(e).closing < 0) continue;
     const Index closing = family(e).closing + node(e);
     all(sliding) += one.by_closing * x(closing);
@@ -182,12 +212,13 @@ Vector RingMotion::forces(const Vector& x, const Vector& rate) const {
 
 /// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
 bool RingMotion::expands(const RingState& state, double length) {
-  const bool is_linear = varying_.curved.empty();
+  const bool is_linear = varying_.are_linear();
   const Index order = series_order(rate_ * length + fastest_load_ * length) + (is_linear ? 0 : 10);
   std::vector<std::vector<double>> powers;
   for (const auto& [place, of_place] : varying_.curved) powers.push_back(of_place);
   LawSeries laws(powers, order);
   Vector curved(std::ssize(powers));
+  begin_slips(state, order);
   segment_.start = state.time;
   segment_.scale = length;
   segment_.length = length;
@@ -229,6 +260,7 @@ bool RingMotion::expands(const RingState& state, double length) {
         curved = laws.force();
         for (Index i = 0; i < curved.size(); ++i)
           local(varying_.curved[static_cast<std::size_t>(i)].first) += curved(i);
+        take_slips(m, x, local);
       }
       forces.noalias() -= varying_.motion.transpose() * local;
     }
@@ -238,71 +270,15 @@ bool RingMotion::expands(const RingState& state, double length) {
     p.col(m + 2) = forces * (length * length / (next * (next + 1)));
     const double size = p.middleCols(m + 1, 2).cwiseAbs().maxCoeff();
     largest = std::max(largest, size);
-    if (next * size > negligible * largest || next < fastest_load_ * length) continue;
+    if (next * size > negligible * largest || next < fastest_load_ * length || !slips_end()) continue;
     needed = m + 2;
     is_summed = true;
     break;
   }
   p.conservativeResize(Eigen::NoChange, needed + 1);
+  segment_.slip.conservativeResize(Eigen::NoChange, needed + 1);
   segment_.motion.noalias() = ring_.motion * p;
   return is_summed;
-}
-
-const std::vector<RingMotion::Crossing>& RingMotion::first_crossings(const RingState& state) {
-  // What the sums x and x' may be wrong by is no crossing.
-  const Vector loose = rounding * (sizes_ * state.position.cwiseAbs());
-  const Vector loose_rate = (rounding * segment_.scale) * (sizes_ * state.velocity.cwiseAbs());
-  const Matrix& x = segment_.motion;
-  const Index order = x.cols() - 1;
-  crossings_.clear();
-  double first = 1;
-  const auto add = [&](Index row, double part, bool of_rate) {
-    if (part == 0) return;
-    if (!of_rate) {
-      function_ += part * x.row(row).transpose();
-      function_(0) -= std::abs(part) * loose(row);
-      return;
-    }
-    for (Index m = 1; m <= order; ++m) function_(m - 1) += part * static_cast<double>(m) * x(row, m);
-    function_(0) -= std::abs(part) * loose_rate(row);
-  };
-  for (Index e = 0; e < elements(); ++e) {
-    const auto& events = events_[static_cast<std::size_t>(e)];
-    std::optional<Crossing> earliest;
-    for (std::size_t k = 0; k < events.size(); ++k) {
-      const RingEvent& event = events[k];
-      if (std::isinf(event.level)) continue;
-      function_.setZero(event.of_rate ? order : order + 1);
-      add(family(e).sliding + node(e), event.sliding, event.of_rate);
-      if (event.closing != 0) add(family(e).closing + node(e), event.closing, event.of_rate);
-      if (!event.of_rate) function_(0) -= event.level + rounding * std::abs(event.level);
-      const auto ratio = first_crossing(function_);
-      if (!ratio || (earliest && *ratio >= earliest->ratio)) continue;
-      earliest = Crossing{e, k, *ratio};
-    }
-    if (!earliest) continue;
-    crossings_.push_back(*earliest);
-    first = std::min(first, earliest->ratio);
-  }
-  std::erase_if(crossings_, [&](const Crossing& crossing) { return crossing.ratio > first * (1 + 1e-13); });
-  for (Crossing& crossing : crossings_) crossing.ratio = first;
-  return crossings_;
-}
-
-void RingMotion::take_events(RingState& state, RingObserver* observer) {
-  for (const Crossing& crossing : crossings_) {
-    const Index e = crossing.which;
-    const RingPlace place = place_of(e, state.position, state.velocity);
-    std::vector<double> memory = memory_of(e, state);
-    const RingMemoryChange change =
-        family(e).law->change(crossing.event, place, state.phase[static_cast<std::size_t>(e)], memory);
-    for (std::size_t j = 0; j < memory.size(); ++j)
-      state.memory(memory_place(e, static_cast<Index>(j))) = memory[j];
-    refresh(e, state);
-    ++count_.events;
-    if (observer != nullptr) observer->change(e, change, state);
-  }
-  if (!crossings_.empty()) gather();
 }
 
 /// Gives memory that no phase needs the value that belongs to it.
@@ -322,11 +298,14 @@ void RingMotion::leave_idle(RingState& state) const {
 void RingMotion::advance(RingState& state, double duration, RingObserver* observer) {
   const double start = state.time;
   double elapsed = 0;
+  double longest = longest_step_;
   Index at_once = 0;
   refresh_all(state);
   while (duration - elapsed > 1e-15 * period_) {
-    double length = std::min(longest_step_, duration - elapsed);
+    const double wanted = std::min(longest, duration - elapsed);
+    double length = wanted;
     while (!expands(state, length)) length *= 0.5;
+    longest = length < wanted ? 2 * length : std::min(longest_step_, 4 * longest);
     ++count_.steps;
     const std::vector<Crossing>& crossings = first_crossings(state);
     const double ratio = crossings.empty() ? 1 : crossings.front().ratio;
@@ -334,6 +313,7 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
     if (observer != nullptr) observer->follow(segment_, state);
     state.position = RingSegment::value(segment_.position, ratio);
     state.velocity = segment_.rate(segment_.position, ratio);
+    move_sliders(ratio, state);
     elapsed += segment_.length;
     state.time = start + elapsed;
     at_once = ratio > 0 ? 0 : at_once + 1;

@@ -42,7 +42,8 @@ void HarmonicRecord::follow(const RingSegment& segment, const RingState& /*state
     const double t = node.place * segment.length;
     const Vector y = RingSegment::value(base, t / segment.scale);
     const Vector x = RingSegment::value(segment.motion, t / segment.scale);
-    const Vector force = motion_.forces(x, segment.rate(segment.motion, t / segment.scale));
+    const Vector force =
+        motion_.forces(segment, t / segment.scale, x, segment.rate(segment.motion, t / segment.scale));
     for (std::size_t h = 0; h < orders_.size(); ++h) {
       const Complex wave =
           std::polar(node.weight * segment.length, -orders_[h] * motion_.frequency() * (segment.start + t));
@@ -94,7 +95,7 @@ void EnergyRecord::follow(const RingSegment& segment, const RingState& /*state*/
     damping_ += weight * ring.damping.dot(velocity.cwiseAbs2());
     const Vector x = RingSegment::value(segment.motion, t / segment.scale);
     const Vector rate = ring.motion * velocity;
-    elements_ += weight * motion_.forces(x, rate).dot(rate);
+    elements_ += weight * motion_.forces(segment, t / segment.scale, x, rate).dot(rate);
   }
 }
 

@@ -243,7 +243,9 @@ Matrix neutral_drifts(const RingMotion& motion, bool any_wave, const std::vector
   };
   for (std::size_t f = 0; f < motion.families().size(); ++f) {
     const RingMotion::Family& one = motion.families()[f];
-    if (!one.law->forgets_place() || (!moved.empty() && !moved[f])) hold(one.sliding);
+    for (const Index first : {one.sliding, one.across}) {
+      if (first >= 0 && (!one.law->forgets_place() || (!moved.empty() && !moved[f]))) hold(first);
+    }
     if (one.closing >= 0 && !one.law->forgets_closing()) hold(one.closing);
   }
   Matrix drifts(2 * coordinates + motion.memories(), 0);
@@ -259,8 +261,10 @@ Matrix neutral_drifts(const RingMotion& motion, bool any_wave, const std::vector
       for (Index k = 0; k < column.size(); ++k) drift(rigid[static_cast<std::size_t>(k)]) = column(k);
       for (const RingMotion::Family& one : motion.families()) {
         if (!one.law->forgets_place()) continue;
-        drift.segment(2 * coordinates + one.memory, nodes) =
-            ring.motion.middleRows(one.sliding, nodes) * drift.head(coordinates);
+        for (Index j = 0; j < one.law->memories(); ++j) {
+          drift.segment(2 * coordinates + one.memory + j * nodes, nodes) =
+              ring.motion.middleRows(RingMotion::row_of(one, j), nodes) * drift.head(coordinates);
+        }
       }
       drifts.conservativeResize(Eigen::NoChange, drifts.cols() + 1);
       drifts.rightCols(1) = drift;

@@ -53,6 +53,7 @@ void RingMotion::begin_elements(const std::vector<RingHarmonic>& harmonics, Ring
     turns.push_back(std::polar(1.0, two_pi * static_cast<double>(s) / static_cast<double>(samples)));
   const auto sampled = [&](Index row, auto part, bool rate) {
     Vector x = Vector::Zero(samples);
+    if (row < 0) return x;
     for (const RingHarmonic& one : harmonics) {
       Complex value = (one.*part)(row / nodes);
       if (rate) value *= Complex(0, one.order * frequency_);
@@ -62,12 +63,14 @@ void RingMotion::begin_elements(const std::vector<RingHarmonic>& harmonics, Ring
     return x;
   };
   for (const Family& one : families_) {
-    const Index closing = one.closing < 0 ? one.sliding : one.closing;
     const Vector x = sampled(one.sliding, &RingHarmonic::motion, false);
     const Vector x_rate = sampled(one.sliding, &RingHarmonic::motion, true);
-    const Vector g = sampled(closing, &RingHarmonic::motion, false);
-    const Vector g_rate = sampled(closing, &RingHarmonic::motion, true);
+    const Vector y = sampled(one.across, &RingHarmonic::motion, false);
+    const Vector y_rate = sampled(one.across, &RingHarmonic::motion, true);
+    const Vector g = sampled(one.closing, &RingHarmonic::motion, false);
+    const Vector g_rate = sampled(one.closing, &RingHarmonic::motion, true);
     const Vector force = sampled(one.sliding, &RingHarmonic::force, false);
+    const Vector force_across = sampled(one.across, &RingHarmonic::force, false);
     const Index first = (&one - families_.data()) * nodes;
     for (Index i = 0; i < nodes; ++i) {
       const Index now = (samples - ring_.wave_number * i % nodes * stride) % samples;
@@ -75,8 +78,8 @@ void RingMotion::begin_elements(const std::vector<RingHarmonic>& harmonics, Ring
       before << x.tail(samples - 1 - now), x.head(now + 1);
       std::vector<double> memory(static_cast<std::size_t>(one.law->memories()), 0.0);
       int& phase = state.phase[static_cast<std::size_t>(first + i)];
-      one.law->begin(before, {x(now), x_rate(now), g(now), g_rate(now)}, force(now) / one.factor, phase,
-                     memory);
+      one.law->begin(before, {x(now), x_rate(now), g(now), g_rate(now), y(now), y_rate(now)},
+                     Complex(force(now), force_across(now)) / one.factor, phase, memory);
       for (std::size_t j = 0; j < memory.size(); ++j)
         state.memory(memory_place(first + i, static_cast<Index>(j))) = memory[j];
     }

@@ -19,17 +19,22 @@ void RingTangent::follow(const RingSegment& segment, const RingState& state) {
     changed_.assign(motion_.families().size(), false);
   }
   if (segment.length == 0) return;
-  const bool is_linear = motion_.varying().curved.empty();
+  const bool is_linear = motion_.varying().are_linear();
   if (goes_on_ && is_linear) {  // no phase has changed since
     stretches_.back().length += segment.length;
     return;
   }
   goes_on_ = is_linear;
   Stretch stretch{
-      segment.length, series_order(motion_.fastest_rate() * segment.length), motion_.varying(), {}, {}};
-  if (!stretch.forces.curved.empty()) stretch.order += segment.position.cols();
+      segment.length, series_order(motion_.fastest_rate() * segment.length), motion_.varying(), {}, {}, {}};
+  if (!is_linear) stretch.order += segment.position.cols();
   note_memory(stretch);
   note_slopes(segment, stretch);
+  for (std::size_t i = 0; i < stretch.forces.circles.size(); ++i) {
+    const RingMotion::Family& family = motion_.family(stretch.forces.circles[i].element);
+    stretch.slips.push_back(
+        SlipTangent::Step::of(motion_.slips()[i], *family.law->circle(), segment.length / segment.scale));
+  }
   stretches_.push_back(std::move(stretch));
 }
 
@@ -51,6 +56,10 @@ void RingTangent::note_memory(Stretch& stretch) const {
     if (branch.origin_memory >= 0)
       stretch.memory.push_back({here, motion_.memory_place(e, branch.origin_memory), -forces.linear(here),
                                 curved[static_cast<std::size_t>(here)]});
+    if (branch.across == 0) continue;
+    const Index across = place[static_cast<std::size_t>(motion_.family(e).across + motion_.node(e))];
+    stretch.memory.push_back(
+        {across, motion_.memory_place(e, branch.origin_memory + 1), -forces.linear(across), -1});
   }
 }
 
@@ -76,22 +85,50 @@ void RingTangent::note_slopes(const RingSegment& segment, Stretch& stretch) cons
   }
 }
 
-void RingTangent::change(Index which, const RingMemoryChange& memory, const RingState& /*state*/) {
+void RingTangent::change(Index which, const RingMemoryChanges& memory, const RingState& /*state*/) {
   changed_[static_cast<std::size_t>(which / motion_.ring().nodes())] = true;
   goes_on_ = false;
-  if (memory.number < 0) return;
-  const RingMotion::Family& family = motion_.family(which);
-  const Index node = motion_.node(which);
-  changes_.push_back({stretches_.size(), motion_.memory_place(which, memory.number), family.sliding + node,
-                      family.closing < 0 ? -1 : family.closing + node, memory});
+  for (const RingMemoryChange& one : memory) changes_.push_back({stretches_.size(), which, one});
 }
 
-void RingTangent::take(const Change& change, Columns& columns) const {
-  const Matrix& motion = motion_.ring().motion;
-  auto row = columns.memory.row(change.number);
-  row.noalias() = change.memory.by_sliding * (motion.row(change.sliding) * columns.position);
-  if (change.memory.by_closing != 0)
-    row.noalias() += change.memory.by_closing * (motion.row(change.closing) * columns.position);
+/// What becomes of a number of the memory that displacements move.
+Eigen::RowVectorXd RingTangent::memory_row(Index element, const RingMemoryChange& change,
+                                           const Matrix& position) const {
+  const RingMotion::Family& family = motion_.family(element);
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(position.cols());
+  const auto add = [&](Index first, double part) {
+    if (part != 0) sum += part * (motion_.ring().motion.row(first + motion_.node(element)) * position);
+  };
+  add(family.sliding, change.by_sliding);
+  add(family.across, change.by_across);
+  add(family.closing, change.by_closing);
+  return sum;
+}
+
+std::vector<SlipTangent> RingTangent::slips_of(const Stretch& stretch, const Columns& columns) const {
+  std::vector<SlipTangent> slips;
+  for (std::size_t i = 0; i < stretch.slips.size(); ++i) {
+    const Index element = stretch.forces.circles[i].element;
+    slips.emplace_back(stretch.slips[i], columns.memory.row(motion_.memory_place(element, 0)),
+                       columns.memory.row(motion_.memory_place(element, 1)));
+  }
+  return slips;
+}
+
+void RingTangent::finish_slips(const Stretch& stretch, const std::vector<SlipTangent>& slips,
+                               Columns& columns) const {
+  if (slips.empty()) return;
+  const Matrix x = stretch.forces.motion * columns.position;
+  for (std::size_t i = 0; i < slips.size(); ++i) {
+    const VaryingForces::Circle& circle = stretch.forces.circles[i];
+    SlipTangent::Row z_x;
+    SlipTangent::Row z_y;
+    slips[i].finish(x.row(circle.x), x.row(circle.y),
+                    circle.g < 0 ? SlipTangent::Row::Zero(x.cols()) : SlipTangent::Row(x.row(circle.g)), z_x,
+                    z_y);
+    columns.memory.row(motion_.memory_place(circle.element, 0)) = z_x;
+    columns.memory.row(motion_.memory_place(circle.element, 1)) = z_y;
+  }
 }
 
 void RingTangent::take(const Stretch& stretch, Columns& columns) const {
@@ -99,6 +136,9 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   const VaryingForces& forces = stretch.forces;
   const double h = stretch.length;
   std::vector<Matrix> motions;  // of those that are not linear, term by term
+  std::vector<SlipTangent> slips = slips_of(stretch, columns);
+  SlipTangent::Row slip_x;
+  SlipTangent::Row slip_y;
   Matrix now = columns.position;
   Matrix next = h * columns.velocity;
   Matrix rate = next;  // h times the velocity
@@ -133,6 +173,15 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
             row += stretch.slopes(i, m - j) * motions[static_cast<std::size_t>(j)].row(i);
         }
       }
+      for (std::size_t i = 0; i < slips.size(); ++i) {
+        const VaryingForces::Circle& circle = forces.circles[i];
+        const double factor = motion_.family(circle.element).factor;
+        slips[i].take(x.row(circle.x), x.row(circle.y),
+                      circle.g < 0 ? SlipTangent::Row::Zero(x.cols()) : SlipTangent::Row(x.row(circle.g)),
+                      slip_x, slip_y);
+        local.row(circle.x) += factor * slip_x;
+        local.row(circle.y) += factor * slip_y;
+      }
       force.noalias() = forces.motion.transpose() * local;
     }
     if (motion_.dragged().rows() > 0) {
@@ -156,6 +205,7 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
     now.swap(next);
   }
   columns.velocity = rate / h;
+  finish_slips(stretch, slips, columns);
 }
 
 /// In closed form where few forces vary, else by series over parts that these are summed to rounding in.
@@ -173,10 +223,11 @@ void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
       flow.take(constant, columns.position, columns.velocity);
     return;
   }
-  const double parts = stretch.forces.curved.empty() ? std::ceil(stretch.length * rate / longest - 1e-9) : 1;
+  const bool is_linear = stretch.forces.are_linear();
+  const double parts = is_linear ? std::ceil(stretch.length * rate / longest - 1e-9) : 1;
   Stretch one = stretch;
   one.length /= parts;
-  if (stretch.forces.curved.empty()) one.order = series_order(rate * one.length);
+  if (is_linear) one.order = series_order(rate * one.length);
   for (Index first = 0; first < columns.position.cols(); first += columns_at_once) {
     const Index count = std::min(columns_at_once, columns.position.cols() - first);
     Columns some{columns.position.middleCols(first, count), columns.velocity.middleCols(first, count),
@@ -184,13 +235,17 @@ void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
     for (int part = 0; part < static_cast<int>(parts); ++part) take(one, some);
     columns.position.middleCols(first, count) = some.position;
     columns.velocity.middleCols(first, count) = some.velocity;
+    if (!stretch.slips.empty()) columns.memory.middleCols(first, count) = some.memory;
   }
 }
 
 void RingTangent::take_all(Columns& columns) const {
   auto change = changes_.begin();
   for (std::size_t k = 0; k <= stretches_.size(); ++k) {
-    for (; change != changes_.end() && change->after == k; ++change) take(*change, columns);
+    for (; change != changes_.end() && change->after == k; ++change) {
+      columns.memory.row(motion_.memory_place(change->element, change->memory.number)) =
+          memory_row(change->element, change->memory, columns.position);
+    }
     if (k < stretches_.size()) take_whole(stretches_[k], columns);
   }
 }
@@ -203,7 +258,7 @@ bool RingTangent::is_uniform() const {
     if (phase_[e] != phase_[e / nodes * nodes]) return false;
   }
   return std::all_of(stretches_.begin(), stretches_.end(), [](const Stretch& one) {
-    return one.forces.curved.empty() &&
+    return one.forces.are_linear() &&
            std::all_of(one.memory.begin(), one.memory.end(), [&](const auto& number) {
              return number.coefficient == -one.forces.linear(number.place);
            });
@@ -282,7 +337,7 @@ Matrix RingTangent::wave_by_wave() const {
 
 /// Rows of memory that the phases at the end do not need; it follows the displacements.
 void RingTangent::add_idle(const RingState& state, Matrix& all) const {
-  const Ring& ring = motion_.ring();
+  const Index coordinates = motion_.ring().coordinates();
   for (Index e = 0; e < motion_.elements(); ++e) {
     const RingMotion::Family& family = motion_.family(e);
     const int phase = state.phase[static_cast<std::size_t>(e)];
@@ -291,11 +346,7 @@ void RingTangent::add_idle(const RingState& state, Matrix& all) const {
       std::vector<double> memory = motion_.memory_of(e, state);
       const RingMemoryChange change =
           family.law->idle(phase, motion_.place_of(e, state.position, state.velocity), j, memory);
-      auto row = all.row(2 * ring.coordinates() + motion_.memory_place(e, j));
-      const Index node = motion_.node(e);
-      row = change.by_sliding * (ring.motion.row(family.sliding + node) * all.topRows(ring.coordinates()));
-      if (change.by_closing != 0)
-        row += change.by_closing * (ring.motion.row(family.closing + node) * all.topRows(ring.coordinates()));
+      all.row(2 * coordinates + motion_.memory_place(e, j)) = memory_row(e, change, all.topRows(coordinates));
     }
   }
 }
@@ -329,7 +380,8 @@ std::vector<bool> RingTangent::moved() const {
     const RingLaw& law = *motion_.family(e).law;
     const int phase = phase_[static_cast<std::size_t>(e)];
     for (Index j = 0; j < law.memories(); ++j) {
-      if (!law.needs(phase, j)) moved[static_cast<std::size_t>(e / motion_.ring().nodes())] = true;
+      if (!law.needs(phase, j) || law.flows(phase))
+        moved[static_cast<std::size_t>(e / motion_.ring().nodes())] = true;
     }
   }
   return moved;

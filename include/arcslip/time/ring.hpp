@@ -30,7 +30,8 @@ namespace arcslip {
 struct RingElements {
   std::shared_ptr<const Element> element;  ///< one of them
   Index sliding;                           ///< the first of the N rows of its first coordinate
-  Index closing;                           ///< and of its second one, or -1
+  Index across;                            ///< of the second one along which it slides, or -1
+  Index closing;                           ///< of the one along which it closes, or -1
   double factor;                           ///< on its force
 };
 

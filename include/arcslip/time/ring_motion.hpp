@@ -6,7 +6,8 @@
 //   (m+1)(m+2) p_{m+2} = L_m - W p_m - (m+1) D p_{m+1} - X^T f_m
 //
 // is summed to rounding, over steps of a few units of the fastest rate of the ring, or shorter ones where
-// forces are no linear ones. So every displacement is a polynomial in a step, of which the first event is
+// forces are no linear ones, which a friction circle that slips brings along by a series of its own
+// (slip_series.hpp). So every displacement is a polynomial in a step, of which the first event is
 // found without sampling. It needs no decomposition for each pattern of phases, of which a transient has
 // hundreds, and has no exception where the damped modes are defective.
 
@@ -15,6 +16,7 @@
 
 #include "arcslip/time/ring.hpp"
 #include "arcslip/time/ring_law.hpp"
+#include "arcslip/time/slip_series.hpp"
 
 namespace arcslip {
 
@@ -36,6 +38,7 @@ struct RingSegment {
   double length = 0;  ///< of the step, in time
   Matrix position;    ///< D x (order + 1)
   Matrix motion;      ///< coordinates of all elements x (order + 1): x
+  Matrix slip;        ///< forces of friction circles that slip, x and y in turn, x (order + 1)
 
   /// Values of the rows of `series`, and their derivatives in time, at start + ratio * scale.
   static Vector value(const Matrix& series, double ratio);
@@ -51,7 +54,7 @@ class RingObserver {
   virtual void follow(const RingSegment& segment, const RingState& state) = 0;
 
   /// Element `which` of `state` has just changed its phase, at state.time.
-  virtual void change(Index /*which*/, const RingMemoryChange& /*memory*/, const RingState& /*state*/) {}
+  virtual void change(Index /*which*/, const RingMemoryChanges& /*memory*/, const RingState& /*state*/) {}
 };
 
 /// What a motion has cost.
@@ -69,6 +72,13 @@ struct RingHarmonic {
 
 /// Forces of the elements that vary within their phases: of some coordinates.
 struct VaryingForces {
+  /// A friction circle that slips.
+  struct Circle {
+    Index element;  ///< which
+    Index x;        ///< place here of its coordinates
+    Index y;        ///< the same
+    Index g;        ///< the same, or -1
+  };
   std::vector<Index> rows;   ///< which coordinates they are
   Matrix motion;             ///< their rows of X
   Vector linear;             ///< stiffness against the own displacement
@@ -76,6 +86,10 @@ struct VaryingForces {
   std::vector<Index> other;  ///< the place here of another coordinate that moves the force, or -1
   Vector cross;              ///< by how much it does
   std::vector<std::pair<Index, std::vector<double>>> curved;  ///< place and powers of those not linear
+  std::vector<Circle> circles;
+
+  /// Whether all forces are linear.
+  bool are_linear() const { return curved.empty() && circles.empty(); }
 };
 
 /// Equation of motion of `ring` at one eta and preload.
@@ -110,6 +124,7 @@ class RingMotion {
   struct Family {
     std::shared_ptr<const RingLaw> law;
     Index sliding;  ///< first row of X
+    Index across;   ///< the same, or -1
     Index closing;  ///< the same, or -1
     Index memory;   ///< first number in the state's memory
     double factor;  ///< on forces
@@ -128,6 +143,10 @@ class RingMotion {
   }
   std::vector<double> memory_of(Index which, const RingState& state) const;
   RingPlace place_of(Index which, const Vector& position, const Vector& velocity) const;
+  /// First row of X of the coordinate that moves the place which this number of the memory is.
+  static Index row_of(const Family& family, Index number) {
+    return family.across >= 0 && number == 1 ? family.across : family.sliding;
+  }
 
   /// What holds since the last event of what was advanced.
   const VaryingForces& varying() const { return varying_; }
@@ -135,8 +154,11 @@ class RingMotion {
   /// their coefficients over dx/dt.
   const Matrix& dragged() const { return dragged_; }
   const RingBranch& branch(Index which) const { return branches_[static_cast<std::size_t>(which)]; }
-  /// Forces there at displacements x and velocities of all coordinates.
-  Vector forces(const Vector& x, const Vector& rate) const;
+  /// Forces of all coordinates at start + ratio * scale of the segment, where their displacements and rates
+  /// are these.
+  Vector forces(const RingSegment& segment, double ratio, const Vector& x, const Vector& rate) const;
+  /// The slip of each circle of `varying` over the last step, in units of the segment's scale.
+  const std::vector<SlipSeries>& slips() const { return slips_; }
 
  private:
   struct Crossing {
@@ -148,7 +170,14 @@ class RingMotion {
   void refresh(Index which, const RingState& state);
   void refresh_all(const RingState& state);
   void gather();
-  void add_row(Index row);
+  Index add_row(Index row);
+  void begin_slips(const RingState& state, Index order);
+  void take_slips(Index m, const Vector& x, Vector& local);
+  bool slips_end() const;
+  void move_sliders(double ratio, RingState& state) const;
+  Vector event_function(Index which, const RingEvent& event, const RingState& state) const;
+  Vector excess(Index which, const RingState& state) const;
+  Vector opposite_slip(Index which) const;
   bool expands(const RingState& state, double length);
   const std::vector<Crossing>& first_crossings(const RingState& state);
   void take_events(RingState& state, RingObserver* observer);
@@ -176,7 +205,9 @@ class RingMotion {
   RingSegment segment_;
   std::vector<Complex> phases_;
   std::vector<Crossing> crossings_;
-  Vector function_;
+  Vector loose_;       ///< what displacements may be wrong by
+  Vector loose_rate_;  ///< the same of velocities, over the segment's scale
+  std::vector<SlipSeries> slips_;
   RingCount count_;
 };
 

@@ -14,7 +14,7 @@ class RingTangent : public RingObserver {
  public:
   explicit RingTangent(const RingMotion& motion) : motion_(motion) {}
   void follow(const RingSegment& segment, const RingState& state) override;
-  void change(Index which, const RingMemoryChange& memory, const RingState& state) override;
+  void change(Index which, const RingMemoryChanges& memory, const RingState& state) override;
 
   /// The derivative of position, velocity and memory of `state`, at the end, by those at the start: (2D + M)
   /// x (2D + M). Columns of memory that the phases at the start do not need are zero: it is no free state.
@@ -36,13 +36,12 @@ class RingTangent : public RingObserver {
     Index order;
     VaryingForces forces;
     std::vector<Remembered> memory;
-    Matrix slopes;  ///< curved x (order + 1)
+    Matrix slopes;                         ///< curved x (order + 1)
+    std::vector<SlipTangent::Step> slips;  ///< of the circles
   };
   struct Change {
     std::size_t after;  ///< how many stretches
-    Index number;       ///< in the state's memory
-    Index sliding;      ///< row of X
-    Index closing;      ///< the same, or -1
+    Index element;      ///< which
     RingMemoryChange memory;
   };
   struct Columns {
@@ -54,8 +53,10 @@ class RingTangent : public RingObserver {
   void note_memory(Stretch& stretch) const;
   void note_slopes(const RingSegment& segment, Stretch& stretch) const;
   void take(const Stretch& stretch, Columns& columns) const;
+  std::vector<SlipTangent> slips_of(const Stretch& stretch, const Columns& columns) const;
+  void finish_slips(const Stretch& stretch, const std::vector<SlipTangent>& slips, Columns& columns) const;
+  Eigen::RowVectorXd memory_row(Index element, const RingMemoryChange& change, const Matrix& position) const;
   void take_whole(const Stretch& stretch, Columns& columns) const;
-  void take(const Change& change, Columns& columns) const;
   void take_all(Columns& columns) const;
   bool is_uniform() const;
   Matrix wave_by_wave() const;

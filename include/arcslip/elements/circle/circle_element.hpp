@@ -45,6 +45,9 @@ class CircleElement final : public Element {
   MotionNumber border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                       bool beyond) const override;
 
+  /// At this load.
+  PressedSettings settings(double load) const { return settings_.at(load, 0); }
+
  private:
   void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,
                 bool beyond, bool derivatives, ElementForce& out) const;
