@@ -122,12 +122,13 @@ std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vec
     all.push_back(stick_pattern(orders, HarmonicProblem::motion(u, p, i),
                                 HarmonicProblem::slip_threshold(i, u, p), slips(regime, i)));
   }
-  for (Index i = this->contacts(); i < this->coordinates(); ++i) {
-    const Element& element = this->coordinates_.element(i);
+  for (Index e = this->contacts(); e < this->coordinates_.elements(); ++e) {
+    const Index first = this->coordinates_.first(e);
+    const Element& element = this->coordinates_.element(e);
     if (element.is_told_by_law()) {
-      all.push_back({.law = law(i, u, p, regime)});
+      all.push_back({.law = law(e, u, p, regime)});
     } else {
-      all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, i))});
+      all.push_back({false, {}, element.stiffness_in_time(orders, HarmonicProblem::motion(u, p, first))});
     }
   }
   if (!is_cycle) return all;
@@ -336,7 +337,13 @@ std::shared_ptr<Problem> build_floquet(const SystemParameters& parameters) {
   };
   SystemParameters other = parameters;
   other.harmonics = other_orders(parameters);
-  return build(parameters, build(other, nullptr));
+  std::shared_ptr<const Problem> finer;
+  try {
+    finer = build(other, nullptr);
+  } catch (const std::invalid_argument&) {  // more harmonics than an element takes
+    static_cast<void>(build(parameters, nullptr));
+  }
+  return build(parameters, std::move(finer));
 }
 
 }  // namespace

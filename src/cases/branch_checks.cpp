@@ -80,6 +80,8 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory && !one.kind->follows)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
+    if (one.kind->slides > 1 && problem.response->has_own_frequency())
+      section.fail("stability", fmt::format("not of limit cycles beside element '{}'", one.kind->name));
   }
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");

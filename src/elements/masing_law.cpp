@@ -125,7 +125,7 @@ class MasingLaw {
       return backbone->slope(0.5 * std::abs(motion->value(theta) - last) / load);
     };
     constexpr double per_harmonic = 12;  // of x, to powers of which the slope is a polynomial or nearly so
-    piece.slope = std::make_shared<const VaryingSlope>(
+    piece.varying = std::make_shared<const VaryingLaw>(
         interpolated_slope(slope, backbone_->slope(0), per_harmonic * motion_->highest()));
     piece.from = memory;
     law_.pieces.push_back(std::move(piece));

@@ -61,8 +61,8 @@ const DisturbedLaw::Piece& LawSchedule::piece(const Interval& interval, std::siz
   const std::vector<DisturbedLaw::Piece>& all = laws_[element].pieces;
   const double first = all.front().begin;
   const double behind = modulo(phase(interval.begin + 0.5 * interval.width, node) - first, turn_);
-  const auto found = std::find_if(all.begin(), all.end() - 1, [&](const DisturbedLaw::Piece& one) {
-    return behind < one.begin - first + one.width;
+  const auto found = std::partition_point(all.begin(), all.end() - 1, [&](const DisturbedLaw::Piece& one) {
+    return behind >= one.begin - first + one.width;
   });
   return *found;
 }

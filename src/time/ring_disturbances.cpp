@@ -13,7 +13,8 @@ constexpr Index own_balance = -1;  // in place of a cell
 constexpr Index even_balance = -2;
 
 /// Product of 1 - e^{sigma step}/at, at = 1 or -1, but for positive factors: it changes its sign with a real
-/// multiplier at that place. Each is of the size 1 but near there.
+/// multiplier at that place. Each is of the size 1 but near there, and 1 where nu is nothing, as
+/// multipliers that small are left out.
 double passage(const std::vector<Complex>& exponents, double at, double step) {
   constexpr double far = 30;
   Complex product = 1;
@@ -21,7 +22,7 @@ double passage(const std::vector<Complex>& exponents, double at, double step) {
     const Complex exponent = sigma * step;
     const Complex nu = std::exp(Complex(std::min(exponent.real(), far), exponent.imag()));
     const Complex distance = 1.0 - nu / at;
-    product *= distance / (std::abs(distance) + step);
+    product *= 2.0 * distance / (std::abs(distance) + 1);
   }
   return product.real();
 }

@@ -14,11 +14,9 @@
 #include "time/kernel.hpp"
 #include "time/law_schedule.hpp"
 #include "time/own_velocity.hpp"
+#include "time/turned_series.hpp"
 
 namespace arcslip {
-
-template <class Scalar>
-using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// What moves a coordinate of a node by which the wave's phase has been turned.
 template <class Scalar>
@@ -103,7 +101,9 @@ class TurnedMap {
     }
     Index place = 2 * size();
     for (const Slot& slot : slots) {
-      const Dense<Scalar> all = followed(slot.element, rows_of(moved, slot.element, slot.node));
+      const double phase = schedule_.intervals().front().begin +
+                           schedule_.offset(schedule_.intervals().front(), slot.element, slot.node);
+      const Dense<Scalar> all = followed(slot.element, rows_of(moved, slot.element, slot.node), phase);
       found.row(place++).head(free.cols()) = all.row(static_cast<Index>(slot.memory)) * free;
     }
     return found;
@@ -144,14 +144,6 @@ class TurnedMap {
   double rounding() const { return 64 * std::numeric_limits<double>::epsilon() * (1 + rate_); }
 
  private:
-  /// A slope that varies, of the motion of a row less a memory.
-  struct Varying {
-    const VaryingSlope* slope;
-    Index row;
-    double phase;  // of its node beyond that of node 0
-    Index from;    // place of the memory in the state, or -1
-  };
-
   Index size() const { return std::ssize(coordinates_); }
   double turned(const TurnedFlow::Coordinate& one) const {
     return one.order * pi / static_cast<double>(nodes_);
@@ -160,14 +152,19 @@ class TurnedMap {
     return all.middleRows(node * rows_ + first_[element], laws_[element].coordinates);
   }
 
-  /// What the memories of an element are after motions that stay, row by row.
-  Dense<Scalar> followed(std::size_t element, const Dense<Scalar>& moved) const {
+  /// What the memories of an element are at its phase after motions that stay, row by row.
+  Dense<Scalar> followed(std::size_t element, const Dense<Scalar>& moved, double phase) const {
     const std::vector<DisturbedLaw::Memory>& all = laws_[element].memories;
     Dense<Scalar> kept = Dense<Scalar>::Zero(std::ssize(all), moved.cols());
     // Each is told by earlier ones, but for where the turn begins.
     for (int round = 0; round < 2; ++round) {
       for (std::size_t i = 0; i < all.size(); ++i) {
-        Row row = all[i].set.transpose().template cast<Scalar>() * moved;
+        const Vector set = all[i].rest ? all[i].rest(phase) : all[i].set;
+        Row row = set.transpose().template cast<Scalar>() * moved;
+        if (all[i].rest) {
+          kept.row(static_cast<Index>(i)) = row;
+          continue;
+        }
         for (const auto& [of, part] : all[i].of) row += part * kept.row(of);
         kept.row(static_cast<Index>(i)) = row;
       }
@@ -182,20 +179,20 @@ class TurnedMap {
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       for (Index node = 0; node < nodes_; ++node) {
         const Dense<Scalar> own = rows_of(moved, e, node);
-        const Dense<Scalar> kept = followed(e, own);
+        const Dense<Scalar> kept = followed(e, own, 0);
         if (laws_[e].viscous != 0) felt.push_back(own.row(0));
         for (const DisturbedLaw::Piece& piece : laws_[e].pieces) {
           Dense<Scalar> forces = piece.stiffness.template cast<Scalar>() * own;
           for (Index i = 0; i < own.rows(); ++i) {
-            if (!piece.stiffness.isZero(0) || piece.slope) felt.push_back(own.row(i));
+            if (!piece.stiffness.isZero(0) || piece.varying) felt.push_back(own.row(i));
           }
           for (const auto& [memory, force] : piece.held)
             forces += force.template cast<Scalar>() * kept.row(memory);
           for (Index i = 0; i < forces.rows(); ++i) resisted.push_back(forces.row(i));
-          if (!piece.slope) continue;
+          if (!piece.varying || piece.varying->pace > 0) continue;  // memory that moves on follows
           Row way = own.row(0);
           if (piece.from >= 0) way -= kept.row(piece.from);
-          resisted.push_back(piece.slope->bound * way);
+          resisted.push_back(piece.varying->bound * way);
         }
       }
     }
@@ -207,8 +204,8 @@ class TurnedMap {
     return {stacked(felt), stacked(resisted)};
   }
 
-  /// Of (p, v, m) in an interval, but for slopes that vary, which are told apart.
-  Dense<Scalar> generator(const Interval& interval, std::vector<Varying>& varying) const {
+  /// Of (p, v, m) in an interval, but for what varies, which is told apart.
+  Dense<Scalar> generator(const Interval& interval, TurnedSeries<Scalar>& varying) const {
     const Index n = size();
     const Index all = 2 * n + std::ssize(interval.slots);
     const auto scale = scale_.template cast<Scalar>().asDiagonal();
@@ -232,11 +229,11 @@ class TurnedMap {
           rates.col(place(interval, e, static_cast<std::size_t>(memory), node)).segment(n, n) -=
               push * force.template cast<Scalar>();
         }
-        if (!piece.slope) continue;
+        if (!piece.varying) continue;
         const Index from =
             piece.from < 0 ? -1 : place(interval, e, static_cast<std::size_t>(piece.from), node);
-        varying.push_back(
-            {piece.slope.get(), node * rows_ + first_[e], schedule_.offset(interval, e, node), from});
+        varying.add(*piece.varying, node * rows_ + first_[e], laws_[e].coordinates,
+                    schedule_.offset(interval, e, node), from);
       }
     }
     return rates;
@@ -256,11 +253,9 @@ class TurnedMap {
     return 2 * size() + (found - interval.slots.begin());
   }
 
-  /// Takes the state over an interval: where stiffness varies by Taylor series, of which a step's terms
-  /// exceed their sum by so little that no digit is lost.
+  /// Takes the state over an interval.
   void pass(const Interval& interval, Dense<Scalar>& state) {
-    constexpr double longest = 4;  // step, of the fastest rate
-    std::vector<Varying> varying;
+    TurnedSeries<Scalar> varying(motion_);
     const Dense<Scalar> rates = generator(interval, varying) * (interval.width / eta_);
     const double norm = rates.cwiseAbs().colwise().sum().maxCoeff();
     rate_ += norm;
@@ -269,65 +264,12 @@ class TurnedMap {
       state.topRows(2 * size()) = (flow.topRows(2 * size()) * state).eval();
       return;
     }
-    double fastest = norm;
-    double turns = 0;
-    for (const Varying& one : varying) {
-      fastest += one.slope->bound * (1 + motion_.row(one.row).squaredNorm()) * interval.width /
-                 (scale_.minCoeff() * eta_ * static_cast<double>(nodes_));
-      turns = std::max(turns, one.slope->rate * interval.width);
-    }
-    const auto steps = std::max(Index{1}, static_cast<Index>(std::ceil(std::max(fastest, turns) / longest)));
-    const double width = interval.width / static_cast<double>(steps);
-    const Dense<Scalar> of_step = rates / static_cast<double>(steps);
-    for (Index i = 0; i < steps; ++i)
-      step(interval.begin + static_cast<double>(i) * width, width, of_step, varying, state);
-  }
-
-  /// The series of one step from a phase of node 0 on.
-  void step(double phase, double width, const Dense<Scalar>& rates, const std::vector<Varying>& varying,
-            Dense<Scalar>& state) const {
-    constexpr double nothing = 1e-18;
-    const Index n = size();
-    Dense<Scalar> moved(std::ssize(varying), n);
-    std::vector<Vector> slopes;
-    for (std::size_t i = 0; i < varying.size(); ++i) {
-      moved.row(static_cast<Index>(i)) = motion_.row(varying[i].row);
-      slopes.push_back(varying[i].slope->terms(phase + varying[i].phase, width));
-    }
-    const Dense<Scalar> push = (width / eta_) * pushed(moved);
-    std::vector<Dense<Scalar>> ways;  // terms of their motions, each in a column
-    const Index slots = state.rows() - 2 * n;
-    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> turns = rates.block(0, n, n, n).diagonal();
-    Dense<Scalar> forces;
-    Dense<Scalar> next;
-    Dense<Scalar> term = state;
-    double last = 1;
-    for (Index m = 0; m < slopes.front().size(); ++m) {
-      ways.push_back(term.topRows(n).transpose() * moved.transpose());
-      for (std::size_t i = 0; i < varying.size(); ++i) {
-        if (varying[i].from >= 0)
-          ways.back().col(static_cast<Index>(i)) -= term.row(varying[i].from).transpose();
-      }
-      forces.setZero(term.cols(), moved.rows());
-      for (Index j = 0; j <= m; ++j) {
-        for (Index i = 0; i < forces.cols(); ++i) {
-          const double slope = slopes[static_cast<std::size_t>(i)](m - j);
-          if (slope != 0) forces.col(i) += slope * ways[static_cast<std::size_t>(j)].col(i);
-        }
-      }
-      next.setZero(term.rows(), term.cols());
-      next.topRows(n) = turns.asDiagonal() * term.middleRows(n, n);
-      next.middleRows(n, n).noalias() = rates.block(n, 0, n, 2 * n) * term.topRows(2 * n);
-      if (m == 0)  // memories rest, so that only their first term is there
-        next.middleRows(n, n).noalias() += rates.block(n, 2 * n, n, slots) * term.bottomRows(slots);
-      next.middleRows(n, n).noalias() -= push * forces.transpose();
-      term.swap(next);
-      term /= static_cast<double>(m + 1);
-      state += term;
-      const double part = term.norm() / state.norm();
-      if (!(part + last > nothing)) return;
-      last = part;
-    }
+    const double flexibility = 1 / (scale_.minCoeff() * eta_ * static_cast<double>(nodes_));
+    const auto steps = static_cast<double>(varying.steps(interval.width, norm, flexibility));
+    const double width = interval.width / steps;
+    const Dense<Scalar> of_step = rates / steps;
+    const auto push = [&](const Dense<Scalar>& moved) { return Dense<Scalar>(pushed(moved) / eta_); };
+    for (double i = 0; i < steps; ++i) varying.step(interval.begin + i * width, width, of_step, push, state);
   }
 
   /// Memories that are set come, those that are kept no longer go.

@@ -331,8 +331,7 @@ TEST_CASE("What friction in a plane is not made for is refused in one line", "[p
         Edit{"mu = 0.29999999999999999", "mu = 0.0", "element[0].mu: expected"},
         Edit{"harmonics = 3", "harmonics = 42", "at most 42"},
         Edit{"normal = 3\nnormal_stiffness = 0.5", "closes = \"backwards\"",
-             "element[0].closes: without normal"},
-        Edit{"parameter = \"eta\"\n", "parameter = \"eta\"\nstability = true\n", "has a memory"}})
+             "element[0].closes: without normal"}})
     CHECK_THAT(
         error_of([&, edited = replaced(text, from, to)] { read_case(folder.write("case.toml", edited)); }),
         ContainsSubstring(says));

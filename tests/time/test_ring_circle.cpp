@@ -1,10 +1,13 @@
-// Friction circles in time, against differences, balances of many harmonics and closed forms.
+// Friction circles in time, against differences, balances of many harmonics and closed forms, and what their
+// disturbances do.
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
 
+#include "arcslip/problems/response/floquet_response.hpp"
 #include "timed_cases.hpp"
 
 using namespace arcslip;
@@ -36,6 +39,19 @@ Case round_orbit() {
       "at = \"base\"\ncontact = 1\nsecond = 2\ntangential_stiffness = 0.6\nmu = 0.5\nnormal_per_preload = "
       "1.0\n"
       "[branch]\nparameter = \"eta\"\nfrom = 0.02\nto = 0.2\n"));
+}
+
+Case ring(Index wave_number, Index nodes, int highest) {
+  return case_of(sectors(wave_number, nodes, highest, circle));
+}
+
+/// Largest |mu| over a period by the balance.
+double growth(const Timed& timed, double eta) {
+  const auto problem = problems::build_floquet_response(timed.system);
+  double largest = 0;
+  for (const auto& one : problem->disturbances(timed.at.unknowns, timed.at.parameters, timed.at.regime))
+    largest = std::max(largest, std::exp(two_pi / eta * one.exponent.real()));
+  return largest;
 }
 
 }  // namespace
@@ -90,4 +106,23 @@ TEST_CASE("An orbit that slips for ever is the closed form in time", "[ring][cir
   const std::complex<double> friction(0.6 * S * S / (R * R), 0.6 * S * std::sqrt(R * R - S * S) / (R * R));
   const std::complex<double> stiffness = 1.0 - w * w + std::complex<double>(0, w * 0.03) + friction;
   CHECK_THAT(std::abs(record.base()(0)) * std::abs(stiffness), WithinRel(1.0, 1e-9));
+}
+
+TEST_CASE("Disturbances of friction circles grow as those of all nodes in time", "[stability][circle]") {
+  struct Point {
+    std::function<Case()> input;
+    double eta;
+    double as_near;
+  };
+  // It sticks, sticks and slips, comes apart just so and clearly; waves with and without a common factor.
+  const auto p = GENERATE(
+      Point{[] { return plane(13); }, 0.05, 1e-9}, Point{[] { return plane(13); }, 0.12, 1e-4},
+      Point{[] { return plane(13); }, 0.1553, 1e-3}, Point{[] { return plane(13); }, 0.158, 1e-3},
+      Point{[] { return ring(1, 5, 13); }, 0.236, 1e-4}, Point{[] { return ring(2, 6, 13); }, 0.285, 1e-4});
+  CAPTURE(p.eta);
+  Timed timed(p.input(), p.eta);
+  const SettledMotion found = shoot(timed.motion, timed.start, 1e-10);
+  REQUIRE(found.settled);
+  CHECK_THAT(growth(timed, p.eta),
+             WithinAbs(floquet_stability(timed.motion, found.state).growth(), p.as_near));
 }

@@ -8,6 +8,7 @@
 #include "arcslip/elements/element.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "elements/circle/circle_changes.hpp"
+#include "elements/circle/circle_law.hpp"
 #include "elements/pressed/arc_sums.hpp"
 
 namespace arcslip {
@@ -271,7 +272,9 @@ class BesideBorder {
   double part_by_excess_;
 };
 
-constexpr double hardly = 1e-10;  // of excess, over the size of the motion
+// Of excess, over the size of the motion.
+constexpr double hardly = 1e-10;
+constexpr double clearly = 1e-3;
 
 CircleForce sticking(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
   const RestingPlace place(motion);
@@ -282,7 +285,6 @@ CircleForce sticking(const CircleMotion& motion, std::span<const int> orders, bo
 }
 
 CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
-  constexpr double clearly = 1e-3;
   const CommonPoint point = least_excess(motion, clearly * motion.size());
   const double just_so = hardly * motion.size();
   if (point.excess < just_so) return BesideBorder(motion, orders, point, just_so).force(derivatives);
@@ -302,6 +304,22 @@ CircleForce circle_force(const PressedSettings& settings, std::span<const int> o
   out.energy = cycle_energy(orders, out.harmonics.head(n), motion.head(n)) +
                cycle_energy(orders, out.harmonics.segment(n, n), motion.segment(n, n));
   return out;
+}
+
+DisturbedLaw circle_law(const PressedSettings& settings, std::span<const int> orders,
+                        const ComplexVector& motion, bool slips, double turn) {
+  const CircleMotion moves = motion_of(settings, orders, motion);
+  const bool closes = motion.size() == 3 * std::ssize(orders);
+  if (!slips) {
+    Vector stiffness = Vector::Constant(closes ? 3 : 2, settings.tangential_stiffness);
+    if (closes) stiffness(2) = settings.normal_stiffness;
+    return DisturbedLaw::constant(stiffness.asDiagonal());
+  }
+  const CommonPoint point = least_excess(moves, clearly * moves.size());
+  const CircleMotion beyond = moves.tightened(std::max(0.0, hardly * moves.size() - point.excess));
+  const CircleCourse course(beyond, point.offset, point.roomiest);
+  if (course.arcs().empty()) throw std::domain_error("friction in a plane does not settle");
+  return circle_law(beyond, course, closes, turn);
 }
 
 CircleRoom circle_room(const PressedSettings& settings, std::span<const int> orders,

@@ -217,6 +217,19 @@ void SlipPanel::place() {
   weight = pace.cwiseProduct(known.weight);
 }
 
+double SlipPanel::phase_at(double theta) const {
+  double s = (theta - reach.begin) / reach.width;
+  if (reach.apart) {
+    const double rest = *reach.apart - reach.begin;
+    s = std::log(std::max(*reach.apart - theta, 1e-300) / rest) / std::log1p(-reach.width / rest);
+  }
+  const double x = 2 * std::clamp(s, 0.0, 1.0) - 1;
+  const PanelCourse course = scheme().coefficients * with_start(0, phase.array() - start);
+  double one = 0, two = 0;
+  for (Index k = panel_nodes; k >= 1; --k) two = std::exchange(one, course(k) + 2 * x * one - two);
+  return start + course(0) + x * one - two;
+}
+
 void SlipPanel::turn() {
   turning = (scheme().by_nodes * (phase.array() - start).matrix()).cwiseQuotient(pace);
 }

@@ -56,6 +56,9 @@ struct SlipPanel {
   /// The greatest width whose integrals with e^{j 2H theta} are exact to rounding.
   static double widest(int highest);
 
+  /// phi at a theta of the panel.
+  double phase_at(double theta) const;
+
   /// Fills phi' from phi.
   void turn();
 

@@ -19,6 +19,7 @@ ElementKind friction_2d_element() {
       }};
   kind.settings[2] = {given_positive("mu", "it slips where its force is mu N in any direction"), false};
   kind.has_memory = true;
+  kind.follows = true;
   kind.slides = 2;
   kind.closes = ElementKind::Closing::may;
   return kind;

@@ -16,6 +16,7 @@
 #include <array>
 #include <span>
 
+#include "arcslip/elements/disturbed_law.hpp"
 #include "arcslip/elements/pressed/pressed_contact.hpp"
 
 namespace arcslip {
@@ -43,6 +44,10 @@ struct CircleForce {
 /// among them, or orders that do not fit.
 CircleForce circle_force(const PressedSettings& settings, std::span<const int> orders,
                          const ComplexVector& motion, bool derivatives, PressedArcs::Course course);
+
+/// What small disturbances of the motion meet over `turn`, pi of a force that is odd or 2 pi.
+DisturbedLaw circle_law(const PressedSettings& settings, std::span<const int> orders,
+                        const ComplexVector& motion, bool slips, double turn);
 
 /// By how much all mu N would have to be greater for the contact to stick for ever: min over z of max over
 /// theta of |k_t (r - z)| - mu n.

@@ -45,6 +45,12 @@ class CircleElement final : public Element {
   MotionNumber border(std::span<const int> orders, const HarmonicVector& x, const Swing* known, double load,
                       bool beyond) const override;
 
+  bool is_told_by_law() const override { return true; }
+  DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
+                         bool beyond) const override {
+    return circle_law(settings(load), orders, x, beyond, is_odd() && all_odd(orders) ? pi : two_pi);
+  }
+
   /// At this load.
   PressedSettings settings(double load) const { return settings_.at(load, 0); }
 
