@@ -384,6 +384,10 @@ void Tracer::stop(Stop reason, std::string explanation) {
   stopped_ = true;
   branch_.stop = reason;
   branch_.explanation = std::move(explanation);
+  const std::string why = problem_.reason_of_end();
+  const bool is_told = reason == Stop::left_regime || reason == Stop::no_value || reason == Stop::min_step ||
+                       reason == Stop::no_start;
+  if (is_told && !why.empty()) branch_.explanation += ": " + why;
 }
 
 }  // namespace arcslip::continuation

@@ -154,8 +154,9 @@ RingDisturbances::Disturbances FloquetOf<Motion>::found(const RingDisturbances& 
   continuation::Evaluation out;
   out.jacobian = &jacobian;
   // Of a cycle the determinant is that of all disturbances over the exponent of its velocity, with the first
-  // two columns exchanged.
-  const int odd = is_cycle ? 1 : -1;
+  // two columns exchanged; so it is of each drift over that of a place elsewhere.
+  const bool is_exchanged = is_cycle != (this->drifting(regime).size() % 2 != 0);
+  const int odd = is_exchanged ? 1 : -1;
   if (this->evaluate(u, p, regime, out)) make_odd(orientation(jacobian) == odd, found.all);
   return found;
 }

@@ -55,6 +55,7 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
   std::optional<Regime> regime_beyond(const Regime& regime, int border) const override {
     return response_.regime_beyond(regime, border);
   }
+  std::string reason_of_end() const override { return response_.reason_of_end(); }
 
  private:
   const HarmonicResponse& response_;
@@ -77,7 +78,7 @@ Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& 
   if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
     throw continuation::Unfinished(branch.stop,
                                    fmt::format("on the way from {}: {}", from, branch.explanation));
-  if (!branch.complete())
+  if (branch.stop != continuation::Stop::reached_end)
     throw std::invalid_argument(
         fmt::format("HarmonicResponse: no way from {}: {}", from, branch.explanation));
   const continuation::BranchPoint& end = branch.points.back();
@@ -175,7 +176,9 @@ double HarmonicResponse::take_small(Guess& stuck, double share) const {
     }
     if (is_solved(u, part, nullptr)) return found(std::move(u), part);
   }
-  throw std::invalid_argument("HarmonicResponse: the response to a small force is not linear");
+  const std::string why = reason_of_end();
+  throw std::invalid_argument(why.empty() ? "HarmonicResponse: the response to a small force is not linear"
+                                          : "HarmonicResponse: no response to a small force: " + why);
 }
 
 }  // namespace arcslip::problems

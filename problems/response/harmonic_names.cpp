@@ -11,7 +11,7 @@ std::string HarmonicProblem::describe(const continuation::Regime& regime) const 
   std::string name = slip_name(regime, contacts());
   for (Index e = contacts(); e < switch_count(); ++e) {
     if (regime[e] == 0) continue;
-    name += " " + coordinates_.element(e).beyond();
+    name += fmt::format(" {}", coordinates_.element(e).beyond());
     if (switch_count() > contacts() + 1) name += fmt::format(" {}", e - contacts() + 1);
   }
   return name;
@@ -42,6 +42,16 @@ void HarmonicProblem::add_other_harmonics() {
     quantities_.push_back({name("R"), measure, Body::contact, 0, a});
     quantities_.push_back({name("Y"), measure, Body::base, 0, a});
     quantities_.push_back({name("U"), measure, Body::damper, 0, a});
+  }
+}
+
+void HarmonicProblem::add_drifts() {
+  for (const Drift& drift : drifts_) {
+    const Index e = drift.element;
+    const std::string of = e == 0           ? ""
+                           : e < contacts() ? fmt::format("_contact_{}", e + 1)
+                                            : fmt::format("_{}", first(e).name);
+    quantities_.push_back({fmt::format("drift{}", of), Measure::drift, Body::contact, coordinates_.first(e)});
   }
 }
 

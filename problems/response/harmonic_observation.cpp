@@ -31,6 +31,7 @@ class HarmonicProblem::Observation {
       case Measure::amplitude: return amplitude(quantity, 1);
       case Measure::mean: return mean(quantity);
       case Measure::lag: return lag_of(quantity);
+      case Measure::drift: return drift(quantity.which);
       case Measure::dissipated: return dissipated(quantity.which);
       case Measure::energy: return energy(quantity.which);
       case Measure::greatest: return greatest(quantity.of, quantity.which);
@@ -88,6 +89,21 @@ class HarmonicProblem::Observation {
     return phasor(quantity.of, quantity.which, quantity.order).real();
   }
 
+  /// v of a coordinate that drifts, x = v theta + ...; 0 of others.
+  double drift_of(Index coordinate) {
+    for (const Drift* one : problem_.drifting(regime_)) {
+      if (problem_.coordinates_.first(one->element) == coordinate)
+        return problem_.motion(u_, p_, coordinate)(problem_.rigid_.order()).imag();
+    }
+    return 0;
+  }
+
+  double drift(Index coordinate) {
+    const double v = drift_of(coordinate);
+    if (v != 0) add_motion(coordinate, problem_.rigid_.order(), Complex(0, 1));
+    return v;
+  }
+
   double lag_of(const Quantity& quantity) {
     const Complex z = phasor(quantity.of, quantity.which, quantity.order);
     if (z != 0.0) add(quantity.of, quantity.which, quantity.order, Complex(0, -1) / std::conj(z));
@@ -106,6 +122,7 @@ class HarmonicProblem::Observation {
         add_force(contact, a, per * x(a));
         add_motion(contact, a, -per * element.harmonics(a));
       }
+      add_drift_energy(contact, 1 / unit);
       threshold(contact, -2 * element.energy / (unit * S));
       add_log_force(contact, -element.energy / unit);
     }
@@ -125,7 +142,19 @@ class HarmonicProblem::Observation {
         add_motion(j, a, -per * element.harmonics(problem_.place(j, a)));
       }
     }
+    if (gradient_ != nullptr) add_drift_energy(begin, 1);
     return element.energy;
+  }
+
+  /// Adds so much of the energy of a drift, 2 pi v f_0.
+  void add_drift_energy(Index coordinate, double part) {
+    const double v = drift_of(coordinate);
+    if (v == 0) return;
+    const Index mean = problem_.rigid_.order();
+    const Index of = problem_.coordinates_.element_of(coordinate);
+    const double f = elements_[at(of)].harmonics(problem_.place(coordinate, mean)).real();
+    add_force(coordinate, mean, part * two_pi * v);
+    add_motion(coordinate, mean, Complex(0, part * two_pi * f));
   }
 
   double reading(Index of, Index which) {
@@ -155,7 +184,26 @@ class HarmonicProblem::Observation {
     Complex z = row.times(row.response.compliance);
     if (of == Body::output) z += row.response.free(row.index);
     if (of == Body::base) z -= problem_.motion(u_, p_, which)(order);
+    if (is_rigid(order)) z += (row.rigid.transpose() * moved_).value();
     return z;
+  }
+
+  /// Whether rigid motions are part of a harmonic.
+  bool is_rigid(Index order) const { return problem_.rigid_.count() > 0 && problem_.rigid_.order() == order; }
+
+  /// Adds what they add to the same.
+  void add_rigid(const ComplexVector& rigid, Index order, Complex weight) {
+    const ComplexVector by_force = rest_.joint.compliance.transpose() * rigid;
+    for (Index i = 0; i < rigid.size(); ++i) {
+      add_motion(i, order, std::real(rigid(i) * std::conj(weight)));
+      add_force(i, order, std::conj(by_force(i)) * weight);
+    }
+    if (!problem_.is_varied()) return;
+    ContactVector force(rigid.size());
+    for (Index i = 0; i < rigid.size(); ++i)
+      force(i) = elements_[at(problem_.coordinates_.element_of(i))].harmonics(problem_.place(i, order));
+    const ContactVector by_varied = rest_.by_varied * force + rest_.free_by_varied;
+    add(problem_.layout_.varied, std::real(std::conj(weight) * (rigid.transpose() * by_varied).value()));
   }
 
   /// Adds Re(conj(weight) dz) of that harmonic.
@@ -164,6 +212,7 @@ class HarmonicProblem::Observation {
     if (of == Body::contact) return add_motion(which, order, weight);
     if (of == Body::base) add_motion(which, order, -weight);
     const Row row = row_of(of, which, order);
+    if (is_rigid(order)) add_rigid(row.rigid, order, weight);
     Complex by_eta = row.times(row.response.compliance_eta);
     if (of == Body::output) by_eta += row.response.free_eta(row.index);
     add(problem_.layout_.eta, std::real(std::conj(weight) * by_eta));
@@ -183,6 +232,7 @@ class HarmonicProblem::Observation {
   }
 
   void add_motion(Index coordinate, Index order, Complex weight) {
+    if (gradient_ == nullptr) return;
     const Index place = 2 * (coordinate * problem_.harmonics() + order);
     add(problem_.place_of(place), weight.real());
     add(problem_.place_of(place + 1), weight.imag());
@@ -226,6 +276,7 @@ class HarmonicProblem::Observation {
     bool is_base;
     Index index;
     const ContactVector& forces;
+    ComplexVector rigid;  // of the harmonic that has rigid motions, what each coordinate tells of them
 
     Complex times(const ContactMatrix& compliance) const {
       return (compliance.row(index).head(forces.size()) * forces).value();
@@ -238,7 +289,16 @@ class HarmonicProblem::Observation {
     if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, work_.response);
     responded_ = structure;
     problem_.coordinates_.forces_on(is_base, elements_, order, work_.on_structure);
-    return {work_.response, is_base, output != nullptr ? problem_.contacts() : which, work_.on_structure};
+    const Index index = output != nullptr ? problem_.contacts() : which;
+    Row row{work_.response, is_base, index, work_.on_structure, {}};
+    if (!is_rigid(order)) return row;
+    const RigidMotions& rigid = problem_.rigid_;
+    row.rigid = rigid.parts().transpose() * rigid.at(*structure, is_base, index);
+    if (moved_.size() == 0) {
+      problem_.respond_at_rest(u_, p_, rest_);
+      moved_ = problem_.moved_at_rest(rest_, elements_, u_, p_);
+    }
+    return row;
   }
 
   const HarmonicProblem& problem_;
@@ -250,6 +310,8 @@ class HarmonicProblem::Observation {
   const std::vector<ElementForce>& elements_;
   Forces& work_;
   const ContactModes* responded_ = nullptr;
+  Rest rest_;            // found once it is asked for
+  ContactVector moved_;  // of the coordinates, by rigid motions
 };
 
 std::vector<continuation::Observable> HarmonicProblem::observables() const {

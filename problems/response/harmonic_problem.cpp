@@ -6,9 +6,10 @@
 namespace arcslip::problems {
 
 HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
-    : system_(std::move(system)), coordinates_(system_), layout_(layout) {
+    : system_(std::move(system)), coordinates_(system_), rigid_(system_, coordinates_), layout_(layout) {
   check(system_);
   if (system_.orders.front() != 1) throw std::invalid_argument("HarmonicProblem: the first harmonic is 1");
+  find_drifts();
 }
 
 bool HarmonicProblem::contacts_stick(const continuation::Regime& regime) const {

@@ -43,6 +43,7 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                            &output - system_.outputs.data()});
   }
   add_readings();
+  add_drifts();
   if (harmonics() == 1) return;
   quantities_.push_back({"R_peak", Measure::greatest});
   quantities_.push_back({"Y_peak", Measure::greatest, Body::base});
@@ -79,6 +80,23 @@ HarmonicResponse::ElementForces HarmonicResponse::element_forces(const Vector& u
     coordinates_.forces_on(false, all, a, sum.damper.emplace_back());
   }
   for (const ElementForce& one : all) sum.energy += one.energy;
+  if (rigid_.count() == 0) return sum;
+  Rest rest;
+  respond_at_rest(u, p, rest);
+  const ComplexVector motions = rigid_.parts() * moved_at_rest(rest, all, u, p);
+  ComplexVector drifts(coordinates());
+  for (Index i = 0; i < coordinates(); ++i)
+    drifts(i) = HarmonicProblem::motion(u, p, i)(rigid_.order()).imag();
+  sum.drag = two_pi * (rigid_.parts() * drifts).dot(drag(p) * drifts).real();
+  sum.base_moved.resize(contacts());
+  sum.damper_moved.resize(contacts());
+  for (Index i = 0; i < contacts(); ++i) {
+    const auto moved = [&](const std::vector<ContactModes>& structure, bool is_base) {
+      return (rigid_.at(structure[at(rigid_.order())], is_base, i).transpose() * motions).value();
+    };
+    sum.base_moved(i) = moved(system_.base, true);
+    sum.damper_moved(i) = moved(system_.damper, false);
+  }
   return sum;
 }
 
@@ -128,20 +146,15 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
   }
   joint.compliance.diagonal().array() += 1.0;
   joint.free_eta *= h;
-  order.inverse = joint.compliance;
-  invert(order.inverse);
+  if (rigid_.count() > 0 && system_.orders[at(which)] == 0) {
+    border_by_rigid(order, p);
+  } else {
+    order.bordered.resize(0, 0);
+    order.inverse = joint.compliance;
+    invert(order.inverse);
+  }
   order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
 }
-
-/// Work space of a thread: F and what its derivatives by the unknowns consist of.
-struct HarmonicResponse::Rows {
-  Order order;
-  Vector residual;
-  Vector weight;      // of each order, over |r|
-  ComplexMatrix own;  // derivative by f: orders x pairs of coordinates, that of the column first
-  ComplexVector sum;  // of the f of a coordinate by Re x_h and Im x_h of one
-  ComplexVector difference;
-};
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                                 const continuation::Evaluation& out) const {
@@ -161,6 +174,7 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
+  if (derivatives && !remembers_mean(elements, p, regime)) return false;
   thread_local Rows rows;
   fill_rows(elements, share, u, p, regime, rows, out.parameter_jacobian);
   if (out.residual != nullptr) *out.residual = rows.residual;
@@ -174,10 +188,12 @@ void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, doub
   rows.residual.resize(size());
   rows.weight.resize(harmonics());
   rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
+  rows.drifts = onto_drifts(regime);
   for (Index a = 0; a < harmonics(); ++a) {
     set_order(a, p, regime, rows.order);
     fill_order(rows.order, elements, share, u, p, rows, parameter_jacobian);
   }
+  if (rows.drifts.size() > 0) set_drifts(u, rows, nullptr);
 }
 
 void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
@@ -194,17 +210,22 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
                                   Matrix* parameter_jacobian) const {
   const Index m = coordinates_.size();
   const Index which = order.which;
-  for (ContactVector* vector : {&order.f, &order.gap, &order.held, &order.residual}) vector->resize(m);
+  order.f.resize(m);
+  order.gap.setZero(order.joint.free.size());
   for (Index j = 0; j < m; ++j) {
     const Index row = 2 * (j * harmonics() + which);
     order.f(j) = elements[at(coordinates_.element_of(j))].harmonics(place(j, which)) / order.stiffness(j);
     order.gap(j) = Complex(u(row), u(row + 1)) - order.f(j) + share * order.joint.free(j);
   }
-  order.held.noalias() = order.inverse * order.gap;
+  const Index rigid = order.gap.size() - m;
+  order.gap.tail(rigid) = share * order.joint.free.tail(rigid);
+  const bool drifts = rigid > 0 && rows.drifts.size() > 0;
+  if (drifts) take_drifts(order, u, p, rows);
+  order.held.noalias() = order.solver() * order.gap;
   order.gap.noalias() -= order.joint.compliance * order.held;
-  order.held.noalias() += order.inverse * order.gap;  // as exact as by factors
+  order.held.noalias() += order.solver() * order.gap;  // as exact as by factors
   const double weight = order.weight / u.norm();
-  order.residual = weight * (order.f + order.held);
+  order.residual = weight * (order.f + order.held.head(m));
   store(order.residual, which, harmonics(), rows.residual);
   rows.weight(which) = weight;
   for (Index j = 0; j < m; ++j) {
@@ -214,6 +235,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   if (parameter_jacobian == nullptr) return;
   ContactVector& column = order.gap;
   const auto by_loads = [&](const auto& rate, double factor) {  // at such rates of their logarithms
+    order.f.resize(m);
     for (Index j = 0; j < m; ++j) {
       const Index e = coordinates_.element_of(j);
       order.f(j) = elements[at(e)].by_log_load(place(j, which)) / order.stiffness(j) * rate(e);
@@ -226,6 +248,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   store(column, which, harmonics(), parameter_jacobian->col(preload));
   column *= 2 * growth({}, p) * p(eta);
   const auto add_forces = [&](HarmonicVector ElementForce::*rates) {
+    order.f.resize(m);
     for (Index j = 0; j < m; ++j) {
       const HarmonicVector& rate = elements[at(coordinates_.element_of(j))].*rates;
       order.f(j) = rate.size() > 0 ? rate(place(j, which)) / order.stiffness(j) : 0;
@@ -234,6 +257,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
     column.noalias() -= weight * (order.inverse * order.f);
   };
   add_forces(&ElementForce::by_eta);
+  if (drifts) column += weight / p(eta) * (order.bordered.topRightCorner(m, rigid) * rows.drag);
   add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
   store(column, which, harmonics(), parameter_jacobian->col(eta));
   if (is_varied()) {
@@ -244,21 +268,23 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   }
   const Index by_share = is_varied() ? further + 1 : further;
   if (parameter_jacobian->cols() == by_share) return;
-  column.noalias() = weight * (order.inverse * order.joint.free);
+  column.noalias() = weight * (order.solver().topRows(m) * order.joint.free);
   store(column, which, harmonics(), parameter_jacobian->col(by_share));
 }
 
 /// Adds to the column in `gap` what changes of 1 + C_h K and of -x0 do, and of the weight by them.
 void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compliance,
                                        const ContactVector& free, double share, double weight) const {
-  order.product.noalias() = compliance * order.inverse;
-  order.turned.noalias() = order.inverse * order.product;
+  const Index m = order.inverse.rows();
+  order.product.noalias() = compliance * order.solver();
+  order.turned.noalias() = order.solver() * order.product;
+  if (order.turned.rows() > m) order.turned = order.turned.topLeftCorner(m, m).eval();
   const Complex slope =  // of the weight's logarithm, over its square
       order.inverse.conjugate().cwiseProduct(order.turned).sum();
   order.f = share * free;
   order.f.noalias() -= compliance * order.held;
   order.gap += (order.weight * order.weight * slope.real()) * order.residual;
-  order.gap.noalias() += weight * (order.inverse * order.f);
+  order.gap.noalias() += weight * (order.solver().topRows(m) * order.f);
 }
 
 /// Column by column, in which the harmonics of a coordinate's rows follow one another.
@@ -298,6 +324,7 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
       }
     }
   }
+  if (rows.drifts.size() > 0) set_drifts(u, rows, &jacobian);
 }
 
 void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {

@@ -17,7 +17,7 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
   const HarmonicSystem& system = problem.system_at(p, varied);
   const double eta = p(HarmonicResponse::eta);
   const HarmonicResponse::ElementForces forces = problem.element_forces(u, p, regime);
-  PowerBalance balance{0, 0, 0, forces.energy, std::abs(forces.energy)};
+  PowerBalance balance{0, forces.drag, 0, forces.energy, std::abs(forces.energy)};
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const int cycles = system.orders[a];
     const CycleWork base = system.base[a].work(cycles * eta, forces.base[a]);
@@ -40,10 +40,15 @@ double motion_error(const HarmonicResponse& problem, const Vector& u, const Vect
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const double frequency = system.orders[a] * p(HarmonicResponse::eta);
     const ContactReceptance at_base = system.base[a].at(frequency);
-    const ContactVector base = at_base.free + at_base.compliance * forces.base[a];
-    const ContactVector damper = system.damper[a].at(frequency).compliance * forces.damper[a];
+    ContactVector base = at_base.free + at_base.compliance * forces.base[a];
+    ContactVector damper = system.damper[a].at(frequency).compliance * forces.damper[a];
+    if (system.orders[a] == 0 && forces.base_moved.size() > 0) {
+      base += forces.base_moved;
+      damper += forces.damper_moved;
+    }
     for (Index i = 0; i < problem.contacts(); ++i) {
-      const Complex relative = problem.motion(u, i)(static_cast<Index>(a));
+      Complex relative = problem.motion(u, i)(static_cast<Index>(a));
+      if (system.orders[a] == 0) relative = relative.real();  // without a drift
       gap = std::max(gap, std::abs(damper(i) - base(i) - relative));
       largest = std::max({largest, std::abs(damper(i)), std::abs(base(i)), std::abs(relative)});
     }

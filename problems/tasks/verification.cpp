@@ -89,6 +89,10 @@ class AllNodes {
 
   /// Y_1 and growth from a response on; NaN where there is no ring or it is not found.
   TimedResponse at(const HarmonicResponse& problem, const Guess& at) {
+    if (problem.drifts(at.regime)) {
+      reason_ = "a part that drifts has no periodic motion in time";
+      return {};
+    }
     if (!parameters_.varied.empty())
       assemble(with_parameter(parameters_, parameters_.varied, at.parameters(HarmonicResponse::further)));
     if (!ring_) return {};

@@ -103,6 +103,17 @@ Coordinates::Coordinates(const HarmonicSystem& system)
   }
 }
 
+bool Coordinates::let_alone(Index e) {
+  const std::shared_ptr<const Element> alone = element(e).alone();
+  if (alone == nullptr) return false;
+  for (Coordinate& one : all_) {
+    if (element_of(&one - all_.data()) != e) continue;
+    one.element = alone;
+    if (one.varied) one.varied = [varied = one.varied](double value) { return varied(value)->alone(); };
+  }
+  return true;
+}
+
 void Coordinates::receptance(const ContactModes& base, const ContactModes& damper, double frequency,
                              Each& each, ContactReceptance& joint) const {
   if (!has_others() && !spares_base_) {

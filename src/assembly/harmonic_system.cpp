@@ -1,7 +1,5 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,20 +13,11 @@
 namespace arcslip {
 namespace {
 
-/// Refuses a structure that the static forces of the harmonic 0 would carry away.
-void check_rest(const ContactModes& structure, const char* name) {
-  for (const ContactMode& mode : structure.modes()) {
-    if (!(mode.frequency > 0) && !mode.shape.isZero(0))
-      throw std::invalid_argument(
-          fmt::format("nothing holds the {} at rest, which the harmonic 0, the mean, needs", name));
-  }
-}
-
 /// Of modes that deform a structure, the static compliance of one of its contact dofs.
 double static_compliance(const ContactModes& structure, Index dof) {
   double sum = 0;
   for (const ContactMode& mode : structure.modes()) {
-    if (mode.frequency > 0) sum += std::norm(mode.shape(dof)) / (mode.frequency * mode.frequency);
+    if (!mode.is_rigid()) sum += std::norm(mode.shape(dof)) / (mode.frequency * mode.frequency);
   }
   return sum;
 }
@@ -125,10 +114,6 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
       continue;
     }
     ContactSystem of_order = build_wave(in_order(parameters, h));
-    if (h == 0) {
-      check_rest(of_order.base, "base");
-      check_rest(of_order.damper, "damper");
-    }
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));

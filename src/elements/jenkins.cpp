@@ -38,9 +38,8 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
 void Jenkins::force_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
                            bool derivatives, ElementForce& out) const {
   const double limit = stiffness_ * threshold(load);
-  const PressedForce found =
-      pressed_force({1, stiffness_, 0, limit}, orders, x, ComplexVector::Zero(x.size()), derivatives,
-                    slips ? PressedArcs::Course::slips : PressedArcs::Course::sticks);
+  const PressedForce found = pressed_force({1, stiffness_, 0, limit}, orders, x,
+                                           ComplexVector::Zero(x.size()), derivatives, course(slips));
   out.harmonics = found.tangential;
   out.energy = found.energy;
   if (slips) out.swing = Swing::of(orders, x);
@@ -56,11 +55,22 @@ DisturbedLaw Jenkins::disturbed(std::span<const int> orders, const HarmonicVecto
   if (!slips) return DisturbedLaw::constant(Matrix::Constant(1, 1, stiffness_));
   if (all_odd(orders)) throw std::logic_error("Jenkins: odd motions have a hysteresis loop");
   const PressedSettings settings{1, stiffness_, 0, stiffness_ * threshold(load)};
-  const int highest = highest_order(orders);
   return pressed_law(settings,
-                     PressedArcs(settings, PeriodicMotion(orders, x, highest),
-                                 PeriodicMotion(ComplexVector::Zero(1)), PressedArcs::Course::slips),
+                     PressedArcs(settings, sliding_motion(orders, x, course(slips)),
+                                 PeriodicMotion(ComplexVector::Zero(1)), course(slips)),
                      1);
+}
+
+std::shared_ptr<const Element> Jenkins::alone() const {
+  auto same = std::make_shared<Jenkins>(*this);
+  same->is_alone_ = true;
+  return same;
+}
+
+PressedArcs::Course Jenkins::course(bool slips) const {
+  using Course = PressedArcs::Course;
+  if (is_alone_) return slips ? Course::drifts : Course::rests;
+  return slips ? Course::slips : Course::sticks;
 }
 
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,

@@ -25,6 +25,12 @@ PeriodicMotion::PeriodicMotion(std::span<const int> orders, const ComplexVector&
   coefficients_(0) = coefficients_(0).real();
 }
 
+PeriodicMotion PeriodicMotion::drifting(double drift) const {
+  PeriodicMotion motion = *this;
+  motion.drift_ = drift;
+  return motion;
+}
+
 PeriodicMotion::Local PeriodicMotion::at(double theta) const {
   const Complex turn = std::polar(1.0, theta);
   double cosine = 1;  // of h theta, by real products, which unlike complex ones look for no infinities
@@ -38,12 +44,17 @@ PeriodicMotion::Local PeriodicMotion::at(double theta) const {
     sum.value += own.real() * cosine - own.imag() * sine;
     sum.first -= static_cast<double>(h) * (own.real() * sine + own.imag() * cosine);
   }
+  if (drift_ != 0) {
+    sum.value += drift_ * theta;
+    sum.first += drift_;
+  }
   return sum;
 }
 
 PeriodicMotion PeriodicMotion::derivative() const {
   ComplexVector rates = coefficients_;
   for (Index h = 0; h < rates.size(); ++h) rates(h) *= Complex(0, static_cast<double>(h));
+  rates(0) = drift_;
   return PeriodicMotion(std::move(rates));
 }
 

@@ -14,6 +14,9 @@ namespace {
 
 constexpr Index few = 16;  // contacts, of which products by entries are faster than calls
 
+/// Whether nothing holds a mode: at rest no force is met by a rigid motion.
+bool drifts(const ContactMode& mode, double eta) { return eta == 0 && mode.is_rigid(); }
+
 }  // namespace
 
 ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss)
@@ -100,6 +103,7 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
   }
   if (shapes_.size() > 0) return add_many(eta, sum);
   for (const ContactMode& mode : modes_) {
+    if (drifts(mode, eta)) continue;
     const ModalDenominator d(eta, mode.frequency, loss_);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
@@ -115,11 +119,12 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
 }
 
 void ContactModes::add_many(double eta, ContactReceptance& sum) const {
-  ComplexVector inverse(shapes_.cols());
-  ComplexVector slope(shapes_.cols());
-  ComplexVector load(shapes_.cols());
+  ComplexVector inverse = ComplexVector::Zero(shapes_.cols());
+  ComplexVector slope = ComplexVector::Zero(shapes_.cols());
+  ComplexVector load = ComplexVector::Zero(shapes_.cols());
   for (Index k = 0; k < shapes_.cols(); ++k) {
     const ContactMode& mode = modes_[static_cast<std::size_t>(k)];
+    if (drifts(mode, eta)) continue;
     const ModalDenominator d(eta, mode.frequency, loss_);
     inverse(k) = std::conj(d.value) / std::norm(d.value);
     slope(k) = -inverse(k) * inverse(k) * d.by_eta;
@@ -135,6 +140,7 @@ CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
   if (receptance_) return receptance_work_(eta, receptance_load_, forces);
   CycleWork sum;
   for (const ContactMode& mode : modes_) {
+    if (drifts(mode, eta)) continue;
     const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;
     const Complex by_contacts = mode.shape.dot(forces);
     const Complex motion = (mode.load + by_contacts) / d;
@@ -160,6 +166,7 @@ VariedReceptance ContactModes::varied(double eta, const Variation& at, const Var
   const double stretch = std::sqrt(at.stiffness / at.mass);
   const double stretch_rate = 0.5 * (rate.stiffness / at.stiffness - rate.mass / at.mass);
   for (const ContactMode& mode : modes_) {
+    if (drifts(mode, eta)) continue;
     const double frequency = stretch * mode.frequency;
     const ModalDenominator d(eta, frequency, at.loss);
     const Complex by_frequency(2 * frequency, 2 * frequency * at.loss.at(eta) + at.loss.modal * eta);

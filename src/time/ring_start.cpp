@@ -1,5 +1,6 @@
 // States that a motion of the ring begins with.
 
+#include <Eigen/QR>
 #include <cmath>
 
 #include "arcslip/time/ring_motion.hpp"
@@ -36,10 +37,30 @@ RingState RingMotion::travelling(const std::vector<RingHarmonic>& harmonics) con
       forces(row) =
           harmonic.force(row / nodes) * std::polar(1.0, -two_pi * turns / static_cast<double>(nodes));
     }
-    add_harmonic(harmonic.order, -(ring_.motion.transpose() * forces), state);
+    const ComplexVector loads = -(ring_.motion.transpose() * forces);
+    add_harmonic(harmonic.order, loads, state);
+    if (harmonic.order == 0) move_rigidly(harmonic.motion, loads, state);
   }
   begin_elements(harmonics, state);
   return state;
+}
+
+/// As far as the mean motion is beyond what the mean loads make of what they deform.
+void RingMotion::move_rigidly(const ComplexVector& mean, const ComplexVector& loads, RingState& state) const {
+  std::vector<Index> rigid;
+  for (Index c = 0; c < ring_.coordinates(); ++c) {
+    if (ring_.stiffness(c) == 0 && ring_.wave[static_cast<std::size_t>(c)] == 0) rigid.push_back(c);
+  }
+  if (rigid.empty()) return;
+  RingState rest = at_rest();
+  add_harmonic(0, loads, rest);
+  for (const RingLoad& load : ring_.loads) {
+    if (load.order == 0) add_harmonic(0, load.amplitude, rest);
+  }
+  Vector beyond = -(ring_.motion * rest.position);
+  for (Index row = 0; row < beyond.size(); ++row) beyond(row) += mean(row / ring_.nodes()).real();
+  state.position(rigid) +=
+      Matrix(ring_.motion(Eigen::all, rigid)).completeOrthogonalDecomposition().solve(beyond);
 }
 
 /// Phases and memory, from a period of the motion of node 1 before the time that each node is behind it.

@@ -64,6 +64,9 @@ class Coordinates {
   Index first(Index e) const { return first_[static_cast<std::size_t>(e)]; }
   Index element_of(Index i) const { return element_of_[static_cast<std::size_t>(i)]; }
 
+  /// Lets an element be the only one that holds the mean of its first coordinate; false where it cannot.
+  bool let_alone(Index e);
+
   /// How many, the first ones, of the elements have a border.
   Index switches() const { return switches_; }
 

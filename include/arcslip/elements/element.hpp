@@ -7,6 +7,7 @@
 // of the next.
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -155,6 +156,14 @@ class Element {
 
   /// Whether its border is reached by how far the motion goes from side to side, wherever its middle is.
   virtual bool forgets_mean() const { return false; }
+
+  /// Whether in this state the force depends on the mean of the motion in a coordinate.
+  virtual bool holds_mean(Index /*coordinate*/, bool /*beyond*/) const { return true; }
+
+  /// The same element where nothing else holds the mean of its first coordinate: its border is reached from
+  /// the middle, and beyond it that coordinate drifts, x = v theta + sum_h x_h e^{jh theta}, with v as the
+  /// imaginary part of x_0. Null of one that cannot tell its force then.
+  virtual std::shared_ptr<const Element> alone() const { return nullptr; }
 
   /// S, the amplitude up to which it stays in its first state; infinite of one without border.
   virtual double threshold(double load) const;

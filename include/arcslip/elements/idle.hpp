@@ -18,6 +18,7 @@ class Idle final : public Element {
   double reference_stiffness(Index /*coordinate*/ = 0) const override { return reference_; }
   bool has_border() const override { return true; }
   bool forgets_mean() const override { return true; }
+  bool holds_mean(Index /*coordinate*/, bool /*slips*/) const override { return false; }
   std::string beyond() const override { return "slip"; }
   void force(std::span<const int> /*orders*/, const HarmonicVector& x, double /*load*/, bool /*slips*/,
              bool derivatives, ElementForce& out) const override {

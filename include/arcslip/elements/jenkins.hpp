@@ -3,9 +3,11 @@
 // A contact point: a spring of stiffness k in series with a slider that yields at the displacement S, which
 // is proportional to the load [Jenkins]. In slip the force follows from the motion by HysteresisLoop; it
 // sticks where its amplitude A = max |x(t)| is at most S. Under motions with even orders it is the contact of
-// pressed_contact.hpp under a constant normal force, and A half of the motion's range.
+// pressed_contact.hpp under a constant normal force, and A half of the motion's range; where nothing else
+// holds the mean, it sticks up to max |x(t)| and drifts beyond.
 
 #include "arcslip/elements/element.hpp"
+#include "arcslip/elements/pressed/pressed_arcs.hpp"
 
 namespace arcslip {
 
@@ -17,7 +19,9 @@ class Jenkins final : public Element {
 
   double reference_stiffness(Index /*coordinate*/ = 0) const override { return stiffness_; }
   bool has_border() const override { return true; }
-  bool forgets_mean() const override { return true; }
+  bool forgets_mean() const override { return !is_alone_; }
+  bool holds_mean(Index /*coordinate*/, bool slips) const override { return !slips; }
+  std::shared_ptr<const Element> alone() const override;
   std::string beyond() const override { return "slip"; }
   bool is_linear(bool slips) const override { return !slips; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
@@ -38,9 +42,11 @@ class Jenkins final : public Element {
                     bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool slips, const Way& way, ElementForce& change) const override;
+  PressedArcs::Course course(bool slips) const;
 
   double stiffness_;
   double slip_per_load_;
+  bool is_alone_ = false;
 };
 
 }  // namespace arcslip

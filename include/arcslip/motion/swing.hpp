@@ -19,6 +19,11 @@ inline int highest_order(std::span<const int> orders) {
   return *std::max_element(orders.begin(), orders.end());
 }
 
+/// Position of the mean among orders; their number where it is not there.
+inline Index place_of_mean(std::span<const int> orders) {
+  return std::find(orders.begin(), orders.end(), 0) - orders.begin();
+}
+
 /// Greatest and least value of a motion. Derivatives by an x_h have that by Re x_h and by Im x_h as real and
 /// imaginary part.
 struct Swing {

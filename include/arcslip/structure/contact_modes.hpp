@@ -5,7 +5,8 @@
 //   C(eta) = E^T Z^{-1} E = sum_k s_k s_k^H/d_k,   y_0(eta) = E^T Z^{-1} F = sum_k s_k l_k/d_k,
 //   s_k = E^T v_k/(2 pi),   l_k = v_k^H F/(2 pi),   d_k as in ModalModel
 //
-// E has a unit column for each contact. ModalModel is this for one contact.
+// E has a unit column for each contact. ModalModel is this for one contact. At rest, eta = 0, a rigid motion
+// has no d_k: the sums are then over the modes that deform the structure.
 
 #include <functional>
 #include <string>
@@ -68,6 +69,9 @@ struct ContactMode {
   double frequency;     ///< eta_k
   ContactVector shape;  ///< s_k, m
   Complex load;         ///< l_k
+
+  /// Whether it moves the structure without deforming it.
+  bool is_rigid() const { return !(frequency > 0); }
 };
 
 /// Immutable; may be used from several threads.

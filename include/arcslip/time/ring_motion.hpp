@@ -183,6 +183,7 @@ class RingMotion {
   void take_events(RingState& state, RingObserver* observer);
   void leave_idle(RingState& state) const;
   void add_harmonic(int order, const ComplexVector& load, RingState& state) const;
+  void move_rigidly(const ComplexVector& mean, const ComplexVector& loads, RingState& state) const;
   void begin_elements(const std::vector<RingHarmonic>& harmonics, RingState& state) const;
 
   Ring ring_;

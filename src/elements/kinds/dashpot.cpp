@@ -15,6 +15,7 @@ class Dashpot final : public Element {
     out.set_linear(0, x, derivatives);
   }
   bool dissipates() const override { return true; }
+  bool holds_mean(Index /*coordinate*/, bool /*beyond*/) const override { return false; }
   Jet damping() const override { return damping_; }
   bool is_told_by_law() const override { return true; }
   DisturbedLaw disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,

@@ -18,6 +18,20 @@ inline void add_product(HarmonicDerivative& sum, double factor, const ComplexVec
   sum.conjugate.noalias() += factor * value * turns.adjoint();
 }
 
+/// Harmonics of theta on an arc and 0 elsewhere, in these orders.
+inline ComplexVector ramp_harmonics(double begin, double width, std::span<const int> orders) {
+  ComplexVector sums(std::ssize(orders));
+  const double half = 0.5 * width;
+  for (std::size_t a = 0; a < orders.size(); ++a) {
+    const int h = orders[a];
+    const Complex middle = (begin + half) * arc_integral(begin, width, -h);
+    const double odd = h == 0 ? 0 : (std::sin(h * half) / h - half * std::cos(h * half)) / h;
+    const Complex sum = middle - Complex(0, 2 * odd) * std::polar(1.0, -h * (begin + half));
+    sums(static_cast<Index>(a)) = sum / (h == 0 ? two_pi : pi);
+  }
+  return sums;
+}
+
 /// Sums over arcs of int e^{jm theta} dtheta with a sign each.
 class ArcSums {
  public:

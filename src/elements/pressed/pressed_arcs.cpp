@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arcslip/motion/swing.hpp"
 #include "motion/bracketed_newton.hpp"
 
 namespace arcslip {
@@ -18,7 +19,7 @@ PeriodicMotion combined(double a, const PeriodicMotion& x, double b, const Perio
   sum.head(x.highest() + 1) += a * x.coefficients();
   sum.head(y.highest() + 1) += b * y.coefficients();
   sum(0) += constant;
-  return PeriodicMotion(std::move(sum));
+  return PeriodicMotion(std::move(sum)).drifting(a * x.drift() + b * y.drift());
 }
 
 }  // namespace
@@ -34,8 +35,10 @@ PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& 
     throw std::invalid_argument(
         "PressedArcs: the tangential stiffness must be positive, friction and normal stiffness not negative");
   cut();
-  if (course == Course::sticks) {
-    stay_stuck();
+  if (course == Course::sticks || course == Course::rests) {
+    stay_stuck(course == Course::rests);
+  } else if (course == Course::drifts) {
+    settle_drifting();
   } else if (course == Course::slips && room() >= 0) {
     slip_no_way();
   } else {
@@ -45,8 +48,19 @@ PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& 
 
 /// A second period is the settled one.
 void PressedArcs::settle() {
+  if (cells_.front().touches) {
+    if (nodes_.front().low > 0)
+      hold(nodes_.front(), 1);
+    else if (nodes_.front().high < 0)
+      hold(nodes_.front(), -1);
+  }
   pass(false);
   pass(true);
+  join_ends();
+}
+
+/// What goes on over the end of the period is one arc.
+void PressedArcs::join_ends() {
   Arc& first = arcs_.front();
   const Arc& last = arcs_.back();
   if (arcs_.size() > 1 && first.phase == last.phase && first.direction == last.direction &&
@@ -55,6 +69,43 @@ void PressedArcs::settle() {
     first.width += last.width;
     arcs_.pop_back();
   }
+}
+
+/// From a bound that all before it has not passed on, so that here, too, a second period is the settled one:
+/// with A so much further as the period takes the sliding displacement. Where it would stick but for one side
+/// A goes that way, or none against a drift that a corrector tries.
+void PressedArcs::settle_drifting() {
+  const auto swing = [](const PeriodicMotion& bound) {
+    const PeriodicMotion still = bound.drifting(0);
+    return Swing::at(still, still.derivative().zeros());
+  };
+  const double low = swing(low_).greatest.value;
+  const double high = swing(high_).least.value;
+  const bool is_one_sided = high >= low;
+  const double drift = low_.drift();
+  const bool forwards = is_one_sided || drift == 0 ? low >= -high : drift > 0;
+  if (is_one_sided && (forwards ? drift < 0 : drift > 0)) return stay_against_drift(forwards);
+  hold(nodes_.front(), forwards ? 1 : -1);
+  pass(false);
+  now_.offset -= two_pi * drift;
+  pass(true);
+  join_ends();
+  if (is_stuck()) arcs_.front().begin = arcs_.front().anchor;
+  for (Arc& arc : arcs_) {
+    if (arc.anchor > arc.begin) arc.anchor -= two_pi;
+  }
+}
+
+/// From where the bound is farthest for a whole period.
+void PressedArcs::stay_against_drift(bool forwards) {
+  const auto nearer = [&](const Node& a, const Node& b) {
+    const double way = low_.drift() * (b.angle - a.angle);
+    return forwards ? b.low - a.low > way : b.high - a.high < way;
+  };
+  const Node& far = *std::max_element(nodes_.begin(), nodes_.end(), nearer);
+  hold(far, forwards ? 1 : -1);
+  records_ = true;
+  add(far.angle, two_pi);
 }
 
 /// At all zeros, or at 0 where nothing moves.
@@ -70,7 +121,11 @@ void PressedArcs::cut() {
   for (const double angle : angles) nodes_.push_back({angle, low_.value(angle), high_.value(angle)});
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const bool is_last = i + 1 == nodes_.size();
-    const Node& end = nodes_[is_last ? 0 : i + 1];
+    Node end = nodes_[is_last ? 0 : i + 1];
+    if (is_last) {
+      end.low += two_pi * low_.drift();
+      end.high += two_pi * high_.drift();
+    }
     const double width = end.angle - nodes_[i].angle + (is_last ? two_pi : 0);
     const double middle = nodes_[i].angle + 0.5 * width;
     cells_.push_back({nodes_[i], end, width, press_.value(middle) > 0, low_.at(middle).first > 0,
@@ -80,12 +135,6 @@ void PressedArcs::cut() {
 
 void PressedArcs::pass(bool record) {
   records_ = record;
-  if (!record && cells_.front().touches) {
-    if (nodes_.front().low > 0)
-      hold(nodes_.front(), 1);
-    else if (nodes_.front().high < 0)
-      hold(nodes_.front(), -1);
-  }
   for (const Cell& cell : cells_) {
     if (!cell.touches) {
       now_ = {0, 0, Phase::apart};
@@ -108,14 +157,14 @@ void PressedArcs::pass(bool record) {
 
 /// With A as near to zero as its bounds let it be. Beyond the border they have changed places, which at the
 /// border of a motion without mean they may do by rounding.
-void PressedArcs::stay_stuck() {
+void PressedArcs::stay_stuck(bool at_zero) {
   constexpr double rounding = 1e-13;
   const double zero = rounding * (std::abs(highest_high().high) + std::abs(lowest_low().low));
   const double low = highest_low().low;
   const double high = lowest_high().high;
-  if (std::min(low, high) > zero)
+  if (!at_zero && std::min(low, high) > zero)
     hold(highest_low(), 1);
-  else if (std::max(low, high) < -zero)
+  else if (!at_zero && std::max(low, high) < -zero)
     hold(lowest_high(), -1);
   records_ = true;
   add(0, two_pi);

@@ -36,9 +36,12 @@ class PressedIntegrals {
       } else {
         stick_.add(own);
         held_.push_back({arc, own.harmonics(one_, orders)});
+        if (course == PressedArcs::Course::drifts)
+          ramps_.push_back(ramp_harmonics(arc.begin, arc.width, orders));
       }
     }
     stuck_ = stick_.harmonics(sliding, orders);
+    for (const ComplexVector& ramp : ramps_) stuck_ += sliding.drift() * ramp;
     slipped_ = slip_.harmonics(course_.press(), orders);
   }
 
@@ -63,6 +66,7 @@ class PressedIntegrals {
       add_product(out.tangential_by_sliding, -k, constant, turns);
       add_product(out.tangential_by_closing, -arc.by_press, constant, turns);
     }
+    if (!ramps_.empty()) by_drift(out);
     out.normal_by_closing = touch_.derivative(orders_, settings_.normal_stiffness);
     out.tangential_by_closing.linear *= settings_.normal_stiffness;
     out.tangential_by_closing.conjugate *= settings_.normal_stiffness;
@@ -98,6 +102,16 @@ class PressedIntegrals {
     ComplexVector constant;
   };
 
+  /// By the imaginary part of r_0, in whose columns the two derivatives then differ.
+  void by_drift(PressedForce& out) const {
+    const Index mean = place_of_mean(orders_);
+    ComplexVector rate = ComplexVector::Zero(std::ssize(orders_));
+    for (std::size_t i = 0; i < held_.size(); ++i)
+      rate += settings_.tangential_stiffness * (ramps_[i] - held_[i].arc.anchor * held_[i].constant);
+    out.tangential_by_sliding.linear.col(mean) -= Complex(0, 0.5) * rate;
+    out.tangential_by_sliding.conjugate.col(mean) += Complex(0, 0.5) * rate;
+  }
+
   void normal_range(PressedForce& out) const {
     const Swing swing = Swing::at(course_.press(), course_.press().derivative().zeros());
     out.least_normal = std::max(0.0, swing.least.value);
@@ -114,22 +128,32 @@ class PressedIntegrals {
   ArcSums slip_;  // with the direction of slip as sign
   ArcSums touch_;
   std::vector<Held> held_;
-  ComplexVector stuck_;    // of r where it sticks
-  ComplexVector slipped_;  // of N where it slips, with that sign
+  std::vector<ComplexVector> ramps_;  // of theta over each of these, where it drifts
+  ComplexVector stuck_;               // of r where it sticks
+  ComplexVector slipped_;             // of N where it slips, with that sign
 };
 
 }  // namespace
+
+PeriodicMotion sliding_motion(std::span<const int> orders, const ComplexVector& sliding,
+                              PressedArcs::Course course) {
+  const PeriodicMotion motion(orders, sliding, highest_order(orders));
+  if (course != PressedArcs::Course::drifts) return motion;
+  return motion.drifting(sliding(place_of_mean(orders)).imag());
+}
 
 PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
                            const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
                            PressedArcs::Course course) {
   if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
-  const PeriodicMotion slides(orders, sliding, highest_order(orders));
+  const PeriodicMotion slides = sliding_motion(orders, sliding, course);
   const PeriodicMotion closes(orders, closing, highest_order(orders));
   const PressedIntegrals integrals(settings, orders, slides, closes, course);
   PressedForce out;
   integrals.forces(out);
   out.energy = cycle_energy(orders, out.tangential, sliding);
+  if (slides.drift() != 0)
+    out.energy += two_pi * slides.drift() * out.tangential(place_of_mean(orders)).real();
   if (!derivatives) return out;
   integrals.by_motions(out);
   integrals.by_settings(out);

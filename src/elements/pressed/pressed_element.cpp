@@ -9,13 +9,6 @@
 namespace arcslip {
 namespace {
 
-using Course = PressedArcs::Course;
-
-/// Position of the mean among these orders.
-Index place_of_mean(std::span<const int> orders) {
-  return std::find(orders.begin(), orders.end(), 0) - orders.begin();
-}
-
 /// Adds a part of a derivative to the rows of one coordinate by those of another.
 void put(const HarmonicDerivative& part, Index row, Index column, ElementForce& out) {
   const Index n = part.linear.rows();
@@ -64,8 +57,8 @@ void PressedElement::force_at(std::span<const int> orders, const HarmonicVector&
                               double setting, bool beyond, bool derivatives, ElementForce& out) const {
   const Index n = std::ssize(orders);
   const PressedSettings settings = settings_.at(load, setting);
-  const PressedForce found = pressed_force(settings, orders, x.head(n), x.tail(n), derivatives,
-                                           beyond ? Course::slips : Course::sticks);
+  const PressedForce found =
+      pressed_force(settings, orders, x.head(n), x.tail(n), derivatives, course(beyond));
   const Index mean = n + place_of_mean(orders);
   const double rests = std::max(0.0, settings.normal_force);
   const auto both = [&](const ComplexVector& tangential, const ComplexVector& normal, double rest) {
@@ -103,15 +96,19 @@ DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const Harmon
   const Index n = std::ssize(orders);
   const int highest = highest_order(orders);
   const PressedSettings settings = settings_.at(load, 0);
-  const PressedArcs course(settings, PeriodicMotion(orders, x.head(n), highest),
-                           PeriodicMotion(orders, x.tail(n), highest),
-                           beyond ? Course::slips : Course::sticks);
-  return pressed_law(settings, course, 2);
+  const PressedArcs arcs(settings, sliding_motion(orders, x.head(n), course(beyond)),
+                         PeriodicMotion(orders, x.tail(n), highest), course(beyond));
+  return pressed_law(settings, arcs, 2);
+}
+
+std::shared_ptr<const Element> PressedElement::alone() const {
+  auto same = std::make_shared<PressedElement>(*this);
+  same->is_alone_ = true;
+  return same;
 }
 
 /// W/sqrt(T^2 + B^2) of W = min (k_t r + mu n) - max (k_t r - mu n), T = max (k_t r + mu n) and B = min (k_t
-/// r
-/// - mu n).
+/// r - mu n); where nothing else holds the mean, and A = 0, of the lesser part of W.
 MotionNumber PressedElement::border(std::span<const int> orders, const HarmonicVector& x,
                                     const Swing* /*known*/, double load, bool beyond) const {
   const Index n = std::ssize(orders);
@@ -119,14 +116,16 @@ MotionNumber PressedElement::border(std::span<const int> orders, const HarmonicV
   const int highest = highest_order(orders);
   const PeriodicMotion slides(orders, x.head(n), highest);
   const PeriodicMotion closes(orders, x.tail(n), highest);
-  const PressedArcs course(settings, slides, closes, Course::sticks);
+  const PressedArcs course(settings, slides, closes, PressedArcs::Course::sticks);
   const double top = course.highest_high().high;
   const double bottom = course.lowest_low().low;
   const double norm = std::hypot(top, bottom);
   const double sign = beyond ? 1 : -1;
   MotionNumber border{0, HarmonicVector::Zero(2 * n), 0, 0};
   if (!(norm > 0)) return border;
-  border.value = sign * course.room() / norm;
+  const double above = course.lowest_high().high;
+  const double below = -course.highest_low().low;
+  border.value = sign * (is_alone_ ? std::min(above, below) : course.room()) / norm;
   const double k = settings.tangential_stiffness;
   const double mu = settings.friction;
   const Settings& s = settings_;
@@ -144,8 +143,8 @@ MotionNumber PressedElement::border(std::span<const int> orders, const HarmonicV
                 side * (s.friction.first * press + mu * (s.normal.first * closing + s.normal_force.first +
                                                          load * s.normal_per_load.first)));
   };
-  add(course.lowest_high().angle, 1, sign / norm);
-  add(course.highest_low().angle, -1, -sign / norm);
+  if (!is_alone_ || above <= below) add(course.lowest_high().angle, 1, sign / norm);
+  if (!is_alone_ || below < above) add(course.highest_low().angle, -1, -sign / norm);
   const double per_norm = border.value / (norm * norm);
   add(course.highest_high().angle, 1, -per_norm * top);
   add(course.lowest_low().angle, -1, -per_norm * bottom);

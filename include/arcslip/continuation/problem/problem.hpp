@@ -128,6 +128,9 @@ class Problem {
   /// The regime that a branch enters across this border; none where the branch ends on it.
   [[nodiscard]] virtual std::optional<Regime> regime_beyond(const Regime& regime, int border) const;
 
+  /// Why a branch may end on a border or where there is no value, as a clause; empty where nothing is known.
+  virtual std::string reason_of_end() const { return {}; }
+
   /// What is written beside each point, besides u and p.
   virtual std::vector<Observable> observables() const { return {}; }
 

@@ -37,6 +37,9 @@ class CircleElement final : public Element {
     return PressedElement::least_press(settings_.at(load, 0), orders, x.tail(std::ssize(orders)));
   }
   bool has_border() const override { return true; }
+  bool holds_mean(Index coordinate, bool beyond) const override {
+    return coordinate < 2 ? !beyond : settings_.normal.value > 0;
+  }
   std::string beyond() const override { return "slip"; }
   bool rests_beyond(double load) const override { return !(settings_.at(load, 0).normal_force > 0); }
   bool is_linear(bool beyond) const override { return !beyond && (!closes_ || settings_.normal.value > 0); }

@@ -41,8 +41,10 @@ class PressedArcs {
 
   /// Which course is meant: the one there is, or that of one side of the border between both, continued
   /// smoothly for a corrector that steps beyond it. That in which it sticks has n in place of N; that in
-  /// which it slips has, where it would stick, A at one bound after the other.
-  enum class Course { any, sticks, slips };
+  /// which it slips has, where it would stick, A at one bound after the other. Of one that nothing else holds
+  /// A rests at 0, or it drifts: in whatever direction its sliding displacement does, or where that has no
+  /// drift to the side on which it begins to slip from rest, one bound takes A along.
+  enum class Course { any, sticks, slips, rests, drifts };
 
   /// An arc in theta.
   struct Arc {
@@ -51,7 +53,7 @@ class PressedArcs {
     Phase phase;             ///< what it does
     int direction = 0;       ///< of slip, the sign of f; else 0
     double offset = 0;       ///< of stick: A
-    double anchor = 0;       ///< of stick: theta at which A was set
+    double anchor = 0;       ///< of stick: theta at which A was set, where it drifts none behind `begin`
     bool is_set = false;     ///< of stick: false where A = 0 from rest
     double by_press = 0;     ///< of stick: dA/dn at the anchor, beside dA/d(k_t r) = 1
     bool was_apart = false;  ///< of stick: whether A was set as the parts touched, else as slip ended
@@ -104,7 +106,10 @@ class PressedArcs {
   void cut();
   void pass(bool record);
   void settle();
-  void stay_stuck();
+  void settle_drifting();
+  void stay_against_drift(bool forwards);
+  void join_ends();
+  void stay_stuck(bool at_zero);
   void slip_no_way();
   void touch(const Cell& cell);
   void hold(const Node& node, int direction);

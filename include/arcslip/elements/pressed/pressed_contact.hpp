@@ -50,9 +50,14 @@ struct PressedForce {
   double greatest_normal = 0;  ///< max N
 };
 
+/// The sliding motion of these coefficients, in the course that drifts with its drift.
+PeriodicMotion sliding_motion(std::span<const int> orders, const ComplexVector& sliding,
+                              PressedArcs::Course course);
+
 /// The settled forces under the motions with these `orders` (h >= 0, different ones), one coefficient each;
-/// the derivatives only if they are wanted. Throws std::invalid_argument of settings out of their range or
-/// orders that do not fit.
+/// the derivatives only if they are wanted. In the course that drifts, 0 is among the orders and its sliding
+/// coefficient has the drift as imaginary part. Throws std::invalid_argument of settings out of their range
+/// or orders that do not fit.
 PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
                            const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
                            PressedArcs::Course course = PressedArcs::Course::any);

@@ -61,6 +61,10 @@ class PressedElement final : public Element {
   bool has_border() const override { return true; }
   std::string beyond() const override { return "slip"; }
   bool rests_beyond(double load) const override;
+  bool holds_mean(Index coordinate, bool beyond) const override {
+    return coordinate == 0 ? !beyond : settings_.normal.value > 0;
+  }
+  std::shared_ptr<const Element> alone() const override;
   bool is_linear(bool beyond) const override { return !beyond && settings_.normal.value > 0; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
@@ -85,8 +89,14 @@ class PressedElement final : public Element {
                 bool beyond, bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;
+  PressedArcs::Course course(bool beyond) const {
+    using Course = PressedArcs::Course;
+    if (is_alone_) return beyond ? Course::drifts : Course::rests;
+    return beyond ? Course::slips : Course::sticks;
+  }
 
   Settings settings_;
+  bool is_alone_ = false;
 };
 
 }  // namespace arcslip

@@ -7,6 +7,7 @@
 
 #include "arcslip/assembly/coordinates.hpp"
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/rigid_motions.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/problems/response/slip_regimes.hpp"
@@ -26,10 +27,10 @@ class HarmonicProblem : public continuation::Problem {
   }
   double border(const Vector& u, const Vector& p, const continuation::Regime& regime, int border,
                 continuation::Gradient* gradient) const override;
+  /// None where elements then slip that together, and none of them alone, hold the mean of what is free.
   std::optional<continuation::Regime> regime_beyond(const continuation::Regime& regime,
-                                                    int border) const override {
-    return regime.with(border, 1 - regime[border]);
-  }
+                                                    int border) const override;
+  std::string reason_of_end() const override;
 
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
@@ -40,6 +41,9 @@ class HarmonicProblem : public continuation::Problem {
                Vector& values) const override;
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
+
+  /// Whether a part that friction alone holds drifts in a regime.
+  bool drifts(const continuation::Regime& regime) const { return !drifting(regime).empty(); }
 
   /// What may begin or end within a period, of its elements: `lift_off_NAME`. They refer to the problem.
   std::vector<continuation::UserEvent> events() const;
@@ -90,6 +94,7 @@ class HarmonicProblem : public continuation::Problem {
     amplitude,
     mean,
     lag,
+    drift,
     dissipated,
     energy,
     greatest,
@@ -109,10 +114,11 @@ class HarmonicProblem : public continuation::Problem {
   HarmonicProblem(HarmonicSystem system, Layout layout);
 
   /// The quantities of the contacts but the first, of the first in the other harmonics, and what elements
-  /// tell.
+  /// tell, and how fast what they alone hold drifts.
   void add_further_contacts();
   void add_other_harmonics();
   void add_readings();
+  void add_drifts();
 
   /// What stands there; 0 of what stands nowhere.
   double value(const Place& place, const Vector& u, const Vector& p) const {
@@ -233,8 +239,32 @@ class HarmonicProblem : public continuation::Problem {
   virtual double synthesised_force(const Vector& u, const Vector& p,
                                    const continuation::Regime& regime) const;
 
+  /// All coordinates at rest, where nothing is rigid: C_0 and -x0_0, with derivatives.
+  struct Rest {
+    ContactReceptance joint;       ///< C_0 and -x0_0
+    ContactMatrix by_varied;       ///< of C_0 by the further parameter
+    ContactVector free_by_varied;  ///< of -x0_0 by it
+  };
+  void respond_at_rest(const Vector& u, const Vector& p, Rest& rest) const;
+
+  /// What rigid motions make of the coordinates' means under these forces: x_0 - x0_0 + C_0 f_0.
+  ContactVector moved_at_rest(const Rest& rest, const std::vector<ElementForce>& elements, const Vector& u,
+                              const Vector& p) const;
+
+  /// A rigid motion that one element alone holds, and that goes on and on where this is beyond its border.
+  struct Drift {
+    Index element;         ///< which
+    ComplexVector motion;  ///< alpha
+    Vector ways;           ///< S alpha, real
+  };
+
+  /// Those that go on in a regime.
+  std::vector<const Drift*> drifting(const continuation::Regime& regime) const;
+
   HarmonicSystem system_;             ///< as it was given
   Coordinates coordinates_;           ///< of the system
+  RigidMotions rigid_;                ///< of both
+  std::vector<Drift> drifts_;         ///< of all regimes
   Layout layout_;                     ///< as it was given
   std::vector<Quantity> quantities_;  ///< the observables
 
@@ -262,6 +292,8 @@ class HarmonicProblem : public continuation::Problem {
   void add_log_load(double value, Index element, const Vector& u, const Vector& p,
                     continuation::Gradient& gradient) const;
   const Swing* known_swing(const Vector& u, const Vector& p, Index element) const;
+  ComplexMatrix loose(const continuation::Regime& regime, Index without = -1) const;
+  void find_drifts();
   class Observation;
 };
 

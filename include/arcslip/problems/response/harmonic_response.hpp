@@ -7,10 +7,11 @@
 //
 // Where an element or the load is not odd under half a period, even harmonics are among them, and the mean h
 // = 0, the static state: C_0 is the static compliance, and x_0 has an imaginary part that the equation makes
-// 0. Solved is f_h + (1 + C_h K)^{-1} (x_h - f_h - x0_h) = 0 relative to |x| and to sqrt(1 + |(1 + C_h
-// K)^{-1}|^2): where the contacts stick, the error of x itself, however much larger C_h K is for their common
-// motion than for their differences. The first coordinates are the relative motions r = u - y of m contacts:
-// u_h from the forces on the damper, y_h = u_h - r_h.
+// 0; what is free to move is held by the elements alone, see rigid_motions.hpp. Solved is f_h + (1 + C_h
+// K)^{-1} (x_h - f_h - x0_h) = 0 relative to |x| and to sqrt(1 + |(1 + C_h K)^{-1}|^2): where the contacts
+// stick, the error of x itself, however much larger C_h K is for their common motion than for their
+// differences. The first coordinates are the relative motions r = u - y of m contacts: u_h from the forces on
+// the damper, y_h = u_h - r_h.
 //
 // Unknowns: Re x_1, Im x_1, Re x_3, ... in the order of the system's of the first coordinate, then of the
 // next. Parameters: eta, P. Regimes: which contacts slip, bit i for contact i; borders: the amplitude A_i =
@@ -81,6 +82,9 @@ class HarmonicResponse : public HarmonicProblem {
     std::vector<ContactVector> base;    ///< of each harmonic, the forces on its contact dofs
     std::vector<ContactVector> damper;  ///< the same
     double energy;                      ///< lost per cycle in all elements
+    ContactVector base_moved = {};      ///< its contact dofs by rigid motions, in the mean; empty without
+    ContactVector damper_moved = {};    ///< the same
+    double drag = 0;                    ///< lost per cycle as drifts meet the damping of masses
   };
   /// At a solution.
   ElementForces element_forces(const Vector& u, const Vector& p, const continuation::Regime& regime) const;
@@ -100,15 +104,38 @@ class HarmonicResponse : public HarmonicProblem {
     ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
     ContactVector free_by_varied;
-    ContactMatrix inverse;   // (1 + C_h K)^{-1}
-    double weight;           // 1/sqrt(1 + |inverse|^2)
+    ContactMatrix inverse;  // (1 + C_h K)^{-1}, at rest its limit as rigid motions meet no stiffness
+    ContactMatrix
+        bordered;   // of rigid motions: the inverse of [1 + C_0 K, S; S^H K, 0], which has it as a part
+    double weight;  // 1/sqrt(1 + |inverse|^2)
     Coordinates::Each each;  // work space
     ContactVector f, gap, held, residual;
     ContactMatrix product, turned;
+
+    /// What is solved with.
+    const ContactMatrix& solver() const { return bordered.size() > 0 ? bordered : inverse; }
   };
   void set_order(Index which, const Vector& p, const continuation::Regime& regime, Order& order) const;
   void set_varied(Order& order, double frequency_value, const Vector& p) const;
-  struct Rows;
+  void border_by_rigid(Order& order, const Vector& p) const;
+  [[nodiscard]] bool remembers_mean(const std::vector<ElementForce>& elements, const Vector& p,
+                                    const continuation::Regime& regime) const;
+  Matrix onto_drifts(const continuation::Regime& regime) const;
+  ComplexMatrix drag(const Vector& p) const;
+  /// Work space of a thread: F and what its derivatives by the unknowns consist of.
+  struct Rows {
+    Order order;
+    Vector residual;
+    Vector weight;      // of each order, over |r|
+    ComplexMatrix own;  // derivative by f: orders x pairs of coordinates, that of the column first
+    ComplexVector sum;  // of the f of a coordinate by Re x_h and Im x_h of one
+    ComplexVector difference;
+    Matrix drifts;       // onto those that go on; of size 0 where nothing is free to move
+    ComplexVector drag;  // on each rigid motion, of what damps masses
+    Matrix by_drag;      // of the mean's rows by the drifts of coordinates, through that
+  };
+  void take_drifts(Order& order, const Vector& u, const Vector& p, Rows& rows) const;
+  void set_drifts(const Vector& u, Rows& rows, Matrix* jacobian) const;
   void fill_rows(const std::vector<ElementForce>& elements, double share, const Vector& u, const Vector& p,
                  const continuation::Regime& regime, Rows& rows, Matrix* parameter_jacobian) const;
   void fill_order(Order& order, const std::vector<ElementForce>& elements, double share, const Vector& u,
