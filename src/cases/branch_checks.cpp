@@ -53,7 +53,6 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
                                                 jumps->kind->name));
   if (all_odd(system.harmonics)) return;
   const char* why = "the mean and even harmonics, which elements that are not odd call for, are balanced";
-  if (problem.harmonics_tolerance) section.fail("harmonics", fmt::format(R"(not "auto" where {})", why));
   if (system.one_way || problem.response->has_own_frequency())
     section.fail("harmonics", fmt::format("{} in forced responses alone", why));
   for (const PlacedElement& one : system.others) {

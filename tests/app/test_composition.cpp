@@ -52,6 +52,8 @@ void check_response(Cells& cells) {
   CHECK(branch["stop"] == "reached_end");
   CHECK(branch["power_error"] < 1e-7);
   CHECK(branch["motion_error"] < 1e-7);
+  const Table rows = cells.results();
+  for (std::size_t i = 0; i < rows.rows.size(); ++i) CHECK(rows(i, "residual") < 1e-8);
 }
 
 void check_preload_response(Cells& cells) {
@@ -272,8 +274,9 @@ void check_peaks(Cells& cells) {
 std::vector<Task> tasks() {
   const auto study = [](Cells& cells) { return cells.run("study", study_text(cells, 0.1, 5)); };
   const auto scatter = [](Cells& cells) {
-    return cells.run("study", study_text(cells, 0.5, 1) +
-                                  "sweep = true\n[study.uncertain]\nmu = { lognormal = 0.2 }\n"
+    // A mu of its own, of which each value is another design, is for test_even_studies.cpp.
+    const char* mu = cells.kind().name == "lift-off" ? "" : "mu = { lognormal = 0.2 }\n";
+    return cells.run("study", study_text(cells, 0.5, 1) + "sweep = true\n[study.uncertain]\n" + mu +
                                   "preload = { uniform = [0.8, 1.25] }\nsamples = 100\n");
   };
   const auto asked = [](const std::string& more, const std::string& options = "") {
