@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "arcslip/continuation/events/step_search.hpp"
@@ -118,24 +119,26 @@ void search_borders(StepSearch& step) {
   const auto first = static_cast<std::size_t>(stepper.monitors().tracked_count());
   std::vector<Monitor> ahead = stepper.step().to;
   double upper = step.upper();
-  bool is_reached = false;
+  std::optional<std::size_t> reached;
   for (const std::size_t m : in_order(stepper)) {
-    const bool at_upper = is_reached && std::abs(ahead[m].value) <= together;
+    const bool at_upper = reached && std::abs(ahead[m].value) <= together;
     const Zero zero = at_upper ? border_crossing(stepper, m, stepper.step().distance, stepper.step().to[m])
                                : border_crossing(stepper, m, upper, ahead[m]);
     if (zero.state == Zero::State::failed) return step.fail();
     if (zero.state == Zero::State::absent) continue;
     step.note({&border_crossings, PointType::regime_switch, static_cast<Index>(m - first), zero.s});
-    is_reached = true;
-    if (step.upper() == upper) continue;
+    if (reached && step.upper() == upper) continue;
+    reached = m;
     upper = step.upper();
     if (!stepper.prober().probe(upper)) return step.fail();
     ahead = stepper.prober().probed().monitors;
   }
-  if (!is_reached) return;
-  if (!stepper.prober().probe(step.upper()) ||
-      !stepper.resolved(step.upper(), stepper.prober().probed().monitors))
-    step.fail();
+  if (!reached) return;
+  if (!stepper.prober().probe(upper)) return step.fail();
+  const std::vector<Monitor>& there = stepper.prober().probed().monitors;
+  // A value that jumps has its zero between two branches, from one of which the probes have come to the
+  // other.
+  if (std::abs(there[*reached].value) > together || !stepper.resolved(upper, there)) step.fail();
 }
 
 }  // namespace

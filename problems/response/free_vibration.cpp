@@ -21,12 +21,7 @@ struct FreeVibration::Order {
 };
 
 FreeVibration::FreeVibration(HarmonicSystem system, Layout layout)
-    : HarmonicProblem(std::move(system), layout) {
-  if (!all_odd(system_.orders))
-    throw std::invalid_argument("FreeVibration: the mean and even harmonics are those of forced responses");
-  if (coordinates_.elements() < coordinates_.size())
-    throw std::invalid_argument("FreeVibration: elements act along one dof each");
-}
+    : HarmonicProblem(std::move(system), layout), is_odd_(all_odd(system_.orders)) {}
 
 /// The unknowns that are no motion stand in front.
 double FreeVibration::length(const Vector& u, const Vector& p) const {
@@ -38,7 +33,7 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
   const Index m = coordinates_.size();
   const ContactMatrix none = ContactMatrix::Zero(m, m);
   Order order{which, none, none, none, none};
-  if (all_stick(regime) && which > 0 && !coordinates_.has_others())
+  if (all_stick(regime) && is_odd_ && which > 0 && !coordinates_.has_others())
     return order;  // x_h = 0, also at a resonance of C_h
   const auto add = [&](const ContactModes& structure, bool is_base) {
     Response found;
@@ -60,9 +55,10 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
       const SystemParameter::At varied = variation(u, p);
       for (Index j = 0; j < m; ++j) {
         const double square = std::pow(reference_stiffness(j, u, p), 2);
-        order.norm_varied += 2 * square *
-                             (std::real(compliance.col(j).dot(by_varied.col(j))) +
-                              log_force_rate(j, varied) * compliance.col(j).squaredNorm());
+        order.norm_varied +=
+            2 * square *
+            (std::real(compliance.col(j).dot(by_varied.col(j))) +
+             log_force_rate(coordinates_.element_of(j), varied) * compliance.col(j).squaredNorm());
       }
     }
     for (Index j = 0; j < m; ++j) {
@@ -82,8 +78,8 @@ bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuatio
   if (!(frequency(u, p) > 0 && amplitude(u, p) > 0 && value(layout_.preload, u, p) > 0 &&
         (!is_varied() || system_.varied->allows(value(layout_.varied, u, p))) && pressing(u, p) > 0))
     return false;
-  for (Index i = 1; i < switch_count(); ++i) {
-    if (slips(regime, i) && motion(u, p, i).isZero(0)) return false;
+  for (Index e = 1; e < switch_count(); ++e) {
+    if (slips(regime, e) && element_motion(u, p, e).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
   const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
@@ -101,11 +97,13 @@ Complex FreeVibration::by_varied(const Order& order, Index coordinate,
   const SystemParameter::At varied = variation(u, p);
   Complex sum = -residual * (0.5 * order.norm_varied / order.norm);
   for (Index j = 0; j < coordinates_.size(); ++j) {
-    const ElementForce& element = elements[at(j)];
-    Complex force_rate = element.by_log_load(order.which) * log_load_rate(j, u, p) +
-                         element.harmonics(order.which) * log_force_rate(j, varied);
-    if (element.by_setting.size() > 0) force_rate += element.by_setting(order.which);
-    sum += order.compliance_varied(coordinate, j) * element.harmonics(order.which) +
+    const Index e = coordinates_.element_of(j);
+    const ElementForce& element = elements[at(e)];
+    const Index row = place(j, order.which);
+    Complex force_rate = element.by_log_load(row) * log_load_rate(e, u, p) +
+                         element.harmonics(row) * log_force_rate(e, varied);
+    if (element.by_setting.size() > 0) force_rate += element.by_setting(row);
+    sum += order.compliance_varied(coordinate, j) * element.harmonics(row) +
            order.compliance(coordinate, j) * force_rate;
   }
   return sum;
@@ -123,7 +121,8 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
   const double weight = 1 / (std::sqrt(order.norm) * size);
   Complex residual = motion(u, p, coordinate)(order.which);
   for (Index j = 0; j < coordinates_.size(); ++j)
-    residual += order.compliance(coordinate, j) * elements[at(j)].harmonics(order.which);
+    residual += order.compliance(coordinate, j) *
+                elements[at(coordinates_.element_of(j))].harmonics(place(j, order.which));
   if (out.residual != nullptr) store(weight * residual, *out.residual);
   if (out.jacobian == nullptr && out.parameter_jacobian == nullptr) return;
 
@@ -137,11 +136,12 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
   Complex by_eta = -residual * (0.5 * order.norm_eta / order.norm);
   Complex by_damping = -residual * (0.5 * order.norm_damping / order.norm);
   for (Index j = 0; j < coordinates_.size(); ++j) {
-    const Complex force = elements[at(j)].harmonics(order.which);
-    by_log_load += order.compliance(coordinate, j) * elements[at(j)].by_log_load(order.which);
+    const ElementForce& element = elements[at(coordinates_.element_of(j))];
+    const Index at_row = place(j, order.which);
+    const Complex force = element.harmonics(at_row);
+    by_log_load += order.compliance(coordinate, j) * element.by_log_load(at_row);
     by_eta += order.compliance_eta(coordinate, j) * force;
-    const HarmonicVector& viscous = elements[at(j)].by_eta;
-    if (viscous.size() > 0) by_eta += order.compliance(coordinate, j) * viscous(order.which);
+    if (element.by_eta.size() > 0) by_eta += order.compliance(coordinate, j) * element.by_eta(at_row);
     by_damping += order.compliance_damping(coordinate, j) * force;
   }
   if (is_varied()) store_at(layout_.varied, by_varied(order, coordinate, elements, residual, u, p));
@@ -153,11 +153,15 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
   const Complex shrink = residual / (size * size);
   // Derivatives by Re and Im of the harmonic that the unknowns from `column` on hold.
   const auto by_motion = [&](Index column) {
-    const Index j = column / (2 * n);
-    const Index b = column / 2 % n;
-    const Complex c = order.compliance(coordinate, j);
-    const Complex linear = c * elements[at(j)].linear(order.which, b) + (row == column ? 1.0 : 0.0);
-    const Complex conjugate = c * elements[at(j)].conjugate(order.which, b);
+    const Index of = coordinates_.element_of(column / (2 * n));
+    const Index by = place(column / (2 * n), column / 2 % n);
+    const Index first = coordinates_.first(of);
+    Complex linear = row == column ? 1 : 0;
+    Complex conjugate = 0;
+    for (Index j = first; j < first + coordinates_.element(of).coordinates(); ++j) {
+      linear += order.compliance(coordinate, j) * elements[at(of)].linear(place(j, order.which), by);
+      conjugate += order.compliance(coordinate, j) * elements[at(of)].conjugate(place(j, order.which), by);
+    }
     return std::array{linear + conjugate, Complex(0, 1) * (linear - conjugate)};
   };
   store_at(layout_.real, by_motion(0)[0] - shrink * amplitude(u, p));

@@ -43,7 +43,7 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
 
 bool HarmonicCycle::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              const continuation::Evaluation& out) const {
-  return !contacts_stick(regime) && FreeVibration::evaluate(u, p, regime, out);
+  return !all_stick(regime) && FreeVibration::evaluate(u, p, regime, out);
 }
 
 void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
@@ -56,7 +56,7 @@ void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
 std::optional<continuation::Regime> HarmonicCycle::regime_beyond(const continuation::Regime& regime,
                                                                  int border) const {
   const auto beyond = HarmonicProblem::regime_beyond(regime, border);
-  return contacts_stick(*beyond) ? std::nullopt : beyond;
+  return all_stick(*beyond) ? std::nullopt : beyond;
 }
 
 struct HarmonicCycle::Found {
@@ -75,10 +75,12 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
   const NonlinearMode problem(damped);
   double first = std::numeric_limits<double>::infinity();
   for (Index i = 0; i < contacts(); ++i) {
+    if (!(system_.contacts[at(i)].stiffness > 0)) continue;
     const double S = coordinates_.element(i).threshold(preload_value + system_.preload_growth *
                                                                            mode.frequency * mode.frequency);
     first = std::min(first, stuck * S * std::abs(mode.relative(0) / mode.relative(i)));
   }
+  if (!std::isfinite(first)) first = 1;  // no contact rubs: what else slips tells what is small
   // The first contact may stand still, or what is stuck not vibrate.
   if (!(first > 0 && mode.frequency > 0 && std::abs(mode.damping) < 1)) return;
   continuation::TraceOptions options;
@@ -88,7 +90,8 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
   options.max_points = 1000;  // some two hundred do
   options.max_seconds = limits.max_seconds;
   options.go_on = limits.go_on;
-  const Branch branch = trace(problem, problem.guess(mode.frequency, first, preload_value), options);
+  const Vector begin = Eigen::Vector2d(first, preload_value);
+  const Branch branch = trace(problem, problem.guess(mode.frequency, begin, limits), options);
   if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
     throw continuation::Unfinished(branch.stop, "on the way to a limit cycle: " + branch.explanation);
   for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {
@@ -96,7 +99,7 @@ void HarmonicCycle::add_cycles(const HarmonicSystem& damped, const JoinedMode& m
     const BranchPoint& b = branch.points[k + 1];
     const double at_a = a.unknowns(NonlinearMode::damping);
     const double at_b = b.unknowns(NonlinearMode::damping);
-    if (contacts_stick(a.regime) || (at_a < 0) == (at_b < 0)) continue;
+    if (all_stick(a.regime) || (at_a < 0) == (at_b < 0)) continue;
     const double part = at_a / (at_a - at_b);
     Guess guess{a.unknowns + part * (b.unknowns - a.unknowns), Vector(2), a.regime};
     guess.unknowns(Unknown::amplitude) = a.parameters(0) + part * (b.parameters(0) - a.parameters(0));
@@ -121,9 +124,11 @@ Guess HarmonicCycle::guess(double zeta_value, double preload_value,
   HarmonicSystem damped = system_;
   for (ContactModes& base : damped.base)
     base = base.with(system_.base_loss_fixed + zeta_value * system_.base_loss_per_zeta);
-  const Vector springs = contact_springs(system_.contacts);
   std::vector<Found> found;
-  for (const JoinedMode& mode : joined_modes({&damped.base[0], &damped.damper[0]}, springs)) {
+  constexpr double small = 1e-6;  // of the amplitude at which the first contact slips, if it rubs
+  const double S = system_.contacts[0].stiffness > 0 ? coordinates_.element(0).threshold(preload_value) : 1;
+  const double R = small * S;
+  for (const JoinedMode& mode : NonlinearMode(damped).small_modes(0, R, preload_value)) {
     add_cycles(damped, mode, zeta_value, preload_value, limits, found);
     if (std::any_of(found.begin(), found.end(), [](const Found& one) { return !one.is_large; })) break;
   }

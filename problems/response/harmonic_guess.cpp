@@ -101,7 +101,7 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   if (!has_value(parameters))
     throw std::invalid_argument("HarmonicResponse: eta and the preload must be positive");
   const double preload_value = parameters(preload);
-  guess.regime = at_rest(parameters);
+  guess.regime = at_rest({}, parameters);
   Order order;
   bool is_sine = true;
   for (Index a = 0; a < harmonics(); ++a) {
@@ -136,14 +136,6 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
   guess = reached(LoadPath(*this, parameters), guess, 0, 1, limits);
   guess.parameters = parameters;
   return guess;
-}
-
-continuation::Regime HarmonicResponse::at_rest(const Vector& p) const {
-  continuation::Regime regime;
-  for (Index e = 0; e < switch_count(); ++e) {
-    if (coordinates_.element(e).rests_beyond(load(e, {}, p))) regime = regime.with(static_cast<int>(e), 1);
-  }
-  return regime;
 }
 
 /// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under

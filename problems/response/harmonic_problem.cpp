@@ -19,6 +19,14 @@ bool HarmonicProblem::contacts_stick(const continuation::Regime& regime) const {
   return true;
 }
 
+continuation::Regime HarmonicProblem::at_rest(const Vector& u, const Vector& p) const {
+  continuation::Regime regime;
+  for (Index e = 0; e < switch_count(); ++e) {
+    if (coordinates_.element(e).rests_beyond(load(e, u, p))) regime = regime.with(static_cast<int>(e), 1);
+  }
+  return regime;
+}
+
 HarmonicProblem::Forces& HarmonicProblem::last_forces() {
   thread_local Forces last;
   return last;

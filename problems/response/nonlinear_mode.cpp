@@ -110,11 +110,36 @@ continuation::Guess NonlinearMode::guess(double eta_value, const Vector& paramet
   return guess(eta_value, parameters(amplitude), parameters(preload));
 }
 
+std::vector<JoinedMode> NonlinearMode::small_modes(double eta_value, double R_value,
+                                                   double preload_value) const {
+  Vector u = Vector::Constant(size(), R_value);
+  u(Unknown::frequency) = eta_value;
+  const Vector p = Eigen::Vector2d(R_value, preload_value);
+  const continuation::Regime regime = at_rest(u, p);
+  Vector springs(coordinates_.size());
+  springs.head(contacts()) = contact_springs(system_.contacts);
+  for (Index j = contacts(); j < springs.size(); ++j) {
+    const Index e = coordinates_.element_of(j);
+    const Element& element = coordinates_.element(e);
+    HarmonicVector x = HarmonicVector::Zero(element.coordinates() * harmonics());
+    for (Index i = 0; i < element.coordinates(); ++i) x(i * harmonics()) = R_value;
+    ElementForce pull;
+    element.force(system_.orders, x, load(e, u, p), slips(regime, e), true, pull);
+    springs(j) = pull.linear(place(j, 0), place(j, 0)).real() * force_factor(e, u, p);
+  }
+  return joined_modes({&system_.base[0], &system_.damper[0]}, springs,
+                      [&](const ContactVector& shape, bool is_base) {
+                        ContactVector x(coordinates_.size());
+                        for (Index j = 0; j < x.size(); ++j)
+                          x(j) = coordinates_[j].move(is_base) * shape(coordinates_[j].dof);
+                        return x;
+                      });
+}
+
 continuation::Guess NonlinearMode::guess(double eta_value, double R_value, double preload_value) const {
   if (!(eta_value > 0 && R_value > 0 && preload_value > 0))
     throw std::invalid_argument("NonlinearMode: eta, R and the preload must be positive");
-  const Vector springs = contact_springs(system_.contacts);
-  std::vector<JoinedMode> modes = joined_modes({&system_.base[0], &system_.damper[0]}, springs);
+  std::vector<JoinedMode> modes = small_modes(eta_value, R_value, preload_value);
   constexpr double still = 1e-8;  // of the most that any mode moves it: rounding, as of both moving as one
   double most = 0;
   for (const JoinedMode& mode : modes) most = std::max(most, std::abs(mode.relative(0)));
@@ -126,29 +151,21 @@ continuation::Guess NonlinearMode::guess(double eta_value, double R_value, doubl
     throw std::invalid_argument("NonlinearMode: there is no mode that moves the first contact");
   continuation::Guess guess{Vector::Zero(size()), Vector(2), 0};
   guess.parameters << R_value, preload_value;
-  const ContactVector r = R_value / nearest->relative(0) * nearest->relative;
-  const auto motion_of = [&](const ContactModes& structure, const ContactVector& pull) -> ContactVector {
-    const Loss loss = structure.loss() + Loss{.mass = -2 * nearest->damping * nearest->frequency};
-    return structure.with(loss).at(nearest->frequency).compliance * pull;
-  };
-  const ContactVector f = springs.asDiagonal() * r;
-  const ContactVector y = motion_of(system_.base[0], f);
-  const ContactVector u = motion_of(system_.damper[0], -f);
   for (Index i = 1; i < coordinates_.size(); ++i) {
-    const Coordinate& one = coordinates_[i];
-    const Complex x = i < contacts() ? r(i) : one.base * y(one.dof) + one.damper * u(one.dof);
+    const Complex x = R_value / nearest->relative(0) * nearest->relative(i);
     guess.unknowns(2 * i * harmonics()) = x.real();
     guess.unknowns(2 * i * harmonics() + 1) = x.imag();
   }
   guess.unknowns(Unknown::frequency) = nearest->frequency;
   guess.unknowns(Unknown::damping) = nearest->damping;
-  for (Index i = 0; i < switch_count(); ++i) {
-    if (OddMotion(system_.orders, motion(guess.unknowns, guess.parameters, i)).maximum().value >
-        slip_threshold(i, guess.unknowns, guess.parameters))
-      throw std::invalid_argument(fmt::format(
-          "NonlinearMode: {} at R = {:g}; begin with a smaller R",
-          i < contacts() ? fmt::format("contact {} slips", i + 1) : "an element is beyond its border",
-          R_value));
+  guess.regime = at_rest(guess.unknowns, guess.parameters);
+  if (const int beyond = crossed_border(guess); beyond >= 0) {
+    throw std::invalid_argument(fmt::format(
+        "NonlinearMode: {} at R = {:g}; begin with a smaller R",
+        beyond < contacts()
+            ? fmt::format("contact {} slips", beyond + 1)
+            : fmt::format("element '{}' is beyond its border", coordinates_[coordinates_.first(beyond)].name),
+        R_value));
   }
   return guess;
 }

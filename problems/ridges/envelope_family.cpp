@@ -19,13 +19,18 @@ FactorAxis::Place FactorAxis::place(double value) const {
 EnvelopeFamily::EnvelopeFamily(const EnvelopeCurve& curve)
     : curves_{Curve(std::shared_ptr<const EnvelopeCurve>(), &curve)}, growths_{0} {}
 
-EnvelopeFamily::EnvelopeFamily(FactorAxis growth, FactorAxis force, const Make& make)
-    : growth_(growth), force_(force) {
-  for (std::size_t k = 0; k < force.count; ++k) {
-    for (std::size_t i = 0; i < growth.count; ++i) {
-      growths_.push_back(growth.value(i));
-      curves_.push_back(make({growth.value(i), force.value(k)}));
+EnvelopeFamily::EnvelopeFamily(const Axes& axes, const Make& make) : axes_(axes) {
+  std::size_t count = 1;
+  for (const FactorAxis& axis : axes) count *= axis.count;
+  for (std::size_t i = 0; i < count; ++i) {
+    DesignFactors factors;
+    std::size_t place = i;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      factors.*DesignFactors::each()[a] = axes[a].value(place % axes[a].count);
+      place /= axes[a].count;
     }
+    growths_.push_back(factors.log_growth);
+    curves_.push_back(make(factors));
   }
 }
 
@@ -45,14 +50,19 @@ double EnvelopeFamily::Walk::at(double z, std::size_t curve) {
 }
 
 double EnvelopeFamily::Walk::at(double z, const DesignFactors& factors, std::size_t which) {
-  if (!family_.is_grid_) return at(z, which);
-  const auto [i, right] = family_.growth_.place(factors.log_growth);
-  const auto [k, above] = family_.force_.place(factors.log_force);
-  const auto in_row = [&](std::size_t row) {
-    const std::size_t first = row * family_.growth_.count + i;
-    return right == 0 ? at(z, first) : (1 - right) * at(z, first) + right * at(z, first + 1);
-  };
-  return above == 0 ? in_row(k) : (1 - above) * in_row(k) + above * in_row(k + 1);
+  return family_.is_grid_ ? between(z, factors, family_.axes_.size(), 0) : at(z, which);
+}
+
+/// Along so many of the axes, from that curve on.
+double EnvelopeFamily::Walk::between(double z, const DesignFactors& factors, std::size_t axes,
+                                     std::size_t curve) {
+  if (axes == 0) return at(z, curve);
+  const std::size_t last = axes - 1;
+  std::size_t stride = 1;
+  for (std::size_t a = 0; a < last; ++a) stride *= family_.axes_[a].count;
+  const auto [i, share] = family_.axes_[last].place(factors.*DesignFactors::each()[last]);
+  const double here = between(z, factors, last, curve + i * stride);
+  return share == 0 ? here : (1 - share) * here + share * between(z, factors, last, curve + (i + 1) * stride);
 }
 
 }  // namespace arcslip::problems

@@ -36,8 +36,8 @@ class ResponsePeaks::Slopes {
  public:
   struct Values {
     double log_height;
-    double along;   ///< dL/da at fixed b, or dL/ds where a tangent is given
-    double across;  ///< dL/db at fixed a, or normal to the tangent
+    double along;   ///< dL/da at fixed b, or dL/ds where a direction is given
+    double across;  ///< dL/db at fixed a, or at fixed s
   };
 
   Slopes(const continuation::Problem& problem, Index along, Index across, Index objective)
@@ -52,9 +52,9 @@ class ResponsePeaks::Slopes {
     gradient_.parameters.setZero(static_cast<Index>(problem.parameter_names().size()));
   }
 
-  /// With the tangent d(u, a)/ds of the response (n + 1) it may be vertical there; at a smooth peak dL/db is
-  /// the same in all directions across it.
-  Values at(const Guess& guess, const Vector* tangent = nullptr) {
+  /// With a direction t (n + 1), such as the response's own d(u, a)/ds, places are told by s = t.(u, a)/|t|^2
+  /// instead of a, so that the response may be vertical; at a smooth peak dL/db is the same with any of them.
+  Values at(const Guess& guess, const Vector* direction = nullptr) {
     const Index n = problem_.size();
     const double height =
         problem_.observe(guess.unknowns, guess.parameters, guess.regime, objective_, gradient_);
@@ -63,16 +63,16 @@ class ResponsePeaks::Slopes {
       throw std::runtime_error("a peak cannot be evaluated");
     at_.fill(*solver_, ones_);
     solver_->columns().col(0) = at_.parameter_jacobian().col(along_);
-    if (tangent == nullptr) {
+    if (direction == nullptr) {
       solver_->rows().setZero();
       solver_->corner()(0, 0) = 1;
     } else {
-      solver_->rows().row(0) = tangent->head(n).transpose();
-      solver_->corner()(0, 0) = (*tangent)(n);
+      const Vector row = *direction / direction->squaredNorm();
+      solver_->rows().row(0) = row.head(n).transpose();
+      solver_->corner()(0, 0) = row(n);
     }
     if (solver_->factor() == 0) throw std::runtime_error("the response is singular at a peak");
-    const double along = rate(tangent == nullptr ? solved(Vector::Unit(n + 1, n)) : *tangent);
-    return {std::log(height), along / height,
+    return {std::log(height), rate(solved(Vector::Unit(n + 1, n))) / height,
             (rate(solved(crossing())) + gradient_.parameters(across_)) / height};
   }
 
@@ -203,23 +203,42 @@ ResponsePeaks::Edge ResponsePeaks::edge(const BranchPoint& point) {
           slopes.along};
 }
 
-/// A solution beside a point, with its parameter changed by a part of itself.
-Guess ResponsePeaks::beside(const BranchPoint& point, double change) const {
-  Guess guess = guess_at(point);
-  const double moved = change * point.parameters(along_);
-  const Index n = guess.unknowns.size();
-  guess.parameters(along_) += moved;
-  guess.unknowns += point.tangent.head(n) * (moved / point.tangent(n));
-  const continuation::Solution solution = continuation::solve(*response_.problem, guess);
-  if (solution.outcome != continuation::Correction::converged)
-    throw std::runtime_error("no solution beside a corner");
-  guess.unknowns = solution.unknowns;
-  return guess;
+/// A solution next to a point, forwards (way = 1) or backwards (-1) along the response: reached from the
+/// point there, for at a corner Newton's method may go to and fro between both sides.
+Guess ResponsePeaks::beside(const Branch& branch, std::size_t i, int way) const {
+  constexpr double nearest = 1e-9;  // in the problem's scale
+  constexpr double farthest = 1e-6;
+  const BranchPoint& point = branch.points[i];
+  continuation::Corrector corrector(*response_.problem, along_, {});
+  continuation::CurvePoint origin = corrector.make_point();
+  origin.unknowns = point.unknowns;
+  origin.parameters = point.parameters;
+  origin.regime = point.regime;
+  corrector.set_scale(origin);
+  continuation::CurvePoint near = origin;
+  Vector chord = Vector::Zero(point.tangent.size());
+  for (std::size_t k = i; chord.norm() < nearest && k > 0 && k + 1 < branch.points.size();) {
+    k = way > 0 ? k + 1 : k - 1;
+    near.unknowns = branch.points[k].unknowns;
+    near.parameters = branch.points[k].parameters;
+    corrector.difference(near, origin, chord);
+  }
+  const Vector normal = chord.normalized();
+  double distance = chord.norm();
+  for (continuation::CurvePoint next = near; distance > 10 * nearest; distance *= 0.1) {
+    corrector.difference(near, origin, chord);
+    corrector.displace(origin, 0.1 * chord, next);
+    if (corrector.correct(next, origin, normal, 0.1 * distance) != continuation::Correction::converged) break;
+    near = next;
+  }
+  if (!(distance < farthest)) throw std::runtime_error("no solution beside a corner");
+  return {near.unknowns, near.parameters, point.regime, {}};
 }
 
-ResponsePeak ResponsePeaks::corner(const Guess& before, const Guess& behind) {
-  const Slopes::Values left = slopes_->at(before);
-  const Slopes::Values right = slopes_->at(behind);
+/// A corner between two solutions that are next to it, with places told by a direction.
+ResponsePeak ResponsePeaks::corner(const Guess& before, const Guess& behind, const Vector& direction) {
+  const Slopes::Values left = slopes_->at(before, &direction);
+  const Slopes::Values right = slopes_->at(behind, &direction);
   const double jump = right.along - left.along;
   const double moves = jump == 0 ? 0 : -(right.across - left.across) / jump;
   return {ResponsePeakSite::corner, before, before.parameters(along_), left.log_height,
@@ -229,17 +248,18 @@ ResponsePeak ResponsePeaks::corner(const Guess& before, const Guess& behind) {
 void ResponsePeaks::add_peak(const Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks) {
   const BranchPoint& point = branch.points[i];
   const Guess at = guess_at(point);
-  const auto is_switch = [&](std::size_t k) {
-    return branch.points[k].type == PointType::regime_switch && same_place(branch.points[k], point);
-  };
   // On a border: the regimes of both sides give the slopes of both.
-  for (const std::size_t k : {i - 1, i + 1}) {
-    if (k == 0 || k >= branch.points.size() || !is_switch(k)) continue;
+  std::size_t first = i;
+  std::size_t last = i;
+  while (first > 0 && same_place(branch.points[first - 1], point)) --first;
+  while (last + 1 < branch.points.size() && same_place(branch.points[last + 1], point)) ++last;
+  for (std::size_t k = first; k <= last && first > 0; ++k) {
+    if (branch.points[k].type != PointType::regime_switch) continue;
     Guess before = at;
-    before.regime = branch.points[std::min(i, k) - 1].regime;
+    before.regime = branch.points[first - 1].regime;
     Guess behind = at;
     behind.regime = branch.points[k].regime;
-    peaks.push_back(corner(before, behind));
+    peaks.push_back(corner(before, behind, point.tangent));
     return;
   }
   const Slopes::Values slopes = slopes_->at(at, &point.tangent);
@@ -250,8 +270,7 @@ void ResponsePeaks::add_peak(const Branch& branch, std::size_t i, std::vector<Re
                      slopes.across * point.parameters(across_)});
     return;
   }
-  constexpr double near = 1e-9;
-  ResponsePeak found = corner(beside(point, -near), beside(point, near));
+  ResponsePeak found = corner(beside(branch, i, -1), beside(branch, i, 1), point.tangent);
   found.at = at;
   found.place = point.parameters(along_);
   found.log_height = slopes.log_height;

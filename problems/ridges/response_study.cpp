@@ -15,17 +15,19 @@ constexpr double equally_high = 1e-9;  // of ln Y: peaks that are both the highe
 /// What is read of the observables at a peak.
 class Readings {
  public:
-  explicit Readings(const continuation::Problem& problem)
-      : problem_(problem), names_(continuation::observable_names(problem)) {
+  Readings(const continuation::Problem& problem, const StudiedContacts& contacts)
+      : problem_(problem), names_(continuation::observable_names(problem)), contacts_(contacts) {
     eta_ = continuation::index_of(problem.parameter_names(), "eta");
     preload_ = continuation::index_of(problem.parameter_names(), "P");
     ratio_ = continuation::index_of(names_, "R_over_S");
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (names_[i].starts_with("dissipated")) losses_.push_back(static_cast<Index>(i));
     }
+    for (const std::string& name : contacts.others)
+      energies_.push_back(continuation::index_of(names_, "energy_" + name));
   }
 
-  Peak peak(const ResponsePeak& found, const StudiedContacts& contacts) {
+  Peak peak(const ResponsePeak& found) {
     problem_.observe(found.at.unknowns, found.at.parameters, found.at.regime, values_);
     Peak peak;
     peak.eta = found.place;
@@ -33,32 +35,39 @@ class Readings {
     peak.Y = std::exp(found.log_height);
     peak.R_over_S = values_(ratio_);
     peak.dissipated = values_(losses_.front());
-    const bool slips = std::any_of(losses_.begin(), losses_.end(), [&](Index i) { return values_(i) > 0; });
+    const auto is_lost = [&](Index i) { return values_(i) > 0; };
+    const bool slips = std::any_of(losses_.begin(), losses_.end(), is_lost) ||
+                       std::any_of(energies_.begin(), energies_.end(), is_lost);
     peak.site = slips ? PeakSite::slip : PeakSite::stick;
     if (found.site == ResponsePeakSite::corner) peak.site = PeakSite::corner;
     if (found.site == ResponsePeakSite::edge) peak.site = PeakSite::edge;
-    const double load = peak.preload + contacts.preload_growth * peak.eta * peak.eta;
-    const double by_mu = found.slope * load / peak.preload;
-    peak.sensitivity = {found.slope, by_mu, contacts.is_homogeneous ? 1 - by_mu : unknown, unknown, unknown};
+    const double by_mu = contacts_.is_by_load ? found.slope * load(peak) / peak.preload : unknown;
+    peak.sensitivity = {found.slope, by_mu, contacts_.is_homogeneous ? 1 - by_mu : unknown, unknown, unknown};
     return peak;
   }
 
   /// Lost per cycle in all nodes at the peak that was read last.
-  double energy(const Peak& peak, const StudiedContacts& contacts) const {
-    const double load = peak.preload + contacts.preload_growth * peak.eta * peak.eta;
+  double energy(const Peak& peak) const {
     double sum = 0;
-    for (std::size_t i = 0; i < contacts.contacts.size() && i < losses_.size(); ++i) {
-      const double S = contacts.contacts[i].slip_per_preload * load;
-      sum += contacts.contacts[i].stiffness * S * S * values_(losses_[i]);
+    for (std::size_t i = 0; i < contacts_.contacts.size() && i < losses_.size(); ++i) {
+      const double S = contacts_.contacts[i].slip_per_preload * load(peak);
+      sum += contacts_.contacts[i].stiffness * S * S * values_(losses_[i]);
     }
-    return contacts.nodes * sum;
+    for (const Index i : energies_) sum += values_(i);
+    return contacts_.nodes * sum;
   }
 
  private:
+  double load(const Peak& peak) const {
+    return peak.preload + contacts_.preload_growth * peak.eta * peak.eta;
+  }
+
   const continuation::Problem& problem_;
   std::vector<std::string> names_;
+  const StudiedContacts& contacts_;
   Index eta_, preload_, ratio_;
-  std::vector<Index> losses_;  // of the contacts in their order
+  std::vector<Index> losses_;    // of the contacts in their order
+  std::vector<Index> energies_;  // of the elements beside them
   Vector values_;
 };
 
@@ -68,7 +77,7 @@ class Ridges {
   Ridges(const HighestPeak& highest, const PreloadRange& range, const HighestPeak::Lowest& lowest)
       : samples_(highest.samples()), range_(range), lowest_(lowest) {}
 
-  std::vector<PeakBranch> branches(Readings& readings, const StudiedContacts& contacts) const {
+  std::vector<PeakBranch> branches(Readings& readings) const {
     std::vector<PeakBranch> all;
     std::vector<std::size_t> of_last;  // the branch of each peak of the last sample
     for (std::size_t s = 0; s < samples_.size(); ++s) {
@@ -86,7 +95,7 @@ class Ridges {
           branch_of[k] = all.size();
           all.emplace_back();
         }
-        Peak peak = readings.peak(sample.peaks[k], contacts);
+        Peak peak = readings.peak(sample.peaks[k]);
         peak.is_global = is_highest(sample, k);
         peak.type = type_of(s, k, goes_on[k]);
         all[branch_of[k]].push_back(peak);
@@ -136,16 +145,16 @@ PreloadStudy study_response(ResponsePeaks& responses, const PreloadRange& range,
     HighestPeak highest(responses, range.from, range.to, range.stop_at);
     const HighestPeak::Lowest lowest = highest.lowest();
     highest.settle_exchanges();
-    Readings readings(*responses.response().problem);
-    study.branches = Ridges(highest, range, lowest).branches(readings, contacts);
+    Readings readings(*responses.response().problem, contacts);
+    study.branches = Ridges(highest, range, lowest).branches(readings);
     const PeakSample& sample = highest.sample(lowest.x);
     Optimum optimum;
     optimum.kind = lowest.kind;
-    if (lowest.other) optimum.other = readings.peak(sample.peaks[*lowest.other], contacts);
-    optimum.peak = readings.peak(sample.peaks[lowest.peak], contacts);
+    if (lowest.other) optimum.other = readings.peak(sample.peaks[*lowest.other]);
+    optimum.peak = readings.peak(sample.peaks[lowest.peak]);
     optimum.peak.type = PeakType::optimum;
     optimum.peak.is_global = true;
-    optimum.energy = readings.energy(optimum.peak, contacts);
+    optimum.energy = readings.energy(optimum.peak);
     optimum.damping = unknown;
     optimum.low = highest.value(lowest.low);
     optimum.high = highest.value(lowest.high);

@@ -80,7 +80,8 @@ PeakDistribution::PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity
   const std::vector<double> force = logarithms(uncertainty.force);
   for (std::size_t i = 0; i < uncertainty.samples; ++i) {
     const double scale = inhomogeneity.has_springs ? 0 : force[i];
-    const DesignFactors factors{inhomogeneity.grows ? friction[i] - scale : 0, force[i] - scale};
+    const DesignFactors factors{inhomogeneity.grows ? friction[i] - scale : 0, force[i] - scale,
+                                inhomogeneity.has_own_friction ? friction[i] : 0};
     const double shift = inhomogeneity.grows ? preload[i] : friction[i] + preload[i] - scale;
     samples_.push_back({shift, scale, factors});
   }
@@ -193,7 +194,7 @@ class Envelopes {
         envelope_over_(envelope_over) {}
 
   EnvelopeFamily::Curve operator()(const DesignFactors& factors) {
-    EnvelopeFamily::Curve& known = known_[{factors.log_growth, factors.log_force}];
+    EnvelopeFamily::Curve& known = known_[{factors.log_growth, factors.log_force, factors.log_friction}];
     if (known != nullptr) return known;
     const double growth = std::exp(factors.log_growth);
     auto [curve, error] = envelope_over_(factors, from_ * growth, to_ * growth);
@@ -209,7 +210,7 @@ class Envelopes {
   double to_;
   const EnvelopeOver& envelope_over_;
   double error_ = 0;
-  std::map<std::pair<double, double>, EnvelopeFamily::Curve> known_;
+  std::map<std::array<double, DesignFactors::each().size()>, EnvelopeFamily::Curve> known_;
 };
 
 /// How quantiles change from one family to the next.
@@ -249,11 +250,14 @@ Sufficient sufficient_family(const PeakDistribution& peaks, Envelopes& envelopes
   Quantiles before;
   std::optional<EnvelopeFamily> coarser;
   for (std::size_t count = 3;; count = 2 * count - 1) {
-    const FactorAxis growth = axis(each, &DesignFactors::log_growth, count);
-    const FactorAxis force = axis(each, &DesignFactors::log_force, count);
-    const std::size_t designs = growth.count * force.count;
+    EnvelopeFamily::Axes axes;
+    std::size_t designs = 1;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      axes[a] = axis(each, DesignFactors::each()[a], count);
+      designs *= axes[a].count;
+    }
     if (designs > 1 && designs >= each.size()) return {EnvelopeFamily(each, make)};
-    EnvelopeFamily family(growth, force, make);
+    EnvelopeFamily family(axes, make);
     if (designs == 1) return {std::move(family)};
     Quantiles now;
     Change change;
@@ -272,6 +276,10 @@ Sufficient sufficient_family(const PeakDistribution& peaks, Envelopes& envelopes
 SystemParameters scaled(SystemParameters system, const DesignFactors& factors) {
   system.preload_growth *= std::exp(factors.log_growth);
   system.force *= std::exp(factors.log_force);
+  for (PlacedElement& placed : system.others) {
+    for (std::size_t i = 0; i < placed.settings.size(); ++i)
+      placed.settings[i] *= std::exp(placed.kind->settings[i].power_of_friction * factors.log_friction);
+  }
   return system;
 }
 
@@ -287,7 +295,7 @@ UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRa
     const double error = envelope.error();
     return std::pair(std::move(envelope), error);
   };
-  return study_uncertainty(range, uncertainty, {system.preload_growth != 0, false}, nominal, envelope_over);
+  return study_uncertainty(range, uncertainty, {system.preload_growth != 0}, nominal, envelope_over);
 }
 
 UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& uncertainty,

@@ -92,7 +92,10 @@ Coordinates::Coordinates(const HarmonicSystem& system)
       one.element = std::make_shared<Idle>(usual_stiffness(system, one));
     }
   }
-  all_.insert(all_.end(), system.others.begin(), system.others.end());
+  for (Coordinate one : system.others) {
+    one.spares_base = spares_base_ && one.damper != 0;
+    all_.push_back(std::move(one));
+  }
   switches_ = 0;
   for (Index i = 0; i < size(); ++i) {
     if ((*this)[i].part == 0) first_.push_back(i);

@@ -59,6 +59,14 @@ bool is_odd(const SystemParameters& system) {
                      [](const PlacedElement& one) { return one.is_odd(); });
 }
 
+bool has_own_friction(const SystemParameters& system) {
+  return std::any_of(system.others.begin(), system.others.end(), [](const PlacedElement& one) {
+    const auto& settings = one.kind->settings;
+    return std::any_of(settings.begin(), settings.end(),
+                       [](const ElementKind::Value& setting) { return setting.power_of_friction != 0; });
+  });
+}
+
 double shear_interface_stiffness(double slenderness, double poisson_ratio) {
   return 12 * std::pow(slenderness, 4) / (1 + poisson_ratio);
 }

@@ -47,19 +47,13 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
                                     "derivatives jump with every event within the period; for_each lists "
                                     "preloads whose branches have them",
                                     jumps->kind->name));
-  if (jumps != system.others.end() && jumps->kind->slides > 1 && problem.response->has_own_frequency())
-    branch_section.fail("response", fmt::format("not beside element '{}': free vibration takes elements that "
-                                                "act along one dof each",
-                                                jumps->kind->name));
   if (all_odd(system.harmonics)) return;
-  const char* why = "the mean and even harmonics, which elements that are not odd call for, are balanced";
-  if (problem.harmonics_tolerance) section.fail("harmonics", fmt::format(R"(not "auto" where {})", why));
-  if (system.one_way || problem.response->has_own_frequency())
-    section.fail("harmonics", fmt::format("{} in forced responses alone", why));
   for (const PlacedElement& one : system.others) {
     if (!one.kind->takes_any_orders)
       section.fail("harmonics",
-                   fmt::format("{}: not beside element '{}', which is taken as odd", why, one.kind->name));
+                   fmt::format("the mean and even harmonics, which elements that are not odd call for, are "
+                               "balanced: not beside element '{}', which is taken as odd",
+                               one.kind->name));
   }
 }
 
@@ -77,6 +71,10 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
                                           system.varied));
   if (const std::string& why = problem.response->not_disturbed; !why.empty())
     section.fail("stability", fmt::format("not of {}, {}", problem.response->title, why));
+  if (problem.response->has_own_frequency() && !all_odd(system.harmonics))
+    section.fail("stability",
+                 "not of limit cycles with the mean and even harmonics: there their own velocity "
+                 "is not told apart from other disturbances");
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory && !one.kind->follows)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));

@@ -11,7 +11,7 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/cases/runs.hpp"
-#include "arcslip/motion/odd_motion.hpp"
+#include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/ridges/free_response.hpp"
 #include "arcslip/problems/ridges/response_study.hpp"
 
@@ -41,8 +41,13 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {
-  return {build_wave(system).contacts, static_cast<double>(system.elements), system.preload_growth,
-          !system.has_others()};
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < system.others.size(); ++i) {
+    if (system.others[i].kind->has_memory) others.push_back(element_name(system, i));
+  }
+  return {build_wave(system).contacts, static_cast<double>(system.elements),
+          system.preload_growth,       !system.has_others(),
+          !has_own_friction(system),   others};
 }
 
 /// What the base does without damper, which shares no objective with the damper but Y. With elements that may
@@ -99,7 +104,8 @@ PreloadStudy study_with(const StudyCase& study, const StudyDesign& design, const
 
 /// The study in as many harmonics as the response at its own best preload asks for.
 PreloadStudy study_balanced(const StudyCase& study, const StudyDesign& design) {
-  std::vector<int> orders = odd_up_to(5);
+  constexpr int first = 5;  // harmonics that any contact which slips asks for
+  std::vector<int> orders = orders_up_to(first, design.system);
   for (;;) {
     PreloadStudy result = study_with(study, design, orders);
     result.harmonics = orders;
@@ -130,9 +136,10 @@ problems::UncertainPeaks study_uncertainty(const StudyCase& study, const StudyDe
     problems::ResponsePeaks peaks = responses(study, other, harmonics);
     return envelope_over(peaks, from, to);
   };
-  return problems::study_uncertainty(design.range, *study.uncertain,
-                                     {design.system.preload_growth != 0, design.system.has_others()}, nominal,
-                                     envelope);
+  return problems::study_uncertainty(
+      design.range, *study.uncertain,
+      {design.system.preload_growth != 0, design.system.has_others(), has_own_friction(design.system)},
+      nominal, envelope);
 }
 
 namespace {
@@ -155,7 +162,7 @@ HarmonicsCheck check_harmonics(const StudyCase& study, const StudyDesign& design
   constexpr int least = 9;
   HarmonicsCheck check;
   check.preload = preload;
-  check.harmonics = odd_up_to(std::clamp(2 * harmonics.back() + 1, least, 2 * most_harmonics - 1));
+  check.harmonics = orders_up_to(std::max(2 * highest_order(harmonics) + 1, least), design.system);
   try {
     const std::vector<problems::ResponsePeak> before = responses(study, design, harmonics).at(preload);
     const std::vector<problems::ResponsePeak> after = responses(study, design, check.harmonics).at(preload);

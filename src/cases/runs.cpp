@@ -287,9 +287,9 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
 
 std::vector<int> missing_orders(const SystemParameters& system, const Branch& branch, double tolerance,
                                 const TimeBudget& time) {
-  const int highest = std::clamp(2 * system.harmonics.back() + 1, 15, 2 * most_harmonics - 1);
+  constexpr int least = 15;
   SystemParameters wide = system;
-  wide.harmonics = odd_up_to(highest);
+  wide.harmonics = orders_up_to(std::max(2 * highest_order(system.harmonics) + 1, least), system);
   const problems::HarmonicResponse problem(build_harmonic_system(wide));
   const problems::HarmonicResponse traced(build_harmonic_system(system));
   Vector residual(problem.size());
@@ -305,10 +305,10 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
     }
   }
   std::vector<int> missing;
-  for (const int h : wide.harmonics) {
-    if (largest(h / 2) > tolerance &&
-        !std::binary_search(system.harmonics.begin(), system.harmonics.end(), h))
-      missing.push_back(h);
+  for (Index a = 0; a < problem.harmonics(); ++a) {
+    const int h = wide.harmonics[static_cast<std::size_t>(a)];
+    const bool is_there = std::count(system.harmonics.begin(), system.harmonics.end(), h) > 0;
+    if (largest(a) > tolerance && !is_there) missing.push_back(h);
   }
   return missing;
 }
@@ -317,6 +317,8 @@ void add_orders(std::vector<int>& orders, const std::vector<int>& more) {
   orders.insert(orders.end(), more.begin(), more.end());
   std::sort(orders.begin(), orders.end());
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+  const auto first = std::find(orders.begin(), orders.end(), 1);
+  std::rotate(orders.begin(), first, first + 1);
 }
 
 namespace {

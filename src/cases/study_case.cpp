@@ -118,10 +118,6 @@ StudyCase read_study(const CaseFile& file) {
   // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
   // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
   for (const std::size_t index : source->for_each->samples()) study.design(index);
-  if (!all_odd(study.design(0).system.harmonics))
-    section.fail("from",
-                 "studies are of odd harmonics: not beside the mean and even ones, which elements that "
-                 "are not odd need");
   if (const auto& scale = study.design(0).physical) study.preload_unit = scale->preload_unit();
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
   if (section.has("objective"))

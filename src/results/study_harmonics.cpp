@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "arcslip/motion/swing.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -37,9 +39,9 @@ std::string size_of(double moved_by) {
 
 std::string told(const HarmonicsCheck& check, const char* with) {
   return fmt::format(
-      "{} the harmonics 1, 3, ..., {} the highest peak at P = {:.8g} is {}: {:.6g}, at eta = {:.6g}{}.", with,
-      check.harmonics.back(), check.preload, size_of(check.moved_by), check.Y, check.eta,
-      check.same_peak ? "" : ", and is another peak");
+      "{} the harmonics {}, ..., {} the highest peak at P = {:.8g} is {}: {:.6g}, at eta = {:.6g}{}.", with,
+      all_odd(check.harmonics) ? "1, 3" : "0, 1, 2", check.harmonics.back(), check.preload,
+      size_of(check.moved_by), check.Y, check.eta, check.same_peak ? "" : ", and is another peak");
 }
 
 }  // namespace

@@ -221,6 +221,13 @@ Complex ContactOutput::motion(double eta, const ContactVector& forces) const {
 
 std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
                                      const Vector& springs) {
+  return joined_modes(structures, springs, [](const ContactVector& shape, bool is_first) -> ContactVector {
+    return is_first ? shape : -shape;
+  });
+}
+
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs, const MovedSprings& moved) {
   Index count = 0;
   for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
   if (count == 0) return {};  // all held
@@ -229,9 +236,8 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
   Vector squares(count);
   Index column = 0;
   for (const ContactModes* structure : structures) {
-    const double sign = structure == structures.front() ? 1 : -1;
     for (const ContactMode& mode : structure->modes()) {
-      relative.col(column) = sign * mode.shape;
+      relative.col(column) = moved(mode.shape, structure == structures.front());
       squares(column++) = mode.frequency * mode.frequency;
     }
   }

@@ -352,9 +352,7 @@ TEST_CASE("What even harmonics are not made for is refused in one line", "[even]
   using Edit = std::array<const char*, 3>;
   for (const auto& [from, to, says] :
        {Edit{"harmonics = 3", "harmonics = [1, 3]", "system.harmonics: expected 0 among them"},
-        Edit{"harmonics = 3", "harmonics = \"auto\"", "not \"auto\""},
         Edit{"harmonics = 3", "harmonics = 101", "at most 64"},
-        Edit{"[branch]", "[branch]\nresponse = \"one_way\"", "in forced responses alone"},
         Edit{"normal = ", "normal = 7 #", "element[0].normal: expected a contact from 1 to 3 other than"},
         Edit{"closes = \"", "closes = \"x", "element[0].closes: expected"}})
     CHECK_THAT(error_of_text(from, to), ContainsSubstring(says));

@@ -200,7 +200,7 @@ TEST_CASE("One-way responses of one contact are those of the scalar equation", "
   }
 }
 
-TEST_CASE("Vibration without a load takes odd harmonics alone") {
+TEST_CASE("Vibration without a load takes even harmonics as well") {
   CHECK_NOTHROW(HarmonicCycle(two_contacts({1, 3}, 1)));
-  CHECK_THROWS_AS(HarmonicCycle(two_contacts({1, 2, 3}, 1)), std::invalid_argument);
+  CHECK_NOTHROW(HarmonicCycle(two_contacts({1, 0, 2, 3}, 1)));
 }

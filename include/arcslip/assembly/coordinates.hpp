@@ -7,7 +7,8 @@
 //
 //   x_h + C_h f_h = x0_h,   C_h = L blockdiag(C_B, C_D) G^T,   x0 = L (y_0, 0),
 //
-// where G = L, but for contacts that act on the damper and not back on the base, which have no entry for it.
+// where G = L, but for contacts, and elements between both, that act on the damper and not back on the base,
+// which have no entry for it.
 
 #include <functional>
 #include <memory>

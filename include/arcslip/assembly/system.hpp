@@ -116,6 +116,9 @@ int most_orders(const SystemParameters& system);
 /// Whether an odd motion meets odd forces of all elements.
 bool is_odd(const SystemParameters& system);
 
+/// Whether elements have a friction coefficient of their own beside the load.
+bool has_own_friction(const SystemParameters& system);
+
 /// Shear estimate of the beams' interface stiffness, K_FD = 12 (L/h_D)^4/(1 + nu) [paper, footnote 4].
 double shear_interface_stiffness(double slenderness, double poisson_ratio);
 

@@ -30,6 +30,7 @@ struct ElementKind {
   /// A number that it takes.
   struct Value : Setting {
     bool scales_force = false;  ///< whether the force is proportional to all such values together
+    int power_of_friction = 0;  ///< of a factor on all friction coefficients, where the load has it as well
   };
   std::vector<Value> settings;                                        ///< all of them
   std::function<std::shared_ptr<const Element>(const Values&)> make;  ///< one with these values

@@ -168,7 +168,7 @@ struct ContactSystem {
 struct JoinedMode {
   double frequency;        ///< eta_k
   double damping;          ///< damping ratio, to the first order in the losses
-  ContactVector relative;  ///< relative displacements of the contacts, of any size
+  ContactVector relative;  ///< displacements of the springs, as of contacts relative ones, of any size
   ComplexVector motion;    ///< of the modes of the structures, one structure after the other
 };
 
@@ -177,5 +177,11 @@ struct JoinedMode {
 /// ascending order.
 std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
                                      const Vector& springs);
+
+/// The same on springs anywhere: `moved` tells by how much they are displaced as the contacts of the first
+/// structure or of another one are.
+using MovedSprings = std::function<ContactVector(const ContactVector& shape, bool is_first)>;
+std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
+                                     const Vector& springs, const MovedSprings& moved);
 
 }  // namespace arcslip

@@ -13,11 +13,11 @@ ElementKind friction_element() {
       {{given_positive("tangential_stiffness", "k_t"), true},
        {not_negative("normal_stiffness", 0, "k_n of the closing displacement g"), true},
        {not_negative("mu", std::numeric_limits<double>::quiet_NaN(), "it slips where its force is mu N"),
-        false},
+        false, 1},
        {any_value("normal_force", 0, "of N = N_0 + k_n g without preload; negative: an open gap of N_0/k_n"),
         true},
-       {any_value("normal_per_preload", 0, "and what the preload P adds: N_0 = normal_force + this P"),
-        true}},
+       {any_value("normal_per_preload", 0, "and what the preload P adds: N_0 = normal_force + this P"), true,
+        -1}},
       [](const ElementKind::Values& values) {
         const auto& s = values.settings;
         return std::make_shared<PressedElement>(

@@ -17,7 +17,7 @@ ElementKind friction_2d_element() {
         return std::make_shared<CircleElement>(
             CircleElement::Settings{s[2], s[0], s[1], s[3], s[4], values.usual_stiffness}, values.closes);
       }};
-  kind.settings[2] = {given_positive("mu", "it slips where its force is mu N in any direction"), false};
+  kind.settings[2] = {given_positive("mu", "it slips where its force is mu N in any direction"), false, 1};
   kind.has_memory = true;
   kind.follows = true;
   kind.slides = 2;

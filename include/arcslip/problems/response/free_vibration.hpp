@@ -6,8 +6,8 @@
 //   x_h + C_h(eta, zeta) f_h(x) = 0,
 //
 // solved relative to |x| and to sqrt(1 + |C_B K|^2 + |C_D K|^2), the terms that cancel in C_h. Its phase is
-// free: Im x_1 = 0 in the first coordinate, the first contact. Regimes and borders are those of
-// HarmonicResponse.
+// free: Im x_1 = 0 in the first coordinate, the first contact. Where elements are not odd there are even
+// harmonics as well and the mean, h = 0. Regimes and borders are those of HarmonicResponse.
 
 #include "arcslip/problems/response/harmonic_problem.hpp"
 
@@ -20,7 +20,7 @@ class FreeVibration : public HarmonicProblem {
                               const continuation::Evaluation& out) const override;
 
  protected:
-  /// Throws std::invalid_argument as HarmonicProblem does, and where not all harmonics are odd.
+  /// Throws std::invalid_argument as HarmonicProblem does.
   FreeVibration(HarmonicSystem system, Layout layout);
 
   /// Re x_1 of the first coordinate.
@@ -30,6 +30,7 @@ class FreeVibration : public HarmonicProblem {
   double length(const Vector& u, const Vector& p) const;
 
  private:
+  bool is_odd_;  ///< whether all harmonics are
   struct Order;
   Order order(Index which, const Vector& u, const Vector& p, const continuation::Regime& regime) const;
   Complex by_varied(const Order& order, Index coordinate, const std::vector<ElementForce>& elements,

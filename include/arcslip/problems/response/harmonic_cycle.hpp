@@ -6,7 +6,7 @@
 //   x_h + C_h(eta; zeta_B) f_h(x) = 0.
 //
 // Unknowns: eta, the amplitude R of the first contact's first harmonic, then Re and Im of all other harmonics
-// of all coordinates, in the order of HarmonicResponse. Parameters: zeta_B, P. Where no contact slips any
+// of all coordinates, in the order of HarmonicResponse. Parameters: zeta_B, P. Where nothing slips any
 // more the branch ends: what is stuck loses nothing to friction.
 
 #include "arcslip/continuation/path/trace.hpp"

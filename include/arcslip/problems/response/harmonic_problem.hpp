@@ -130,6 +130,9 @@ class HarmonicProblem : public continuation::Problem {
   /// Whether none slips, whatever further elements do.
   bool contacts_stick(const continuation::Regime& regime) const;
 
+  /// Which elements are in their second state at rest.
+  continuation::Regime at_rest(const Vector& u, const Vector& p) const;
+
   /// Whether a further parameter of the system may be continued.
   bool is_varied() const { return layout_.varied.of != Place::nowhere; }
 

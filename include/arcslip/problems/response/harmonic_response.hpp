@@ -154,8 +154,6 @@ class HarmonicResponse : public HarmonicProblem {
     const Index e = coordinates_.element_of(coordinate);
     return coordinates_.element(e).is_linear(slips(regime, e));
   }
-  /// Which elements are in their second state at rest.
-  continuation::Regime at_rest(const Vector& p) const;
   void add_outputs_in_time();
   bool is_odd_;  ///< whether all harmonics are odd
 

@@ -41,6 +41,10 @@ class NonlinearMode : public FreeVibration {
   std::vector<std::string> parameter_names() const override { return names_with_varied({"R", "P"}); }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
+  /// The modes of small motions, at about this frequency, amplitude and preload: with the stiffness that
+  /// elements then have. Their `relative` is x_1 of all coordinates.
+  std::vector<JoinedMode> small_modes(double eta_value, double R_value, double preload_value) const;
+
   /// A guess of the mode whose frequency in stick is nearest to `eta_value`, at this R and P; R must be so
   /// small that all contacts stick. Throws std::invalid_argument where it is not.
   continuation::Guess guess(double eta_value, double R_value, double preload_value) const;

@@ -1,10 +1,12 @@
 #pragma once
 
 // Envelopes of designs that differ by factors on what their response is not proportional to: on P_2 of a
-// preload that grows with the frequency, and on the force F where springs are cubic. Between the designs of a
-// grid of factors ln Y_max is interpolated linearly in their logarithms, at the same P over the factor on
-// P_2, so that the static and the growing part of the preload keep their ratio.
+// preload that grows with the frequency, on the force F where springs are cubic, and on mu where elements
+// have one of their own. Between the designs of a grid of factors ln Y_max is interpolated linearly in their
+// logarithms, at the same P over the factor on P_2, so that the static and the growing part of the preload
+// keep their ratio.
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -14,11 +16,19 @@
 
 namespace arcslip::problems {
 
-/// Logarithms of the factors on P_2 and F.
+/// Logarithms of the factors.
 struct DesignFactors {
-  double log_growth = 0;  ///< of that on P_2
-  double log_force = 0;   ///< of that on F
+  double log_growth = 0;    ///< of that on P_2
+  double log_force = 0;     ///< of that on F
+  double log_friction = 0;  ///< of that on mu of elements, where P has it as well
+
+  /// All of them.
+  static constexpr std::array<double DesignFactors::*, 3> each();
 };
+
+constexpr std::array<double DesignFactors::*, 3> DesignFactors::each() {
+  return {&DesignFactors::log_growth, &DesignFactors::log_force, &DesignFactors::log_friction};
+}
 
 /// `count` values of a factor's logarithm in equal steps from low to high, or low alone.
 struct FactorAxis {
@@ -47,8 +57,9 @@ class EnvelopeFamily {
   /// The same for all factors; refers to the curve.
   EnvelopeFamily(const EnvelopeCurve& curve);  // NOLINT(google-explicit-constructor): one is a family
 
-  /// Of a grid of designs.
-  EnvelopeFamily(FactorAxis growth, FactorAxis force, const Make& make);
+  /// Of a grid of designs, an axis for each factor.
+  using Axes = std::array<FactorAxis, DesignFactors::each().size()>;
+  EnvelopeFamily(const Axes& axes, const Make& make);
 
   /// Of each design by itself.
   EnvelopeFamily(const std::vector<DesignFactors>& each, const Make& make);
@@ -67,16 +78,16 @@ class EnvelopeFamily {
 
    private:
     double at(double z, std::size_t curve);
+    double between(double z, const DesignFactors& factors, std::size_t axes, std::size_t curve);
 
     const EnvelopeFamily& family_;
     std::vector<EnvelopeCurve::Walk> walks_;
   };
 
  private:
-  FactorAxis growth_;
-  FactorAxis force_;
+  Axes axes_;
   bool is_grid_ = true;
-  std::vector<Curve> curves_;  ///< of a grid row by row, each of one force
+  std::vector<Curve> curves_;  ///< of a grid, along the first axis first
   std::vector<double> growths_;
 };
 

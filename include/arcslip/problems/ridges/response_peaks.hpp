@@ -7,10 +7,11 @@
 // At a smooth peak dL/da = 0, so that its height changes by the partial derivative dL/db alone. On a corner,
 // where dL/da jumps from L_a- > 0 to L_a+ < 0 along a curve a = c(b), L is the same on both sides, hence
 //
-//   L_a- c' + L_b- = L_a+ c' + L_b+,   dL/db = L_b- + L_a- c':
+//   L_a- c' + L_b- = L_a+ c' + L_b+,   dL/db = L_b- + L_a- c',
 //
-// nothing has to be known of what makes the corner. Every response is traced whole, so that a peak is found
-// whether or not a neighbouring b has it.
+// also with another coordinate along the response in place of a, where it is vertical: nothing has to be
+// known of what makes the corner. Every response is traced whole, so that a peak is found whether or not a
+// neighbouring b has it.
 
 #include <functional>
 #include <memory>
@@ -83,8 +84,9 @@ class ResponsePeaks {
     double slope;  // of ln height
   };
   Edge edge(const continuation::BranchPoint& point);
-  ResponsePeak corner(const continuation::Guess& before, const continuation::Guess& behind);
-  continuation::Guess beside(const continuation::BranchPoint& point, double change) const;
+  ResponsePeak corner(const continuation::Guess& before, const continuation::Guess& behind,
+                      const Vector& direction);
+  continuation::Guess beside(const continuation::Branch& branch, std::size_t i, int way) const;
 
   PeakedResponse response_;
   Index along_;

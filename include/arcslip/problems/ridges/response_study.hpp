@@ -15,6 +15,8 @@ struct StudiedContacts {
   double nodes = 1;                     ///< N
   double preload_growth = 0;            ///< P_2 of the preload P + P_2 eta^2
   bool is_homogeneous = true;           ///< whether Y is proportional to force and preload together
+  bool is_by_load = true;  ///< whether friction coefficients count as factors on the preload alone
+  std::vector<std::string> others = {};  ///< names of the elements beside these that rub
 };
 
 /// The peaks of the response, over eta, as P varies over the range. Of PreloadStudy `free_eta`, `free_Y` and

@@ -17,9 +17,10 @@
 //
 //   f Y_max(P m q/f; P_2 m/f),   with cubic springs   Y_max(P m q; P_2 m, F f):
 //
-// there Y_max is a family of envelopes (envelope_family.hpp) over the factors behind the semicolon. It is
-// made of a grid of designs that is refined until quantiles change by no more than a twentieth of what
-// sampling leaves open, on average, at most until each sample has a design of its own.
+// there Y_max is a family of envelopes (envelope_family.hpp) over the factors behind the semicolon, and over
+// m as well where elements have a friction coefficient of their own beside a normal force. It is made of a
+// grid of designs that is refined until quantiles change by no more than a twentieth of what sampling leaves
+// open, on average, at most until each sample has a design of its own.
 
 #include <cstdint>
 #include <functional>
@@ -57,8 +58,9 @@ struct Uncertainty {
 
 /// What a response is not proportional to force and preload together for.
 struct Inhomogeneity {
-  bool grows = false;        ///< P_2 /= 0
-  bool has_springs = false;  ///< that are cubic
+  bool grows = false;             ///< P_2 /= 0
+  bool has_springs = false;       ///< that are cubic, or other elements
+  bool has_own_friction = false;  ///< whether mu enters by elements, and not as a factor on P alone
 };
 
 /// The sampled distribution of the highest peak at any nominal preload. Envelopes are families of one where

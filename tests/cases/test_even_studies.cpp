@@ -1,0 +1,140 @@
+// Best preloads beside elements that are not odd: against whole responses at other preloads, and what
+// scatters against the systems of the samples.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "case_texts.hpp"
+#include "cases/design_study.hpp"
+#include "catch.hpp"
+#include "random_systems.hpp"
+#include "small_structures.hpp"
+#include "temporary_folder.hpp"
+
+using namespace arcslip;
+using namespace arcslip::problems;
+using namespace arcslip::testing;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+/// Three masses, the first of which rubs as the second one presses it, and lifts off.
+std::string even_study(const SmallStructure& s, const std::string& harmonics, const std::string& range) {
+  return small_system_text(s, harmonics) +
+         "\n[[element]]\nkind = \"friction\"\nat = \"base\"\ncontact = 1\nnormal = 2\n"
+         "tangential_stiffness = 0.9\nnormal_stiffness = 0.7\nmu = 0.4\nnormal_per_preload = 1.0\n\n"
+         "[study]\nparameter = \"P\"\n" +
+         range;
+}
+
+/// The highest Y of a response that is traced by itself.
+double highest_response(SystemParameters system, double preload, const PreloadRange& range) {
+  system.preload = preload;
+  const HarmonicResponse problem(build_harmonic_system(system));
+  continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = range.eta_low;
+  options.to = range.eta_high;
+  options.extrema_of = {"Y"};
+  const continuation::Branch branch = trace(problem, problem.guess(range.eta_low, preload), options);
+  REQUIRE(branch.complete());
+  double most = 0;
+  Vector values;
+  for (const continuation::BranchPoint& point : branch.points) {
+    problem.observe(point.unknowns, point.parameters, point.regime, values);
+    most = std::max(most, values(HarmonicResponse::Y));
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("The best preload of what lifts off has lower peaks than all others", "[even]") {
+  RandomSystems draw(3);
+  const TemporaryFolder folder;
+  for (const char* harmonics : {"1", "2"}) {
+    const SmallStructure s = random_structure(draw);
+    write_matrices(s, folder);
+    const StudyCase study = read_study(
+        folder.write("case.toml", even_study(s, harmonics, "from = 0.1\nto = 10.0\neta = [0.1, 0.3]\n")));
+    const StudyDesign design = study.design(0);
+    const PreloadStudy result = study_preload(study, design);
+    INFO(result.failure);
+    REQUIRE(result.optimum);
+    const Peak& best = result.optimum->peak;
+    CHECK_THAT(highest_response(design.system, best.preload, design.range), WithinRel(best.Y, 1e-9));
+    for (const double factor : {0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2.0, 10.0}) {
+      const double preload = std::clamp(factor * best.preload, 0.1, 10.0);
+      CHECK(highest_response(design.system, preload, design.range) >= best.Y * (1 - 1e-9));
+    }
+    CHECK(std::isnan(best.sensitivity.friction));
+    CHECK(result.optimum->energy > 0);
+    // Slopes of peaks, at corners as well, are those of responses beside them.
+    for (const PeakBranch& branch : result.branches) {
+      const Peak& peak = branch[branch.size() / 2];
+      if (!peak.is_global) continue;
+      constexpr double step = 1e-4;
+      const double above = highest_response(design.system, peak.preload * (1 + step), design.range);
+      const double below = highest_response(design.system, peak.preload * (1 - step), design.range);
+      CHECK_THAT(std::log(above / below) / std::log((1 + step) / (1 - step)),
+                 WithinAbs(peak.sensitivity.preload, 1e-4));
+    }
+  }
+}
+
+TEST_CASE("A mu that elements have of their own scatters with that of the contacts", "[even][uncertainty]") {
+  RandomSystems draw(5);
+  SmallStructure s = random_structure(draw);
+  s.contact_stiffness[1] = 0.5;
+  const TemporaryFolder folder;
+  write_matrices(s, folder);
+  StudyCase study =
+      read_study(folder.write("case.toml", even_study(s, "1", "from = 1.0\nto = 1.2\neta = [0.15, 0.25]\n")));
+  Uncertainty uncertainty;
+  uncertainty.friction = {Scatter::Kind::uniform, 0, 0.7, 1.3};
+  uncertainty.samples = 3;
+  uncertainty.quantiles = {0.1, 0.5, 0.9};
+  study.uncertain = uncertainty;
+  const StudyDesign design = study.design(0);
+  const PreloadStudy nominal = study_preload(study, design);
+  REQUIRE(nominal.failure.empty());
+  const UncertainPeaks peaks = study_uncertainty(study, design, nominal);
+  INFO(peaks.failure);
+  REQUIRE(peaks.failure.empty());
+  const std::vector<DesignFactors> factors = PeakDistribution(uncertainty, {false, false, true}).factors();
+  const QuantileRow& row = peaks.rows[peaks.rows.size() / 2];
+  std::vector<double> all;
+  for (const DesignFactors& sample : factors) {
+    SystemParameters one = design.system;
+    const double mu = std::exp(sample.log_friction);
+    one.contacts[1].slip_per_preload *= mu;  // the one that rubs
+    one.others[0].settings[2] *= mu;
+    all.push_back(highest_response(one, row.preload, design.range));
+  }
+  std::sort(all.begin(), all.end());
+  CHECK(all.back() > 1.01 * all.front());
+  for (std::size_t q = 0; q < all.size(); ++q)
+    CHECK_THAT(row.Y[q], WithinRel(all[q], std::max(1e-5, 2 * peaks.error)));
+}
+
+TEST_CASE("Harmonics are added as a best preload of what lifts off asks for", "[even]") {
+  RandomSystems draw(3);
+  const TemporaryFolder folder;
+  const SmallStructure s = random_structure(draw);
+  write_matrices(s, folder);
+  const StudyCase study =
+      read_study(folder.write("case.toml", even_study(s, "\"auto\"\nharmonics_tolerance = 1e-2",
+                                                      "from = 1.0\nto = 3.0\neta = [0.15, 0.25]\n")));
+  const PreloadStudy result = study_preload(study, study.design(0));
+  INFO(result.failure);
+  REQUIRE(result.optimum);
+  REQUIRE(result.harmonics.size() >= 6);
+  CHECK(result.harmonics[0] == 1);
+  CHECK(result.harmonics[1] == 0);
+  CHECK(std::is_sorted(result.harmonics.begin() + 1, result.harmonics.end()));
+}
