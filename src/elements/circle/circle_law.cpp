@@ -198,6 +198,11 @@ class Builder {
     for (const Index axis : {0, 1}) law_.memories.push_back(rested(arc, before, axis));
   }
 
+  /// Whether m is known where slip ends.
+  static bool flows_to_end(const Arc& arc) {
+    return !arc.flows.empty() && arc.flows.back().begin + arc.flows.back().width >= arc.begin + arc.width;
+  }
+
   /// dz along an axis as stick begins.
   DisturbedLaw::Memory rested(const Arc& arc, const Arc& before, Index axis) const {
     const Vector unit = axis == 0 ? of(1, 0, 0) : of(0, 1, 0);
@@ -209,9 +214,8 @@ class Builder {
       return {arc.begin, arc.width, unit + of(0, 0, by_closing), {}, rest};
     }
     const Complex n = slip_->direction(arc.begin);
-    const bool flows = !before.flows.empty() &&
-                       before.flows.back().begin + before.flows.back().width >= before.begin + before.width;
-    if (!flows) return {arc.begin, arc.width, unit + of(0, 0, -push_ / k_ * part(n)), {}, rest};
+    if (!flows_to_end(before))
+      return {arc.begin, arc.width, unit + of(0, 0, -push_ / k_ * part(n)), {}, rest};
     return {arc.begin,
             arc.width,
             part(n) * of(n.real(), n.imag(), -push_ / k_),
@@ -241,10 +245,11 @@ class Builder {
       return Vector(Eigen::Vector3d(t.real(), t.imag(), 0).head(size));
     };
     DisturbedLaw::Memory memory{part.begin, part.width, of(0, 0, 0), {}, across};
-    if (part.begin > arc.begin || arc.touches) {
+    const bool is_endless = &arc == &before;
+    if (part.begin > arc.begin || arc.touches || (is_endless && !flows_to_end(arc))) {
       memory.set = across(part.begin);
-    } else if (&arc == &before) {  // it slips for ever, and n turns its sign after half a period
-      memory.of = {{part.memory, turn_ < two_pi ? -1 : 1}};
+    } else if (is_endless) {  // it slips for ever, and n turns its sign after half a period
+      memory.of = {{arc.flows.back().memory, turn_ < two_pi ? -1 : 1}};
     } else {
       const Complex n = slip_->direction(part.begin);
       memory.of = {{before.memory, -n.imag()}, {before.memory + 1, n.real()}};
