@@ -83,8 +83,8 @@ std::optional<ElementForce::Viscous> HarmonicProblem::viscous_of(const Element& 
 /// Known where the forces were last found, as at each point that a corrector ends on; else null.
 const Swing* HarmonicProblem::known_swing(const Vector& u, const Vector& p, Index element) const {
   const Forces& last = last_forces();
-  return slips(last.regime, element) && last.orders == system_.orders && last.unknowns.size() == u.size() && last.unknowns == u &&
-                 last.parameters == p
+  return slips(last.regime, element) && last.orders == system_.orders && last.unknowns.size() == u.size() &&
+                 last.unknowns == u && last.parameters == p
              ? &last.of_elements[at(element)].swing
              : nullptr;
 }
