@@ -112,18 +112,15 @@ std::vector<std::size_t> in_order(const Stepper& stepper) {
 
 /// Whether a value jumps over its zero there, between two branches, from one of which the probes have come to
 /// the other: it then changes as much over a hundredth of a way.
-bool jumps(Stepper& stepper, std::size_t m, double s) {
+bool jumps(Stepper& stepper, std::size_t m, double s, double value) {
   constexpr double way = 1e-12;  // so little that steep values are far from their ends
   const auto value_at = [&](double place) -> std::optional<double> {
     if (!stepper.prober().probe(place)) return std::nullopt;
     return stepper.prober().probed().monitors[m].value;
   };
-  const std::optional<double> here = value_at(s);
-  if (!here) return true;
-  if (std::abs(*here) <= stepper.tolerances().together) return false;
   const std::optional<double> far = value_at((1 - way) * s);
   const std::optional<double> near = value_at((1 - 0.01 * way) * s);
-  return !far || !near || std::abs(*here - *near) > 0.5 * std::abs(*here - *far);
+  return !far || !near || std::abs(value - *near) > 0.5 * std::abs(value - *far);
 }
 
 /// One border after the other, up to the first place that is known: where there are many a step passes some,
@@ -150,9 +147,12 @@ void search_borders(StepSearch& step) {
     ahead = stepper.prober().probed().monitors;
   }
   if (!reached) return;
-  if (jumps(stepper, *reached, upper)) return step.fail();
-  if (!stepper.prober().probe(upper) || !stepper.resolved(upper, stepper.prober().probed().monitors))
-    step.fail();
+  if (!stepper.prober().probe(upper)) return step.fail();
+  const double value = stepper.prober().probed().monitors[*reached].value;
+  if (std::abs(value) > together &&
+      (jumps(stepper, *reached, upper, value) || !stepper.prober().probe(upper)))
+    return step.fail();
+  if (!stepper.resolved(upper, stepper.prober().probed().monitors)) step.fail();
 }
 
 }  // namespace
