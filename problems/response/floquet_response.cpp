@@ -341,8 +341,7 @@ std::shared_ptr<Problem> build_floquet(const SystemParameters& parameters) {
   std::shared_ptr<const Problem> finer;
   try {
     finer = build(other, nullptr);
-  } catch (const std::invalid_argument&) {  // more harmonics than an element takes
-    static_cast<void>(build(parameters, nullptr));
+  } catch (const std::invalid_argument&) {  // more harmonics than an element takes: none to compare with
   }
   return build(parameters, std::move(finer));
 }
