@@ -46,8 +46,7 @@ void check(const HarmonicSystem& system) {
       refuse("too many harmonics of an element");
     if (!all_odd(system.orders) && !one.element->takes_any_orders())
       refuse("an element takes odd harmonics alone");
-    if (!one.element->is_odd() &&
-        std::find(system.orders.begin(), system.orders.end(), 0) == system.orders.end())
+    if (!one.element->is_odd() && place_of_mean(system.orders) == std::ssize(system.orders))
       refuse("an element that is not odd needs the harmonic 0");
   }
   for (const SectorContact& contact : system.contacts) {

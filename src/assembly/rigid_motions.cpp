@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
 namespace {
@@ -24,9 +25,8 @@ constexpr double rounding = 1e-9;  // of rigid modes, which iterations find, and
 
 RigidMotions::RigidMotions(const HarmonicSystem& system, const Coordinates& coordinates)
     : moves_(coordinates.size(), 0), held_(coordinates.size(), 0) {
-  const auto mean = std::find(system.orders.begin(), system.orders.end(), 0);
-  if (mean == system.orders.end()) return;
-  order_ = mean - system.orders.begin();
+  if (place_of_mean(system.orders) == std::ssize(system.orders)) return;
+  order_ = place_of_mean(system.orders);
   const auto place = static_cast<std::size_t>(order_);
   for (const bool is_base : {false, true}) {
     const ContactModes& structure = (is_base ? system.base : system.damper)[place];

@@ -46,7 +46,7 @@ class CircleIntegrals {
     stick_.add(period);
     touch_.add(period);
     add_arcs();
-    const Index mean = std::find(orders_.begin(), orders_.end(), 0) - orders_.begin();
+    const Index mean = place_of_mean(orders_);
     if (mean < n()) {
       const Complex offset = place.offset + motion_.mean();
       out_.harmonics(mean) -= offset.real();

@@ -33,7 +33,7 @@ void CircleElement::force_at(std::span<const int> orders, const HarmonicVector& 
   const PressedSettings settings = settings_.at(load, setting);
   const CircleForce found = circle_force(settings, orders, x, derivatives,
                                          beyond ? PressedArcs::Course::slips : PressedArcs::Course::sticks);
-  const Index mean = 2 * n + (std::find(orders.begin(), orders.end(), 0) - orders.begin());
+  const Index mean = 2 * n + place_of_mean(orders);
   out.harmonics = found.harmonics.head(size);
   if (mean < size) out.harmonics(mean) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
@@ -85,8 +85,7 @@ MotionNumber CircleElement::border(std::span<const int> orders, const HarmonicVe
     if (is_mean) by[PressedForce::normal_force] += mu * mu * press.real();
     if (closes_) by_motion(2 * n + a) = mu * mu * settings.normal_stiffness * share * press;
   }
-  const bool has_mean = std::find(orders.begin(), orders.end(), 0) != orders.end();
-  if (!has_mean) {
+  if (place_of_mean(orders) == n) {
     square += mu * mu * settings.normal_force * settings.normal_force;
     by[PressedForce::friction] += mu * settings.normal_force * settings.normal_force;
     by[PressedForce::normal_force] += mu * mu * settings.normal_force;

@@ -90,10 +90,10 @@ class Builder {
   DisturbedLaw found() {
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       const Arc& arc = arcs_[i];
-      if (arc.phase == Phase::stick) stick(arc, arcs_[(i + arcs_.size() - 1) % arcs_.size()]);
+      if (arc.phase == Phase::stick) stick(arc, before(i));
       if (arc.phase == Phase::apart)
         law_.pieces.push_back({arc.begin, arc.width, Matrix::Zero(size_, size_)});
-      if (arc.phase == Phase::slip) slip(arc, arcs_[(i + arcs_.size() - 1) % arcs_.size()]);
+      if (arc.phase == Phase::slip) slip(arc, before(i));
     }
     return std::move(law_);
   }
@@ -113,6 +113,8 @@ class Builder {
     Index memory = -1;     // of stick: the first of its two
     bool touches = false;  // begins as the parts touch
   };
+
+  const Arc& before(std::size_t i) const { return arcs_[(i + arcs_.size() - 1) % arcs_.size()]; }
 
   /// Arcs over a turn, from one that is no slip if there is any.
   void gather(const CircleCourse& course) {
@@ -140,7 +142,7 @@ class Builder {
     Index memory = 0;
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       Arc& arc = arcs_[i];
-      arc.touches = arcs_[(i + arcs_.size() - 1) % arcs_.size()].phase == Phase::apart;
+      arc.touches = before(i).phase == Phase::apart;
       arc.memory = memory;
       if (arc.phase == Phase::stick) memory += 2;
       if (arc.phase == Phase::slip) {

@@ -9,7 +9,6 @@ namespace arcslip {
 namespace {
 
 using PanelMatrix = Eigen::Matrix<double, panel_nodes, panel_nodes>;
-using PanelCourse = Eigen::Matrix<double, panel_nodes + 1, 1>;
 using PanelTransform = Eigen::Matrix<double, panel_nodes + 1, panel_nodes + 1>;
 
 /// P_m(x) and P_(m-1)(x).
@@ -99,6 +98,18 @@ PanelCourse with_start(double start, const PanelVector& rest) {
   return all;
 }
 
+/// By Clenshaw, x from -1 to 1, with the derivative.
+std::pair<double, double> value_of(const PanelCourse& course, double x) {
+  double one = 0, two = 0, rate = 0, rate_two = 0;
+  for (Index k = panel_nodes; k >= 1; --k) {
+    const double next_rate = 2 * one + 2 * x * rate - rate_two;
+    rate_two = std::exchange(rate, next_rate);
+    const double next = course(k) + 2 * x * one - two;
+    two = std::exchange(one, next);
+  }
+  return {course(0) + x * one - two, one + x * rate - rate_two};
+}
+
 /// b D + Re(w' e^{-i phi}), with D in theta.
 PanelMatrix equation(const SlipPanel& panel) {
   PanelMatrix a = panel.radius.cwiseQuotient(panel.pace).asDiagonal() * scheme().by_nodes;
@@ -156,8 +167,7 @@ std::optional<SlipPanel> SlipPanel::solved(const CircleMotion& motion, const Rea
   constexpr double decay = 14;  // of the last coefficients, as powers of the width
   bool converges = false;
   const SlipPanel panel = of(motion, reach, start, converges);
-  const PanelCourse bends = scheme().coefficients * with_start(0, panel.phase.array() - start);
-  const double error = std::max(std::abs(bends(panel_nodes)), std::abs(bends(panel_nodes - 1))) *
+  const double error = std::max(std::abs(panel.bends(panel_nodes)), std::abs(panel.bends(panel_nodes - 1))) *
                        panel.radius.lpNorm<Eigen::Infinity>() / (rounding * motion.size());
   wider = converges ? std::clamp(0.9 * std::pow(error, -1 / decay), least, most) : least;
   const bool is_resolved = converges && error <= 1;
@@ -194,6 +204,7 @@ SlipPanel SlipPanel::of(const CircleMotion& motion, const Reach& reach, double s
                              (is_smooth ? 0.5 * bends : 0) * (panel.angle.array() - reach.begin));
   converges = converge(local, panel);
   if (!converges) panel.phase.setConstant(start);
+  panel.bends = scheme().coefficients * with_start(0, panel.phase.array() - start);
   panel.turn();
   for (Index j = 0; j < panel_nodes; ++j) {
     const CircleMotion::Local& here = local[static_cast<std::size_t>(j)];
@@ -223,11 +234,7 @@ double SlipPanel::phase_at(double theta) const {
     const double rest = *reach.apart - reach.begin;
     s = std::log(std::max(*reach.apart - theta, 1e-300) / rest) / std::log1p(-reach.width / rest);
   }
-  const double x = 2 * std::clamp(s, 0.0, 1.0) - 1;
-  const PanelCourse course = scheme().coefficients * with_start(0, phase.array() - start);
-  double one = 0, two = 0;
-  for (Index k = panel_nodes; k >= 1; --k) two = std::exchange(one, course(k) + 2 * x * one - two);
-  return start + course(0) + x * one - two;
+  return start + value_of(bends, 2 * std::clamp(s, 0.0, 1.0) - 1).first;
 }
 
 void SlipPanel::turn() {
@@ -245,16 +252,7 @@ std::optional<double> SlipPanel::stop() const {
     bend += std::abs(course(k)) * square * (square - 1) / 3;
   }
   if (least > 0) return std::nullopt;
-  const auto at = [&](double x) {  // by Clenshaw, with the derivative
-    double one = 0, two = 0, rate = 0, rate_two = 0;
-    for (Index k = panel_nodes; k >= 1; --k) {
-      const double next_rate = 2 * one + 2 * x * rate - rate_two;
-      rate_two = std::exchange(rate, next_rate);
-      const double next = course(k) + 2 * x * one - two;
-      two = std::exchange(one, next);
-    }
-    return std::pair(course(0) + x * one - two, one + x * rate - rate_two);
-  };
+  const auto at = [&](double x) { return value_of(course, x); };
   std::optional<double> first;
   isolate_zeros(at, std::max(bend, 1e-300), -1, 2, 4, [&](double x) {
     if (!first && at(x).second < 0) first = 0.5 * (x + 1);  // in s

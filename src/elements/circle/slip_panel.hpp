@@ -21,6 +21,8 @@ namespace arcslip {
 inline constexpr Index panel_nodes = 16;
 /// One value at each of them.
 using PanelVector = Eigen::Matrix<double, panel_nodes, 1>;
+/// Chebyshev coefficients over the panel.
+using PanelCourse = Eigen::Matrix<double, panel_nodes + 1, 1>;
 
 /// Such a piece.
 struct SlipPanel {
@@ -38,6 +40,7 @@ struct SlipPanel {
   PanelVector pace;     ///< d theta/ds, s from 0 to 1
   PanelVector angle;    ///< theta of the points
   PanelVector phase;    ///< phi
+  PanelCourse bends;    ///< of phi - start
   PanelVector turning;  ///< phi'
   PanelVector radius;   ///< b
   PanelVector slip;     ///< v = Re(w' e^{-i phi}) - b', the rate at which it slips
