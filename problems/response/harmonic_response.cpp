@@ -219,8 +219,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   }
   const Index rigid = order.gap.size() - m;
   order.gap.tail(rigid) = share * order.joint.free.tail(rigid);
-  const bool drifts = rigid > 0 && rows.drifts.size() > 0;
-  if (drifts) take_drifts(order, u, p, rows);
+  if (rigid > 0 && rows.drifts.size() > 0) take_drifts(order, u, p, rows);
   order.held.noalias() = order.solver() * order.gap;
   order.gap.noalias() -= order.joint.compliance * order.held;
   order.held.noalias() += order.solver() * order.gap;  // as exact as by factors
@@ -232,7 +231,17 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
     for (Index i = 0; i < m; ++i)
       rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
   }
-  if (parameter_jacobian == nullptr) return;
+  if (parameter_jacobian != nullptr) fill_by_parameters(order, elements, share, p, rows, *parameter_jacobian);
+}
+
+/// The columns of a harmonic whose rows are filled.
+void HarmonicResponse::fill_by_parameters(Order& order, const std::vector<ElementForce>& elements,
+                                          double share, const Vector& p, const Rows& rows,
+                                          Matrix& parameter_jacobian) const {
+  const Index m = coordinates_.size();
+  const Index which = order.which;
+  const Index rigid = order.gap.size() - m;
+  const double weight = rows.weight(which);
   ContactVector& column = order.gap;
   const auto by_loads = [&](const auto& rate, double factor) {  // at such rates of their logarithms
     order.f.resize(m);
@@ -245,7 +254,7 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
     column *= factor;
   };
   by_loads([](Index) { return 1.0; }, weight / pressing({}, p));
-  store(column, which, harmonics(), parameter_jacobian->col(preload));
+  store(column, which, harmonics(), parameter_jacobian.col(preload));
   column *= 2 * growth({}, p) * p(eta);
   const auto add_forces = [&](HarmonicVector ElementForce::*rates) {
     order.f.resize(m);
@@ -257,19 +266,20 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
     column.noalias() -= weight * (order.inverse * order.f);
   };
   add_forces(&ElementForce::by_eta);
-  if (drifts) column += weight / p(eta) * (order.bordered.topRightCorner(m, rigid) * rows.drag);
+  if (rigid > 0 && rows.drifts.size() > 0)
+    column += weight / p(eta) * (order.bordered.topRightCorner(m, rigid) * rows.drag);
   add_linear_part(order, order.joint.compliance_eta, order.joint.free_eta, share, weight);
-  store(column, which, harmonics(), parameter_jacobian->col(eta));
+  store(column, which, harmonics(), parameter_jacobian.col(eta));
   if (is_varied()) {
     by_loads([&](Index e) { return log_load_rate(e, {}, p); }, weight);
     add_forces(&ElementForce::by_setting);
     add_linear_part(order, order.by_varied, order.free_by_varied, share, weight);
-    store(column, which, harmonics(), parameter_jacobian->col(further));
+    store(column, which, harmonics(), parameter_jacobian.col(further));
   }
   const Index by_share = is_varied() ? further + 1 : further;
-  if (parameter_jacobian->cols() == by_share) return;
+  if (parameter_jacobian.cols() == by_share) return;
   column.noalias() = weight * (order.solver().topRows(m) * order.joint.free);
-  store(column, which, harmonics(), parameter_jacobian->col(by_share));
+  store(column, which, harmonics(), parameter_jacobian.col(by_share));
 }
 
 /// Adds to the column in `gap` what changes of 1 + C_h K and of -x0 do, and of the weight by them.

@@ -104,10 +104,9 @@ class HarmonicResponse : public HarmonicProblem {
     ContactReceptance joint;  // 1 + C_h K in place of C_h, and -x0, 0 above the first
     ContactMatrix by_varied;  // derivatives of 1 + C_h K and -x0 by the further parameter
     ContactVector free_by_varied;
-    ContactMatrix inverse;  // (1 + C_h K)^{-1}, at rest its limit as rigid motions meet no stiffness
-    ContactMatrix
-        bordered;   // of rigid motions: the inverse of [1 + C_0 K, S; S^H K, 0], which has it as a part
-    double weight;  // 1/sqrt(1 + |inverse|^2)
+    ContactMatrix inverse;   // (1 + C_h K)^{-1}, at rest its limit as rigid motions meet no stiffness
+    ContactMatrix bordered;  // by rigid motions: [1 + C_0 K, S; S^H K, 0]^{-1}, whose first block it is
+    double weight;           // 1/sqrt(1 + |inverse|^2)
     Coordinates::Each each;  // work space
     ContactVector f, gap, held, residual;
     ContactMatrix product, turned;
@@ -140,6 +139,8 @@ class HarmonicResponse : public HarmonicProblem {
                  const continuation::Regime& regime, Rows& rows, Matrix* parameter_jacobian) const;
   void fill_order(Order& order, const std::vector<ElementForce>& elements, double share, const Vector& u,
                   const Vector& p, Rows& rows, Matrix* parameter_jacobian) const;
+  void fill_by_parameters(Order& order, const std::vector<ElementForce>& elements, double share,
+                          const Vector& p, const Rows& rows, Matrix& parameter_jacobian) const;
   void add_linear_part(Order& order, const ContactMatrix& compliance, const ContactVector& free, double share,
                        double weight) const;
   void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
