@@ -14,6 +14,7 @@
 #include "random_systems.hpp"
 #include "small_structures.hpp"
 #include "temporary_folder.hpp"
+#include "traced_height.hpp"
 
 using namespace arcslip;
 using namespace arcslip::problems;
@@ -35,21 +36,7 @@ std::string even_study(const SmallStructure& s, const std::string& harmonics, co
 /// The highest Y of a response that is traced by itself.
 double highest_response(SystemParameters system, double preload, const PreloadRange& range) {
   system.preload = preload;
-  const HarmonicResponse problem(build_harmonic_system(system));
-  continuation::TraceOptions options;
-  options.parameter = "eta";
-  options.from = range.eta_low;
-  options.to = range.eta_high;
-  options.extrema_of = {"Y"};
-  const continuation::Branch branch = trace(problem, problem.guess(range.eta_low, preload), options);
-  REQUIRE(branch.complete());
-  double most = 0;
-  Vector values;
-  for (const continuation::BranchPoint& point : branch.points) {
-    problem.observe(point.unknowns, point.parameters, point.regime, values);
-    most = std::max(most, values(HarmonicResponse::Y));
-  }
-  return most;
+  return traced_height(HarmonicResponse(build_harmonic_system(system)), range, preload);
 }
 
 }  // namespace

@@ -12,10 +12,12 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "catch.hpp"
 #include "random_systems.hpp"
+#include "traced_height.hpp"
 
 using namespace arcslip;
 using namespace arcslip::problems;
 using arcslip::testing::RandomSystems;
+using arcslip::testing::traced_height;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
@@ -56,24 +58,6 @@ PreloadStudy response_study_of(const SystemParameters& system, const PreloadRang
   INFO(study.failure);
   REQUIRE(study.optimum);
   return study;
-}
-
-/// The highest amplitude in the window, from a response that is traced for itself.
-double traced_height(const HarmonicResponse& problem, const PreloadRange& range, double preload) {
-  continuation::TraceOptions options;
-  options.parameter = "eta";
-  options.from = range.eta_low;
-  options.to = range.eta_high;
-  options.extrema_of = {"Y"};
-  const continuation::Branch branch = trace(problem, problem.guess(range.eta_low, preload), options);
-  REQUIRE(branch.complete());
-  double highest = 0;
-  Vector values;
-  for (const continuation::BranchPoint& point : branch.points) {
-    problem.observe(point.unknowns, point.parameters, point.regime, values);
-    highest = std::max(highest, values(HarmonicResponse::Y));
-  }
-  return highest;
 }
 
 }  // namespace

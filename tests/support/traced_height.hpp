@@ -1,0 +1,32 @@
+#pragma once
+
+// The height of a response within a window, found without a study.
+
+#include <algorithm>
+
+#include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/ridges/preload_study.hpp"
+#include "catch.hpp"
+
+namespace arcslip::testing {
+
+/// The highest amplitude in the window, from a response that is traced for itself.
+inline double traced_height(const problems::HarmonicResponse& problem, const problems::PreloadRange& range,
+                            double preload) {
+  continuation::TraceOptions options;
+  options.parameter = "eta";
+  options.from = range.eta_low;
+  options.to = range.eta_high;
+  options.extrema_of = {"Y"};
+  const continuation::Branch branch = trace(problem, problem.guess(range.eta_low, preload), options);
+  REQUIRE(branch.complete());
+  double highest = 0;
+  Vector values;
+  for (const continuation::BranchPoint& point : branch.points) {
+    problem.observe(point.unknowns, point.parameters, point.regime, values);
+    highest = std::max(highest, values(problems::HarmonicResponse::Y));
+  }
+  return highest;
+}
+
+}  // namespace arcslip::testing
