@@ -210,6 +210,23 @@ Vector RingMotion::forces(const RingSegment& segment, double ratio, const Vector
   return all;
 }
 
+/// Forces of the order m, where x has that order of the displacements that vary.
+void RingMotion::vary(Index m, const Vector& x, LawSeries& laws, Vector& local) {
+  local = varying_.linear.cwiseProduct(x);
+  for (Index i = 0; i < x.size(); ++i) {
+    const Index other = varying_.other[static_cast<std::size_t>(i)];
+    if (other >= 0) local(i) += varying_.cross(i) * x(other);
+  }
+  if (varying_.are_linear()) return;
+  Vector curved(std::ssize(varying_.curved));
+  for (Index i = 0; i < curved.size(); ++i) curved(i) = x(varying_.curved[static_cast<std::size_t>(i)].first);
+  laws.take(curved);
+  curved = laws.force();
+  for (Index i = 0; i < curved.size(); ++i)
+    local(varying_.curved[static_cast<std::size_t>(i)].first) += curved(i);
+  take_slips(m, x, local);
+}
+
 /// Whether the series of a step of this length is summed to rounding, as that of a linear ring always is.
 bool RingMotion::expands(const RingState& state, double length) {
   const bool is_linear = varying_.are_linear();
@@ -217,7 +234,6 @@ bool RingMotion::expands(const RingState& state, double length) {
   std::vector<std::vector<double>> powers;
   for (const auto& [place, of_place] : varying_.curved) powers.push_back(of_place);
   LawSeries laws(powers, order);
-  Vector curved(std::ssize(powers));
   begin_slips(state, order);
   segment_.start = state.time;
   segment_.scale = length;
@@ -248,20 +264,7 @@ bool RingMotion::expands(const RingState& state, double length) {
     if (x.size() > 0) {
       x.noalias() = varying_.motion * p.col(m);
       if (m == 0) x -= varying_.origin;
-      local = varying_.linear.cwiseProduct(x);
-      for (Index i = 0; i < x.size(); ++i) {
-        const Index other = varying_.other[static_cast<std::size_t>(i)];
-        if (other >= 0) local(i) += varying_.cross(i) * x(other);
-      }
-      if (!is_linear) {
-        for (Index i = 0; i < curved.size(); ++i)
-          curved(i) = x(varying_.curved[static_cast<std::size_t>(i)].first);
-        laws.take(curved);
-        curved = laws.force();
-        for (Index i = 0; i < curved.size(); ++i)
-          local(varying_.curved[static_cast<std::size_t>(i)].first) += curved(i);
-        take_slips(m, x, local);
-      }
+      vary(m, x, laws, local);
       forces.noalias() -= varying_.motion.transpose() * local;
     }
     if (dragged_.rows() > 0)

@@ -1,11 +1,21 @@
-// Friction circles that slip.
+// Friction circles that slip, and what small disturbances of the state do to them.
 
 #include <algorithm>
 #include <cmath>
 
 #include "arcslip/time/ring_motion.hpp"
+#include "arcslip/time/ring_tangent.hpp"
 
 namespace arcslip {
+namespace {
+
+/// Of the closing displacement, 0 where there is none.
+SlipTangent::Row closing_row(const VaryingForces::Circle& circle, const Matrix& x) {
+  if (circle.g < 0) return SlipTangent::Row::Zero(x.cols());
+  return x.row(circle.g);
+}
+
+}  // namespace
 
 void RingMotion::begin_slips(const RingState& state, Index order) {
   slips_.clear();
@@ -55,6 +65,44 @@ void RingMotion::move_sliders(double ratio, RingState& state) const {
     const Complex n = slips_[i].direction(ratio);
     state.memory(memory_place(element, 0)) = place.x - far * n.real();
     state.memory(memory_place(element, 1)) = place.y - far * n.imag();
+  }
+}
+
+std::vector<SlipTangent> RingTangent::slips_of(const Stretch& stretch, const Columns& columns) const {
+  std::vector<SlipTangent> slips;
+  for (std::size_t i = 0; i < stretch.slips.size(); ++i) {
+    const Index element = stretch.forces.circles[i].element;
+    slips.emplace_back(stretch.slips[i], columns.memory.row(motion_.memory_place(element, 0)),
+                       columns.memory.row(motion_.memory_place(element, 1)));
+  }
+  return slips;
+}
+
+void RingTangent::finish_slips(const Stretch& stretch, const std::vector<SlipTangent>& slips,
+                               Columns& columns) const {
+  if (slips.empty()) return;
+  const Matrix x = stretch.forces.motion * columns.position;
+  for (std::size_t i = 0; i < slips.size(); ++i) {
+    const VaryingForces::Circle& circle = stretch.forces.circles[i];
+    SlipTangent::Row z_x;
+    SlipTangent::Row z_y;
+    slips[i].finish(x.row(circle.x), x.row(circle.y), closing_row(circle, x), z_x, z_y);
+    columns.memory.row(motion_.memory_place(circle.element, 0)) = z_x;
+    columns.memory.row(motion_.memory_place(circle.element, 1)) = z_y;
+  }
+}
+
+/// Adds what they make of the next term of x.
+void RingTangent::take_slips(const Stretch& stretch, const Matrix& x, std::vector<SlipTangent>& slips,
+                             Matrix& local) const {
+  SlipTangent::Row force_x;
+  SlipTangent::Row force_y;
+  for (std::size_t i = 0; i < slips.size(); ++i) {
+    const VaryingForces::Circle& circle = stretch.forces.circles[i];
+    const double factor = motion_.family(circle.element).factor;
+    slips[i].take(x.row(circle.x), x.row(circle.y), closing_row(circle, x), force_x, force_y);
+    local.row(circle.x) += factor * force_x;
+    local.row(circle.y) += factor * force_y;
   }
 }
 

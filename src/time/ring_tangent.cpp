@@ -105,29 +105,17 @@ Eigen::RowVectorXd RingTangent::memory_row(Index element, const RingMemoryChange
   return sum;
 }
 
-std::vector<SlipTangent> RingTangent::slips_of(const Stretch& stretch, const Columns& columns) const {
-  std::vector<SlipTangent> slips;
-  for (std::size_t i = 0; i < stretch.slips.size(); ++i) {
-    const Index element = stretch.forces.circles[i].element;
-    slips.emplace_back(stretch.slips[i], columns.memory.row(motion_.memory_place(element, 0)),
-                       columns.memory.row(motion_.memory_place(element, 1)));
-  }
-  return slips;
-}
-
-void RingTangent::finish_slips(const Stretch& stretch, const std::vector<SlipTangent>& slips,
-                               Columns& columns) const {
-  if (slips.empty()) return;
-  const Matrix x = stretch.forces.motion * columns.position;
-  for (std::size_t i = 0; i < slips.size(); ++i) {
-    const VaryingForces::Circle& circle = stretch.forces.circles[i];
-    SlipTangent::Row z_x;
-    SlipTangent::Row z_y;
-    slips[i].finish(x.row(circle.x), x.row(circle.y),
-                    circle.g < 0 ? SlipTangent::Row::Zero(x.cols()) : SlipTangent::Row(x.row(circle.g)), z_x,
-                    z_y);
-    columns.memory.row(motion_.memory_place(circle.element, 0)) = z_x;
-    columns.memory.row(motion_.memory_place(circle.element, 1)) = z_y;
+/// Adds what forces that are not linear make of the next term of x, behind those of `motions`.
+void RingTangent::take_curved(const Stretch& stretch, const Matrix& x, std::vector<Matrix>& motions,
+                              Matrix& local) {
+  const auto& curved = stretch.forces.curved;
+  const Index m = std::ssize(motions);
+  Matrix& moved = motions.emplace_back(std::ssize(curved), x.cols());
+  for (Index i = 0; i < moved.rows(); ++i) moved.row(i) = x.row(curved[static_cast<std::size_t>(i)].first);
+  for (Index i = 0; i < moved.rows(); ++i) {
+    auto row = local.row(curved[static_cast<std::size_t>(i)].first);
+    for (Index j = 0; j <= m; ++j)
+      row += stretch.slopes(i, m - j) * motions[static_cast<std::size_t>(j)].row(i);
   }
 }
 
@@ -137,8 +125,6 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   const double h = stretch.length;
   std::vector<Matrix> motions;  // of those that are not linear, term by term
   std::vector<SlipTangent> slips = slips_of(stretch, columns);
-  SlipTangent::Row slip_x;
-  SlipTangent::Row slip_y;
   Matrix now = columns.position;
   Matrix next = h * columns.velocity;
   Matrix rate = next;  // h times the velocity
@@ -163,25 +149,8 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
           if (one.curved >= 0) x.row(one.place) -= columns.memory.row(one.number);
         }
       }
-      if (!forces.curved.empty()) {
-        Matrix& moved = motions.emplace_back(std::ssize(forces.curved), now.cols());
-        for (Index i = 0; i < moved.rows(); ++i)
-          moved.row(i) = x.row(forces.curved[static_cast<std::size_t>(i)].first);
-        for (Index i = 0; i < moved.rows(); ++i) {
-          auto row = local.row(forces.curved[static_cast<std::size_t>(i)].first);
-          for (Index j = 0; j <= m; ++j)
-            row += stretch.slopes(i, m - j) * motions[static_cast<std::size_t>(j)].row(i);
-        }
-      }
-      for (std::size_t i = 0; i < slips.size(); ++i) {
-        const VaryingForces::Circle& circle = forces.circles[i];
-        const double factor = motion_.family(circle.element).factor;
-        slips[i].take(x.row(circle.x), x.row(circle.y),
-                      circle.g < 0 ? SlipTangent::Row::Zero(x.cols()) : SlipTangent::Row(x.row(circle.g)),
-                      slip_x, slip_y);
-        local.row(circle.x) += factor * slip_x;
-        local.row(circle.y) += factor * slip_y;
-      }
+      if (!forces.curved.empty()) take_curved(stretch, x, motions, local);
+      take_slips(stretch, x, slips, local);
       force.noalias() = forces.motion.transpose() * local;
     }
     if (motion_.dragged().rows() > 0) {

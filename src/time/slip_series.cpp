@@ -52,7 +52,7 @@ Complex SlipSeries::direction(double time) const {
 }
 
 SlipTangent::Step SlipTangent::Step::of(const SlipSeries& series, const RingCircle& circle, double part) {
-  Step step{circle, series.direction(), series.turning(), series.settling()};
+  Step step{circle, series.direction(), series.turning(), series.settling(), series.direction(part)};
   double power = 1;
   for (std::size_t m = 0; m < step.direction.size(); ++m, power *= part) {
     step.direction[m] *= power;
@@ -60,12 +60,6 @@ SlipTangent::Step SlipTangent::Step::of(const SlipSeries& series, const RingCirc
     if (static_cast<Index>(m) < step.settling.size()) step.settling(static_cast<Index>(m)) *= power * part;
   }
   return step;
-}
-
-Complex SlipTangent::Step::end() const {
-  Complex sum = 0;
-  for (const Complex& term : direction) sum += term;
-  return sum / std::abs(sum);
 }
 
 SlipTangent::SlipTangent(const Step& step, const Row& z_x, const Row& z_y)
@@ -77,13 +71,9 @@ void SlipTangent::take(const Row& x, const Row& y, const Row& g, Row& force_x, R
   const auto m = std::ssize(motion_x_);
   const RingCircle& circle = step_.circle;
   const double push = circle.friction * circle.normal_stiffness;
-  const auto direction = [&](Index k) {
-    return k < std::ssize(step_.direction) ? step_.direction[static_cast<std::size_t>(k)] : 0;
+  const auto term = [](const auto& terms, Index k) {
+    return k < std::ssize(terms) ? terms[static_cast<decltype(terms.size())>(k)] : 0;
   };
-  const auto turning = [&](Index k) {
-    return k < std::ssize(step_.turning) ? step_.turning[static_cast<std::size_t>(k)] : 0;
-  };
-  const auto settling = [&](Index k) { return k < step_.settling.size() ? step_.settling(k) : 0; };
   motion_x_.push_back(x);
   motion_y_.push_back(y);
   closing_.push_back(g);
@@ -91,7 +81,7 @@ void SlipTangent::take(const Row& x, const Row& y, const Row& g, Row& force_x, R
   along_.emplace_back(-(push / circle.stiffness) * g);
   held_ += memory_;
   for (Index j = 0; j <= m; ++j) {
-    const Complex n = direction(m - j);
+    const Complex n = term(step_.direction, m - j);
     const auto k = static_cast<std::size_t>(j);
     aside_.back() += n.real() * motion_y_[k] - n.imag() * motion_x_[k];
     along_.back() += n.real() * motion_x_[k] + n.imag() * motion_y_[k];
@@ -100,17 +90,17 @@ void SlipTangent::take(const Row& x, const Row& y, const Row& g, Row& force_x, R
   force_x.setZero(x.size());
   force_y.setZero(x.size());
   for (Index j = 0; j <= m; ++j) {
-    const Complex n = direction(m - j);
+    const Complex n = term(step_.direction, m - j);
     const auto k = static_cast<std::size_t>(j);
     force_x += push * n.real() * closing_[k] - circle.stiffness * n.imag() * aside_[k];
     force_y += push * n.imag() * closing_[k] + circle.stiffness * n.real() * aside_[k];
-    memory_ += settling(m - j) * aside_[k] - turning(m - j) * along_[k];
+    memory_ += term(step_.settling, m - j) * aside_[k] - term(step_.turning, m - j) * along_[k];
   }
   memory_ /= static_cast<double>(m + 1);
 }
 
 void SlipTangent::finish(const Row& x, const Row& y, const Row& g, Row& z_x, Row& z_y) const {
-  const Complex n = step_.end();
+  const Complex n = step_.end;
   const RingCircle& circle = step_.circle;
   const Row along =
       n.real() * x + n.imag() * y - (circle.friction * circle.normal_stiffness / circle.stiffness) * g;

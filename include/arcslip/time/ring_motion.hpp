@@ -92,6 +92,8 @@ struct VaryingForces {
   bool are_linear() const { return curved.empty() && circles.empty(); }
 };
 
+class LawSeries;
+
 /// Equation of motion of `ring` at one eta and preload.
 class RingMotion {
  public:
@@ -171,6 +173,7 @@ class RingMotion {
   void refresh_all(const RingState& state);
   void gather();
   Index add_row(Index row);
+  void vary(Index m, const Vector& x, LawSeries& laws, Vector& local);
   void begin_slips(const RingState& state, Index order);
   void take_slips(Index m, const Vector& x, Vector& local);
   bool slips_end() const;

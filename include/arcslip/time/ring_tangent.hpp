@@ -53,6 +53,10 @@ class RingTangent : public RingObserver {
   void note_memory(Stretch& stretch) const;
   void note_slopes(const RingSegment& segment, Stretch& stretch) const;
   void take(const Stretch& stretch, Columns& columns) const;
+  static void take_curved(const Stretch& stretch, const Matrix& x, std::vector<Matrix>& motions,
+                          Matrix& local);
+  void take_slips(const Stretch& stretch, const Matrix& x, std::vector<SlipTangent>& slips,
+                  Matrix& local) const;
   std::vector<SlipTangent> slips_of(const Stretch& stretch, const Columns& columns) const;
   void finish_slips(const Stretch& stretch, const std::vector<SlipTangent>& slips, Columns& columns) const;
   Eigen::RowVectorXd memory_row(Index element, const RingMemoryChange& change, const Matrix& position) const;

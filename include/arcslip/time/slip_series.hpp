@@ -53,10 +53,9 @@ class SlipTangent {
     std::vector<Complex> direction;
     std::vector<double> turning;
     Vector settling;
+    Complex end;  ///< n there
     /// Of a motion over `part` of the time in which it is told.
     static Step of(const SlipSeries& series, const RingCircle& circle, double part);
-    /// n at the end.
-    Complex end() const;
   };
   using Row = Eigen::RowVectorXd;
 
