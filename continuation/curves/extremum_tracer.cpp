@@ -253,13 +253,14 @@ double ExtremumTracer::observable_rate(const BranchPoint& at, const Vector& dire
   return rate(gradient, parameter_, direction) / size;
 }
 
-/// Whether it has come back to its start, behind which it is cut.
+/// Whether it has come back to its start as it left it, behind which it is cut.
 bool ExtremumTracer::came_back() {
   const BranchPoint& start = curve_.points.front();
   for (std::size_t i = std::max<std::size_t>(seen_, 1); seen_ > 0 && i < curve_.points.size(); ++i) {
     BranchPoint& point = curve_.points[i];
     if (point.regime != start.regime ||
-        !(steps(way(start, point), start).norm() < options_.tolerances.same_point))
+        !(steps(way(start, point), start).norm() < options_.tolerances.same_point) ||
+        !((point.arrival.size() > 0 ? point.arrival : point.tangent).dot(start.tangent) > 0))
       continue;
     point.type = PointType::end;
     curve_.points.resize(i + 1);

@@ -35,18 +35,6 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
   const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
   if (problem.model != nullptr) return;
-  const auto jumps = std::find_if(system.others.begin(), system.others.end(), [](const PlacedElement& one) {
-    return one.closes() || one.kind->slides > 1;
-  });
-  using continuation::PointType;
-  const auto is = [&](PointType type) { return branch.curve->type == type; };
-  if (jumps != system.others.end() && branch.curve &&
-      (is(PointType::peak) || is(PointType::trough) || is(PointType::fold)))
-    branch_section.fail("curve",
-                        fmt::format("not of folds, peaks and troughs beside element '{}': their second "
-                                    "derivatives jump with every event within the period; for_each lists "
-                                    "preloads whose branches have them",
-                                    jumps->kind->name));
   if (all_odd(system.harmonics)) return;
   for (const PlacedElement& one : system.others) {
     if (!one.kind->takes_any_orders)

@@ -71,6 +71,14 @@ void ElementForce::add(const ElementForce& change, double part) {
   conjugate += part * change.conjugate;
 }
 
+void ElementForce::add_rate(const ElementForce& ahead, const ElementForce& behind, double step) {
+  const auto rate = [step](const auto& one, const auto& other) { return (one - other) / (2 * step); };
+  linear += rate(ahead.linear, behind.linear);
+  conjugate += rate(ahead.conjugate, behind.conjugate);
+  by_log_load += rate(ahead.by_log_load, behind.by_log_load);
+  if (ahead.by_setting.size() > 0) by_setting += rate(ahead.by_setting, behind.by_setting);
+}
+
 ElementForce Element::change(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
                              double load, bool beyond, const Way& way) const {
   ElementForce change;
@@ -104,22 +112,21 @@ MotionNumber Element::border(std::span<const int> orders, const HarmonicVector& 
   return border;
 }
 
+double Element::Way::pace(const HarmonicVector& x, double setting_scale) const {
+  const double size = x.norm() > 0 ? x.norm() : 1;
+  return std::max({motion.norm() / size, std::abs(log_load), std::abs(setting) / setting_scale});
+}
+
 void Element::difference(const Moved& moved, const HarmonicVector& x, const Way& way, double setting_scale,
                          double relative, ElementForce& change) {
-  const double size = x.norm() > 0 ? x.norm() : 1;
-  const double pace =
-      std::max({way.motion.norm() / size, std::abs(way.log_load), std::abs(way.setting) / setting_scale});
+  const double pace = way.pace(x, setting_scale);
   if (!(pace > 0)) return;
   const double step = relative / pace;
   ElementForce ahead;
   ElementForce behind;
   moved(x + step * way.motion, step * way.log_load, step * way.setting, ahead);
   moved(x - step * way.motion, -step * way.log_load, -step * way.setting, behind);
-  const auto rate = [step](const auto& one, const auto& other) { return (one - other) / (2 * step); };
-  change.linear += rate(ahead.linear, behind.linear);
-  change.conjugate += rate(ahead.conjugate, behind.conjugate);
-  change.by_log_load += rate(ahead.by_log_load, behind.by_log_load);
-  if (ahead.by_setting.size() > 0) change.by_setting += rate(ahead.by_setting, behind.by_setting);
+  change.add_rate(ahead, behind, step);
 }
 
 DisturbedLaw Element::disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "arcslip/elements/hysteresis_loop.hpp"
-#include "arcslip/elements/pressed/pressed_contact.hpp"
 #include "arcslip/elements/pressed/pressed_law.hpp"
+#include "elements/pressed/moving_arcs.hpp"
 
 namespace arcslip {
 
@@ -44,7 +44,10 @@ void Jenkins::force_of_any(std::span<const int> orders, const HarmonicVector& x,
   out.energy = found.energy;
   if (slips) out.swing = Swing::of(orders, x);
   out.by_setting.resize(0);
-  if (!derivatives) return;
+  if (derivatives) set_derivatives(found, limit, out);
+}
+
+void Jenkins::set_derivatives(const PressedForce& found, double limit, ElementForce& out) {
   out.linear = found.tangential_by_sliding.linear;
   out.conjugate = found.tangential_by_sliding.conjugate;
   out.by_log_load = limit * found.tangential_by[PressedForce::normal_force];
@@ -73,14 +76,23 @@ PressedArcs::Course Jenkins::course(bool slips) const {
   return slips ? Course::slips : Course::sticks;
 }
 
+void Jenkins::second_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+                            const Way& way, ElementForce& change) const {
+  const double limit = stiffness_ * threshold(load);
+  PressedChange along{way.motion, ComplexVector::Zero(x.size())};
+  along.by[PressedForce::normal_force] = limit * way.log_load;
+  const MovingArcs moving({1, stiffness_, 0, limit}, orders, x, along.closing, course(slips), along);
+  const auto filled = [&](const PressedForce& force, double steps) {
+    ElementForce out;
+    set_derivatives(force, limit * (1 + steps * way.log_load), out);
+    return out;
+  };
+  moving.add_change(way.pace(x, 1), filled, change);
+}
+
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,
                      double load, bool slips, const Way& way, ElementForce& change) const {
-  if (!all_odd(orders)) {
-    const auto moved = [&](const HarmonicVector& motion, double log_load, double, ElementForce& out) {
-      force_of_any(orders, motion, load * std::exp(log_load), slips, true, out);
-    };
-    return difference(moved, x, way, 1, smooth_step, change);
-  }
+  if (!all_odd(orders)) return second_of_any(orders, x, load, slips, way, change);
   const double limit = threshold(load);
   HysteresisLoop(OddMotion(orders, x), limit)
       .second(way.motion, limit * way.log_load, change.linear, change.conjugate);

@@ -12,6 +12,7 @@
 #include "case_texts.hpp"
 #include "catch.hpp"
 #include "places.hpp"
+#include "temporary_folder.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -128,4 +129,40 @@ TEST_CASE("A peak passes the border of stick where its own amplitude tells it", 
     REQUIRE(users.size() == 2);
   }
   CHECK(passing >= 1);
+}
+
+TEST_CASE("Curves of peaks and folds pass those of responses in which the parts come apart", "[cases]") {
+  const std::string type = GENERATE("peak", "fold");
+  const std::string problems = source_folder() + "/problems/";
+  std::string text = read(problems + "lift_off.toml");
+  text.resize(text.find("[branch]"));
+  for (const std::string matrix : {"mass", "stiffness", "damping"})
+    text = replaced(text, "lift_off/" + matrix, problems + "lift_off/" + matrix);
+  if (type == "fold")
+    text += "[[element]]\nkind = \"cubic\"\nat = \"base\"\ncontact = 1\ncoefficient = 0.002\n";
+  text += "[branch]\ncurve = \"" + type + "\"\nparameters = [\"eta\", \"P\"]\nwindow = [0.1, 0.3]\n";
+  const Case input =
+      case_texts::read_text(text + "from = 0.2\nto = 4\n[continuation]\nstop_at = [0.3, 0.4, 2.0]\n",
+                            {"system.harmonics=3", "system.preload=0.5"});
+  std::map<double, std::vector<double>> passed;
+  std::size_t cusps = 0;
+  for (const TracedBranch& curve : trace(input.branches.front())) {
+    CHECK(curve.branch.complete());
+    cusps += of_type(curve.branch, PointType::cusp).size();
+    for (const BranchPoint& point : of_type(curve.branch, PointType::user)) {
+      const BasePoint at = curve.curve->split(point.unknowns, point.parameters, point.regime);
+      passed[at.parameters(1)].push_back(at.parameters(0));
+    }
+  }
+  CHECK(cusps == (type == "fold" ? 1 : 0));
+  for (const double preload : {0.3, 0.4, 2.0}) {
+    CaseBranch response = seed_branch(input.branches.front());
+    response.problem.system.preload = preload;
+    const PointType wanted = type == "fold" ? PointType::fold : PointType::peak;
+    for (const BranchPoint& point : of_type(trace(response).front().branch, wanted)) {
+      CAPTURE(type, preload, point.parameters(0));
+      CHECK(std::any_of(passed[preload].begin(), passed[preload].end(),
+                        [&](double eta) { return std::abs(eta / point.parameters(0) - 1) < 1e-9; }));
+    }
+  }
 }

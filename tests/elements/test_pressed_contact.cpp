@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arcslip/elements/jenkins.hpp"
+#include "arcslip/elements/pressed/pressed_element.hpp"
 #include "catch.hpp"
 #include "pressed_motions.hpp"
 
@@ -173,6 +174,76 @@ TEST_CASE("Derivatives of friction under varying normal load are exact", "[press
     }
   }
   CHECK(near < 24);
+}
+
+TEST_CASE("Second derivatives of friction under varying normal load are those of differences", "[pressed]") {
+  RandomSystems draw(7);
+  int near = 0;
+  int told = 0;
+  for (const int highest : {1, 3, 7}) {
+    const std::vector<int> orders = from_zero_to(highest);
+    const Index n = highest + 1;
+    for (int i = 0; i < 30; ++i) {
+      CAPTURE(highest, i);
+      const PressedSettings s = random_pressed(draw);
+      const auto jet = [&](double number) { return Jet(number, draw.uniform(-1, 1), draw.uniform(-1, 1)); };
+      const PressedElement element({jet(s.friction), jet(s.tangential_stiffness), jet(s.normal_stiffness),
+                                    jet(0.3 * s.normal_force), jet(0.7 * s.normal_force)});
+      HarmonicVector x(2 * n);
+      x << random_course(draw, highest, 1), random_course(draw, highest, 0.5);
+      Element::Way way{HarmonicVector(2 * n), draw.uniform(-1, 1), 0};
+      way.motion << random_course(draw, highest, 1), random_course(draw, highest, 1);
+      const auto at = [&](double by) {
+        ElementForce force;
+        element.force(orders, x + by * way.motion, std::exp(by * way.log_load), true, true, force);
+        ComplexMatrix all(2 * n, 4 * n + 1);
+        all << force.linear, force.conjugate, force.by_log_load;
+        return all;
+      };
+      const auto difference = [&](double step) {
+        return ComplexMatrix((8.0 * (at(step) - at(-step)) - (at(2 * step) - at(-2 * step))) / (12 * step));
+      };
+      const ComplexMatrix fine = difference(2e-5);
+      if ((fine - difference(1e-5)).norm() > 1e-7 * (1 + fine.norm())) {  // beside a transition
+        ++near;
+        continue;
+      }
+      if (element.border(orders, x, nullptr, 1, true).value > 0) continue;  // it would stick
+      ElementForce here;
+      element.force(orders, x, 1, true, true, here);
+      const ElementForce change = element.change(here, orders, x, 1, true, way);
+      ++told;
+      ComplexMatrix exact(2 * n, 4 * n + 1);
+      exact << change.linear, change.conjugate, change.by_log_load;
+      CHECK((exact - fine).norm() < 1e-6 * (1 + fine.norm()));
+      // By the setting derivatives change as by what it is, whose part of the force changes with the motion.
+      const ElementForce by_setting = element.change(here, orders, x, 1, true, {way.motion * 0, 0, 1});
+      const HarmonicVector mixed = by_setting.linear * way.motion +
+                                   by_setting.conjugate * way.motion.conjugate() +
+                                   way.log_load * by_setting.by_log_load;
+      CHECK((mixed - change.by_setting).norm() < 1e-6 * (1 + mixed.norm()));
+    }
+  }
+  CHECK(near < 24);
+  CHECK(told > 40);
+}
+
+TEST_CASE("Where an arc is born second derivatives of friction are those of one side", "[pressed]") {
+  // At N_0 = 1 the parts only just touch all the time; slip there begins and ends elsewhere.
+  const std::vector<int> orders = from_zero_to(1);
+  const auto change = [&](double normal_force) {
+    const PressedElement element({.5, 1, 1, normal_force, 0});
+    HarmonicVector x(4);
+    x << 0, Complex(2, .3), 0, 1;
+    HarmonicVector way(4);
+    way << .1, Complex(.2, .3), .1, Complex(.3, -.2);
+    ElementForce here;
+    element.force(orders, x, 1, true, true, here);
+    return element.change(here, orders, x, 1, true, {way}).linear;
+  };
+  const ComplexMatrix touching = change(1);
+  CHECK((touching - change(1 + 1e-9)).norm() < 1e-4 * touching.norm());
+  CHECK((touching - change(1 - 1e-9)).norm() > 1e-2 * touching.norm());
 }
 
 TEST_CASE("Friction under varying normal load stands what coincides", "[pressed]") {

@@ -55,6 +55,9 @@ struct ElementForce {
 
   /// Adds so much of a change.
   void add(const ElementForce& change, double part);
+
+  /// Adds the rate at which the derivatives change between one step back and one ahead, but `by_eta`.
+  void add_rate(const ElementForce& ahead, const ElementForce& behind, double step);
 };
 
 /// E = pi sum_h h Im(f_h conj(x_h)) of a force under a motion: lost per cycle.
@@ -127,6 +130,9 @@ class Element {
     HarmonicVector motion;  ///< rate of x
     double log_load = 0;    ///< of ln(load)
     double setting = 0;     ///< of the setting
+
+    /// The fastest of these, relative to x, 1 and the setting's scale.
+    double pace(const HarmonicVector& x, double setting_scale) const;
   };
 
   /// How harmonics and derivatives, which `force` has given as `at` with these arguments, change along it. Of

@@ -7,7 +7,7 @@
 // holds the mean, it sticks up to max |x(t)| and drifts beyond.
 
 #include "arcslip/elements/element.hpp"
-#include "arcslip/elements/pressed/pressed_arcs.hpp"
+#include "arcslip/elements/pressed/pressed_contact.hpp"
 
 namespace arcslip {
 
@@ -40,6 +40,9 @@ class Jenkins final : public Element {
  private:
   void force_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
                     bool derivatives, ElementForce& out) const;
+  static void set_derivatives(const PressedForce& found, double limit, ElementForce& out);
+  void second_of_any(std::span<const int> orders, const HarmonicVector& x, double load, bool slips,
+                     const Way& way, ElementForce& change) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool slips, const Way& way, ElementForce& change) const override;
   PressedArcs::Course course(bool slips) const;

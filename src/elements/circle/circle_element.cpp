@@ -53,7 +53,7 @@ void CircleElement::force_at(std::span<const int> orders, const HarmonicVector& 
   };
   by_load[PressedForce::normal_force] = settings_.by_log_load(load, setting);
   out.by_log_load = along(by_load);
-  if (settings_.scale() > 0) out.by_setting = along(settings_.rates(load));
+  if (settings_.scale() > 0) out.by_setting = along(settings_.rates(load, setting));
 }
 
 /// The excess over the root of the mean squares of k_t r, without its mean, and of mu n.

@@ -12,23 +12,27 @@
 namespace arcslip {
 namespace {
 
-/// a x + b y + constant.
-PeriodicMotion combined(double a, const PeriodicMotion& x, double b, const PeriodicMotion& y,
-                        double constant = 0) {
+/// a x + b y.
+PeriodicMotion combined(double a, const PeriodicMotion& x, double b, const PeriodicMotion& y) {
   ComplexVector sum = ComplexVector::Zero(std::max(x.highest(), y.highest()) + 1);
   sum.head(x.highest() + 1) += a * x.coefficients();
   sum.head(y.highest() + 1) += b * y.coefficients();
-  sum(0) += constant;
   return PeriodicMotion(std::move(sum)).drifting(a * x.drift() + b * y.drift());
 }
 
 }  // namespace
 
+PeriodicMotion pressing_motion(const PressedSettings& settings, const PeriodicMotion& closing) {
+  ComplexVector press = settings.normal_stiffness * closing.coefficients();
+  press(0) += settings.normal_force;
+  return PeriodicMotion(std::move(press));
+}
+
 PressedArcs::PressedArcs(const PressedSettings& settings, const PeriodicMotion& sliding,
                          const PeriodicMotion& closing, Course course)
     : settings_(settings),
       sliding_(sliding),
-      press_(combined(settings.normal_stiffness, closing, 0, sliding, settings.normal_force)),
+      press_(pressing_motion(settings, closing)),
       low_(combined(settings.tangential_stiffness, sliding, -settings.friction, press_)),
       high_(combined(settings.tangential_stiffness, sliding, settings.friction, press_)) {
   if (!(settings.tangential_stiffness > 0 && settings.friction >= 0 && settings.normal_stiffness >= 0))
@@ -250,12 +254,6 @@ void PressedArcs::add(double begin, double width) {
   arcs_.push_back(now_);
   arcs_.back().begin = begin;
   arcs_.back().width = width;
-}
-
-double PressedArcs::fraction(Phase phase) const {
-  double sum = 0;
-  for (const Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
-  return sum / two_pi;
 }
 
 }  // namespace arcslip

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "arcslip/elements/element.hpp"
@@ -18,16 +19,18 @@ using Phase = PressedArcs::Phase;
 class PressedIntegrals {
  public:
   PressedIntegrals(const PressedSettings& settings, std::span<const int> orders,
-                   const PeriodicMotion& sliding, const PeriodicMotion& closing, PressedArcs::Course course)
+                   const PeriodicMotion& sliding, const PeriodicMotion& closing,
+                   std::span<const PressedArcs::Arc> arcs, PressedArcs::Course course)
       : settings_(settings),
         orders_(orders),
         sliding_(sliding),
         closing_(closing),
-        course_(settings, sliding, closing, course),
+        press_(pressing_motion(settings, closing)),
+        arcs_(arcs),
         stick_(2 * sliding.highest()),
         slip_(2 * sliding.highest()),
         touch_(2 * sliding.highest()) {
-    for (const PressedArcs::Arc& arc : course_.arcs()) {
+    for (const PressedArcs::Arc& arc : arcs_) {
       if (arc.phase == Phase::apart) continue;
       const ArcSums own(2 * sliding.highest(), arc.begin, arc.width);
       touch_.add(own);
@@ -42,15 +45,15 @@ class PressedIntegrals {
     }
     stuck_ = stick_.harmonics(sliding, orders);
     for (const ComplexVector& ramp : ramps_) stuck_ += sliding.drift() * ramp;
-    slipped_ = slip_.harmonics(course_.press(), orders);
+    slipped_ = slip_.harmonics(press_, orders);
   }
 
   void forces(PressedForce& out) const {
     out.tangential = settings_.tangential_stiffness * stuck_ + settings_.friction * slipped_;
     for (const auto& [arc, constant] : held_) out.tangential -= arc.offset * constant;
-    out.normal = touch_.harmonics(course_.press(), orders_);
-    out.slip_fraction = course_.fraction(Phase::slip);
-    out.apart_fraction = course_.fraction(Phase::apart);
+    out.normal = touch_.harmonics(press_, orders_);
+    out.slip_fraction = fraction(Phase::slip);
+    out.apart_fraction = fraction(Phase::apart);
     normal_range(out);
   }
 
@@ -83,7 +86,7 @@ class PressedIntegrals {
       if (!arc.is_set) continue;
       const double slid = sliding_.value(arc.anchor);
       if (!arc.was_apart) {  // A = k_t r -+ mu n
-        const double press = course_.press().value(arc.anchor);
+        const double press = press_.value(arc.anchor);
         by[PressedForce::friction] -= (mu > 0 ? arc.by_press / mu * press : 0) * constant;
       }
       by[PressedForce::tangential_stiffness] -= slid * constant;
@@ -112,8 +115,15 @@ class PressedIntegrals {
     out.tangential_by_sliding.conjugate.col(mean) += Complex(0, 0.5) * rate;
   }
 
+  /// Of the period in this phase.
+  double fraction(Phase phase) const {
+    double sum = 0;
+    for (const PressedArcs::Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
+    return sum / two_pi;
+  }
+
   void normal_range(PressedForce& out) const {
-    const Swing swing = Swing::at(course_.press(), course_.press().derivative().zeros());
+    const Swing swing = Swing::at(press_, press_.derivative().zeros());
     out.least_normal = std::max(0.0, swing.least.value);
     out.greatest_normal = std::max(0.0, swing.greatest.value);
   }
@@ -123,7 +133,8 @@ class PressedIntegrals {
   const PeriodicMotion& sliding_;
   const PeriodicMotion& closing_;
   PeriodicMotion one_{ComplexVector::Ones(1)};
-  PressedArcs course_;
+  PeriodicMotion press_;
+  std::span<const PressedArcs::Arc> arcs_;
   ArcSums stick_;
   ArcSums slip_;  // with the direction of slip as sign
   ArcSums touch_;
@@ -144,11 +155,10 @@ PeriodicMotion sliding_motion(std::span<const int> orders, const ComplexVector& 
 
 PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
                            const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
-                           PressedArcs::Course course) {
-  if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
+                           std::span<const PressedArcs::Arc> arcs, PressedArcs::Course course) {
   const PeriodicMotion slides = sliding_motion(orders, sliding, course);
   const PeriodicMotion closes(orders, closing, highest_order(orders));
-  const PressedIntegrals integrals(settings, orders, slides, closes, course);
+  const PressedIntegrals integrals(settings, orders, slides, closes, arcs, course);
   PressedForce out;
   integrals.forces(out);
   out.energy = cycle_energy(orders, out.tangential, sliding);
@@ -158,6 +168,15 @@ PressedForce pressed_force(const PressedSettings& settings, std::span<const int>
   integrals.by_motions(out);
   integrals.by_settings(out);
   return out;
+}
+
+PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
+                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
+                           PressedArcs::Course course) {
+  if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
+  const PressedArcs found(settings, sliding_motion(orders, sliding, course),
+                          PeriodicMotion(orders, closing, highest_order(orders)), course);
+  return pressed_force(settings, orders, sliding, closing, derivatives, found.arcs(), course);
 }
 
 }  // namespace arcslip

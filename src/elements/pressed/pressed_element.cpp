@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "arcslip/elements/pressed/pressed_law.hpp"
+#include "elements/pressed/moving_arcs.hpp"
 
 namespace arcslip {
 namespace {
@@ -40,8 +41,10 @@ double PressedElement::Settings::by_log_load(double load, double setting) const 
   return load * shifted(normal_per_load, setting).value;
 }
 
-std::array<double, PressedForce::settings> PressedElement::Settings::rates(double load) const {
-  return {friction.first, tangential.first, normal.first, normal_force.first + load * normal_per_load.first};
+std::array<double, PressedForce::settings> PressedElement::Settings::rates(double load,
+                                                                           double setting) const {
+  const auto rate = [setting](const Jet& number) { return shifted(number, setting).first; };
+  return {rate(friction), rate(tangential), rate(normal), rate(normal_force) + load * rate(normal_per_load)};
 }
 
 bool PressedElement::rests_beyond(double load) const {
@@ -50,45 +53,42 @@ bool PressedElement::rests_beyond(double load) const {
 
 void PressedElement::force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                            bool derivatives, ElementForce& out) const {
-  force_at(orders, x, load, 0, beyond, derivatives, out);
-}
-
-void PressedElement::force_at(std::span<const int> orders, const HarmonicVector& x, double load,
-                              double setting, bool beyond, bool derivatives, ElementForce& out) const {
   const Index n = std::ssize(orders);
-  const PressedSettings settings = settings_.at(load, setting);
+  const PressedSettings settings = settings_.at(load, 0);
   const PressedForce found =
       pressed_force(settings, orders, x.head(n), x.tail(n), derivatives, course(beyond));
-  const Index mean = n + place_of_mean(orders);
-  const double rests = std::max(0.0, settings.normal_force);
-  const auto both = [&](const ComplexVector& tangential, const ComplexVector& normal, double rest) {
-    HarmonicVector all(2 * n);
-    all << tangential, normal;
-    all(mean) -= rest;
-    return all;
-  };
-  out.harmonics = both(found.tangential, found.normal, rests);
+  out.harmonics.resize(2 * n);
+  out.harmonics << found.tangential, found.normal;
+  out.harmonics(n + place_of_mean(orders)) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
   out.readings = {found.least_normal, found.greatest_normal, found.slip_fraction, found.apart_fraction};
   out.by_setting.resize(0);
-  if (!derivatives) return;
+  if (derivatives) set_derivatives(found, orders, load, 0, out);
+}
+
+void PressedElement::set_derivatives(const PressedForce& found, std::span<const int> orders, double load,
+                                     double setting, ElementForce& out) const {
+  const Index n = std::ssize(orders);
   out.linear.setZero(2 * n, 2 * n);
   out.conjugate.setZero(2 * n, 2 * n);
   put(found.tangential_by_sliding, 0, 0, out);
   put(found.tangential_by_closing, 0, 1, out);
   put(found.normal_by_closing, 1, 1, out);
-  const double rests_rate = settings.normal_force > 0 ? 1 : 0;
-  const auto by = [&](PressedForce::Setting which) {
-    const bool is_force = which == PressedForce::normal_force;
-    return both(found.tangential_by[which], found.normal_by[which], is_force ? rests_rate : 0);
+  const double rests_rate = settings_.at(load, setting).normal_force > 0 ? 1 : 0;
+  const auto along = [&](const std::array<double, PressedForce::settings>& rates) {
+    HarmonicVector all = HarmonicVector::Zero(2 * n);
+    for (std::size_t s = 0; s < rates.size(); ++s) {
+      if (rates[s] == 0) continue;
+      all.head(n) += rates[s] * found.tangential_by[s];
+      all.tail(n) += rates[s] * found.normal_by[s];
+    }
+    all(n + place_of_mean(orders)) -= rests_rate * rates[PressedForce::normal_force];
+    return all;
   };
-  out.by_log_load = settings_.by_log_load(load, setting) * by(PressedForce::normal_force);
-  if (!(settings_.scale() > 0)) return;
-  const auto rates = settings_.rates(load);
-  out.by_setting = rates[PressedForce::friction] * by(PressedForce::friction) +
-                   rates[PressedForce::tangential_stiffness] * by(PressedForce::tangential_stiffness) +
-                   rates[PressedForce::normal_stiffness] * by(PressedForce::normal_stiffness) +
-                   rates[PressedForce::normal_force] * by(PressedForce::normal_force);
+  std::array<double, PressedForce::settings> by_load{};
+  by_load[PressedForce::normal_force] = settings_.by_log_load(load, setting);
+  out.by_log_load = along(by_load);
+  if (settings_.scale() > 0) out.by_setting = along(settings_.rates(load, setting));
 }
 
 DisturbedLaw PressedElement::disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
@@ -185,11 +185,18 @@ MotionNumber PressedElement::extreme_press(const Settings& settings, std::span<c
 
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,
                             double load, bool beyond, const Way& way, ElementForce& change) const {
-  const auto moved = [&](const HarmonicVector& motion, double log_load, double setting, ElementForce& out) {
-    force_at(orders, motion, load * std::exp(log_load), setting, beyond, true, out);
+  const Index n = std::ssize(orders);
+  PressedChange along{way.motion.head(n), way.motion.tail(n), settings_.rates(load)};
+  for (double& rate : along.by) rate *= way.setting;
+  along.by[PressedForce::normal_force] += settings_.by_log_load(load, 0) * way.log_load;
+  const MovingArcs moving(settings_.at(load, 0), orders, x.head(n), x.tail(n), course(beyond), along);
+  const auto filled = [&](const PressedForce& force, double steps) {
+    ElementForce out;
+    set_derivatives(force, orders, load * std::exp(steps * way.log_load), steps * way.setting, out);
+    return out;
   };
   const double scale = settings_.scale();
-  difference(moved, x, way, scale > 0 ? scale : 1, smooth_step, change);
+  moving.add_change(way.pace(x, scale > 0 ? scale : 1), filled, change);
 }
 
 }  // namespace arcslip

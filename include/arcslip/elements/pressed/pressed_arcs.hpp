@@ -33,6 +33,9 @@ struct PressedSettings {
   double normal_force = 0;          ///< N_0, where g = 0; of either sign
 };
 
+/// n = N_0 + k_n g, pressing where it is positive.
+PeriodicMotion pressing_motion(const PressedSettings& settings, const PeriodicMotion& closing);
+
 /// What a contact does over a period, arc by arc.
 class PressedArcs {
  public:
@@ -65,12 +68,6 @@ class PressedArcs {
 
   /// Those of a period, one behind the other.
   const std::vector<Arc>& arcs() const { return arcs_; }
-
-  /// n, that is N where it is not negative.
-  const PeriodicMotion& press() const { return press_; }
-
-  /// Part of the period in this phase.
-  double fraction(Phase phase) const;
 
   /// Whether it sticks all the time.
   bool is_stuck() const { return arcs_.size() == 1 && arcs_.front().phase == Phase::stick; }

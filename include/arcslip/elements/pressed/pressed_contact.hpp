@@ -62,4 +62,9 @@ PressedForce pressed_force(const PressedSettings& settings, std::span<const int>
                            const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
                            PressedArcs::Course course = PressedArcs::Course::any);
 
+/// The same over these arcs, which are those of a course or near them.
+PressedForce pressed_force(const PressedSettings& settings, std::span<const int> orders,
+                           const ComplexVector& sliding, const ComplexVector& closing, bool derivatives,
+                           std::span<const PressedArcs::Arc> arcs, PressedArcs::Course course);
+
 }  // namespace arcslip

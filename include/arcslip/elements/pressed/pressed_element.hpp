@@ -35,7 +35,7 @@ class PressedElement final : public Element {
 
     /// Of these the rates by ln(load), which is that of N_0, and by the setting that is continued.
     double by_log_load(double load, double setting) const;
-    std::array<double, PressedForce::settings> rates(double load) const;
+    std::array<double, PressedForce::settings> rates(double load, double setting = 0) const;
   };
 
   /// Throws std::invalid_argument of settings out of their range.
@@ -85,8 +85,8 @@ class PressedElement final : public Element {
   PressedSettings settings(double load) const { return settings_.at(load, 0); }
 
  private:
-  void force_at(std::span<const int> orders, const HarmonicVector& x, double load, double setting,
-                bool beyond, bool derivatives, ElementForce& out) const;
+  void set_derivatives(const PressedForce& found, std::span<const int> orders, double load, double setting,
+                       ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;
   PressedArcs::Course course(bool beyond) const {
