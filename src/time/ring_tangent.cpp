@@ -25,8 +25,13 @@ void RingTangent::follow(const RingSegment& segment, const RingState& state) {
     return;
   }
   goes_on_ = is_linear;
-  Stretch stretch{
-      segment.length, series_order(motion_.fastest_rate() * segment.length), motion_.varying(), {}, {}, {}};
+  Stretch stretch{segment.length,
+                  series_order(motion_.fastest_rate() * segment.length),
+                  motion_.varying(),
+                  waves_.of(motion_.varying().rows),
+                  {},
+                  {},
+                  {}};
   if (!is_linear) stretch.order += segment.position.cols();
   note_memory(stretch);
   note_slopes(segment, stretch);
@@ -128,7 +133,7 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   Matrix now = columns.position;
   Matrix next = h * columns.velocity;
   Matrix rate = next;  // h times the velocity
-  Matrix x;
+  Matrix x(std::ssize(forces.rows), now.cols());
   Matrix local;
   Matrix force = Matrix::Zero(now.rows(), now.cols());
   columns.position += next;
@@ -137,7 +142,7 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   for (Index m = 0; m + 2 <= stretch.order; ++m) {
     const auto up = static_cast<double>(m + 1);
     if (!forces.rows.empty()) {
-      x.noalias() = forces.motion * now;
+      waves_.displace(stretch.rows, now, x);
       local = forces.linear.asDiagonal() * x;
       for (std::size_t i = 0; i < forces.other.size(); ++i) {
         if (forces.other[i] >= 0)
@@ -151,7 +156,7 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
       }
       if (!forces.curved.empty()) take_curved(stretch, x, motions, local);
       take_slips(stretch, x, slips, local);
-      force.noalias() = forces.motion.transpose() * local;
+      waves_.push(stretch.rows, local, force);
     }
     if (motion_.dragged().rows() > 0) {
       if (forces.rows.empty()) force.setZero();

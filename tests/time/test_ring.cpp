@@ -70,6 +70,25 @@ TEST_CASE("A ring is refused where its damping is not viscous or modal, or nothi
   CHECK_THROWS_AS(RingMotion(build_ring(small_beams()), 0, 1), std::invalid_argument);
 }
 
+TEST_CASE("Nodes move by the waves of their modes as by these, any rows of them", "[ring]") {
+  SystemParameters system = GENERATE(small_beams(), small_rods());
+  system.elements = GENERATE(5, 8);
+  const Ring ring = build_ring(system);
+  const NodeWaves waves(ring);
+  std::vector<Index> rows;  // in no order
+  for (Index i = 0; i < ring.motion.rows(); i += 2) rows.push_back((3 * i + 1) % ring.motion.rows());
+  const NodeWaves::Rows some = waves.of(rows);
+  const Matrix position = Matrix::Random(ring.coordinates(), 3);
+  const Matrix force = Matrix::Random(std::ssize(rows), 3);
+  Matrix x(std::ssize(rows), 3);
+  Matrix pushed(ring.coordinates(), 3);
+  waves.displace(some, position, x);
+  waves.push(some, force, pushed);
+  const Matrix motion = ring.motion(rows, Eigen::all);
+  CHECK((x - motion * position).norm() < 1e-13 * motion.norm() * position.norm());
+  CHECK((pushed - motion.transpose() * force).norm() < 1e-13 * motion.norm() * force.norm());
+}
+
 TEST_CASE("Turning a ring moves each node's motion to the node before", "[ring]") {
   const Ring ring = build_ring(GENERATE(small_beams(), small_rods()));
   const Index nodes = ring.nodes();

@@ -5,6 +5,7 @@
 // jump in their derivatives either; a number of the memory that an event sets moves as the displacements do
 // there, the moment of the event included.
 
+#include "arcslip/time/node_waves.hpp"
 #include "arcslip/time/ring_motion.hpp"
 
 namespace arcslip {
@@ -12,7 +13,7 @@ namespace arcslip {
 /// Records the motion that it follows, and tells the derivative.
 class RingTangent : public RingObserver {
  public:
-  explicit RingTangent(const RingMotion& motion) : motion_(motion) {}
+  explicit RingTangent(const RingMotion& motion) : motion_(motion), waves_(motion.ring()) {}
   void follow(const RingSegment& segment, const RingState& state) override;
   void change(Index which, const RingMemoryChanges& memory, const RingState& state) override;
 
@@ -35,6 +36,7 @@ class RingTangent : public RingObserver {
     double length;
     Index order;
     VaryingForces forces;
+    NodeWaves::Rows rows;  ///< those of the forces
     std::vector<Remembered> memory;
     Matrix slopes;                         ///< curved x (order + 1)
     std::vector<SlipTangent::Step> slips;  ///< of the circles
@@ -67,6 +69,7 @@ class RingTangent : public RingObserver {
   void add_idle(const RingState& state, Matrix& all) const;
 
   const RingMotion& motion_;
+  NodeWaves waves_;
   std::vector<Stretch> stretches_;
   std::vector<Change> changes_;
   std::vector<int> phase_;  ///< at the start
