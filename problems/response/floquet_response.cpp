@@ -114,15 +114,14 @@ std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vec
                                                       const continuation::Regime& regime) const {
   const std::vector<int>& orders = this->system().orders;
   std::vector<StickPattern> all;
-  if (!all_odd(orders)) {
-    for (Index e = 0; e < this->coordinates_.elements(); ++e) all.push_back({.law = law(e, u, p, regime)});
-    return all;
-  }
-  for (Index i = 0; i < this->contacts(); ++i) {
+  const bool is_odd = all_odd(orders);
+  for (Index e = 0; e < this->coordinates_.elements() && !is_odd; ++e)
+    all.push_back({.law = law(e, u, p, regime)});
+  for (Index i = 0; i < this->contacts() && is_odd; ++i) {
     all.push_back(stick_pattern(orders, HarmonicProblem::motion(u, p, i),
                                 HarmonicProblem::slip_threshold(i, u, p), slips(regime, i)));
   }
-  for (Index e = this->contacts(); e < this->coordinates_.elements(); ++e) {
+  for (Index e = this->contacts(); e < this->coordinates_.elements() && is_odd; ++e) {
     const Index first = this->coordinates_.first(e);
     const Element& element = this->coordinates_.element(e);
     if (element.is_told_by_law()) {
@@ -133,10 +132,11 @@ std::vector<StickPattern> FloquetOf<Motion>::patterns(const Vector& u, const Vec
   }
   if (!is_cycle) return all;
   const std::vector<ElementForce>& forces = this->forces(u, p, regime, false);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].free_force.setZero(orders.back() + 1);
-    for (std::size_t a = 0; a < orders.size(); ++a)
-      all[i].free_force(orders[a]) = forces[i].harmonics(static_cast<Index>(a));
+  for (Index c = 0; c < this->coordinates_.size(); ++c) {
+    const auto e = static_cast<std::size_t>(this->coordinates_.element_of(c));
+    ComplexVector& free = all[e].free_force.emplace_back(ComplexVector::Zero(highest_order(orders) + 1));
+    for (Index a = 0; a < this->harmonics(); ++a)
+      free(orders[static_cast<std::size_t>(a)]) = forces[e].harmonics(this->place(c, a));
   }
   return all;
 }

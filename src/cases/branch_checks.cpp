@@ -59,15 +59,9 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
                                           system.varied));
   if (const std::string& why = problem.response->not_disturbed; !why.empty())
     section.fail("stability", fmt::format("not of {}, {}", problem.response->title, why));
-  if (problem.response->has_own_frequency() && !all_odd(system.harmonics))
-    section.fail("stability",
-                 "not of limit cycles with the mean and even harmonics: there their own velocity "
-                 "is not told apart from other disturbances");
   for (const PlacedElement& one : system.others) {
     if (one.kind->has_memory && !one.kind->follows)
       section.fail("stability", fmt::format("not beside element '{}', which has a memory", one.kind->name));
-    if (one.kind->slides > 1 && problem.response->has_own_frequency())
-      section.fail("stability", fmt::format("not of limit cycles beside element '{}'", one.kind->name));
   }
   if (is_structural(system))
     section.fail("stability", "needs damping with a motion in time: viscous or modal, not structural");

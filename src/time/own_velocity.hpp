@@ -11,7 +11,7 @@ namespace arcslip {
 
 /// Whether the motion of these elements is one.
 inline bool is_free(std::span<const StickPattern> elements) {
-  return !elements.empty() && elements.front().free_force.size() > 0;
+  return !elements.empty() && !elements.front().free_force.empty();
 }
 
 /// Harmonic h, of which those below zero are the conjugates, of a mode's velocity over eta, jh p_h.
@@ -19,13 +19,14 @@ inline Complex own_velocity(const Oscillator& mode, int h, double eta,
                             std::span<const StickPattern> elements) {
   const double turns = h * eta;
   Complex force = 0;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ComplexVector& all = elements[i].free_force;
-    if (std::abs(h) >= all.size()) continue;
-    const Complex f = h < 0 ? std::conj(all(-h)) : all(h);
-    force += std::conj(mode.shape(static_cast<Index>(i))) * f;
+  Index i = 0;
+  for (const StickPattern& element : elements) {
+    for (const ComplexVector& all : element.free_force) {
+      const Complex part = std::conj(mode.shape(i++));
+      if (std::abs(h) < all.size()) force += part * (h < 0 ? std::conj(all(-h)) : all(h));
+    }
   }
-  if (force == 0.0) return 0;
+  if (h == 0 || force == 0.0) return 0;
   const Complex rate(mode.frequency * mode.frequency - turns * turns, turns * mode.damping);
   return -Complex(0, h) * force / rate;
 }

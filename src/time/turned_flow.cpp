@@ -1,5 +1,6 @@
 #include "arcslip/time/turned_flow.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +23,24 @@ std::array<Complex, 2> roots(const Oscillator& mode) {
   const Complex root =
       std::sqrt(Complex(0.25 * mode.damping * mode.damping - mode.frequency * mode.frequency));
   return {-0.5 * mode.damping + root, -0.5 * mode.damping - root};
+}
+
+/// What the map leaves as it is, near a vector that it hardly changes, by least squares that keep to this one
+/// where the map tells little: a fold's second multiplier 1 has no vector of its own.
+template <class Dense>
+Dense lasting_near(const Dense& map, Dense vector) {
+  constexpr int rounds = 4;
+  const Index n = map.rows();
+  Dense equations(2 * n, n);
+  equations << map - Dense::Identity(n, n), Dense::Zero(n, n);
+  for (int round = 0; round < rounds; ++round) {
+    const Dense change = equations.topRows(n) * vector;
+    equations.bottomRows(n).diagonal().setConstant(change.norm() / vector.norm());
+    Dense right = Dense::Zero(2 * n, 1);
+    right.topRows(n) = change;
+    vector -= Dense(equations.householderQr().solve(right));
+  }
+  return vector;
 }
 
 std::vector<WavePlace> places(const std::vector<Coordinate>& coordinates, double eta) {
@@ -98,12 +117,13 @@ std::vector<Complex> TurnedFlow::exponents(double eta, std::span<const StickPatt
     for (const Complex& sigma : free_exponents(one, eta)) all.push_back(sigma);
   }
   const auto add = [&](auto&& flow) {
+    const auto map = flow.turned_map();
     auto lasting = flow.drifts(std::ssize(elements) > springs_.size());
     if (own && is_free(elements)) {
       lasting.conservativeResize(Eigen::NoChange, lasting.cols() + 1);
-      lasting.rightCols(1) = flow.velocity(elements);
+      lasting.rightCols(1) = lasting_near(map, flow.velocity(elements));
     }
-    const ComplexVector multipliers = spectrum(deflated(flow.turned_map(), lasting));
+    const ComplexVector multipliers = spectrum(deflated(map, lasting));
     const double largest = multipliers.size() == 0 ? 1 : std::max(1.0, multipliers.cwiseAbs().maxCoeff());
     for (const Complex& nu : multipliers) {
       if (std::abs(nu) < forgotten * largest) continue;

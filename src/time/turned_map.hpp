@@ -48,7 +48,7 @@ class TurnedMap {
   /// other.
   TurnedMap(const std::vector<TurnedFlow::Coordinate>& coordinates, Index nodes, double turn, double eta,
             std::span<const DisturbedLaw> laws)
-      : coordinates_(coordinates), nodes_(nodes), eta_(eta), laws_(laws), schedule_(laws, nodes, turn) {
+      : coordinates_(coordinates), nodes_(nodes), turn_(turn), eta_(eta), laws_(laws), schedule_(laws, nodes, turn) {
     for (const DisturbedLaw& law : laws) {
       first_.push_back(rows_);
       rows_ += law.coordinates;
@@ -114,14 +114,16 @@ class TurnedMap {
   Dense<Scalar> velocity(std::span<const StickPattern> elements) const {
     Dense<Scalar> found =
         Dense<Scalar>::Zero(2 * size() + std::ssize(schedule_.intervals().front().slots), 1);
-    const int highest = static_cast<int>(elements.front().free_force.size()) - 1;
-    const int turns = 2 * static_cast<int>(nodes_);
+    const int half = turn_ < two_pi ? 1 : 2;  // orders count halves
+    const int highest = static_cast<int>(elements.front().free_force.front().size()) - 1;
+    const int turns = 2 / half * static_cast<int>(nodes_);
     for (Index i = 0; i < size(); ++i) {
       const TurnedFlow::Coordinate& one = coordinates_[static_cast<std::size_t>(i)];
       if (one.part == Part::imaginary) continue;
       Complex p = 0;
       Complex v = 0;
-      for (int h = one.order - turns * ((one.order + highest) / turns); h <= highest; h += turns) {
+      const int order = one.order / half;
+      for (int h = order - turns * ((order + highest) / turns); h <= highest; h += turns) {
         const Complex part = own_velocity(one.mode, h, eta_, elements) *
                              std::polar(1.0, h * schedule_.intervals().front().begin);
         p += part;
@@ -324,6 +326,7 @@ class TurnedMap {
 
   const std::vector<TurnedFlow::Coordinate>& coordinates_;
   Index nodes_;
+  double turn_;
   double eta_;
   std::span<const DisturbedLaw> laws_;
   LawSchedule schedule_;

@@ -22,9 +22,9 @@ struct StickPattern {
   VaryingStiffness stiffness = {};  ///< of a smooth element; of a contact that sticks empty, for its spring
   /// In place of all this, over a turn; without pieces it is not given.
   DisturbedLaw law = {};
-  /// f_h at h = 0, 1, ..., of a motion that no load drives, whose phase is free: its velocity is a
-  /// disturbance that lasts, and left out. Else empty.
-  ComplexVector free_force = {};
+  /// f_h at h = 0, 1, ..., of each of its coordinates, in a motion that no load drives, whose phase is free:
+  /// its velocity is a disturbance that lasts, and left out. Else empty.
+  std::vector<ComplexVector> free_force = {};
 };
 
 /// Whether any element is told by its law alone.
