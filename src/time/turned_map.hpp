@@ -48,7 +48,12 @@ class TurnedMap {
   /// other.
   TurnedMap(const std::vector<TurnedFlow::Coordinate>& coordinates, Index nodes, double turn, double eta,
             std::span<const DisturbedLaw> laws)
-      : coordinates_(coordinates), nodes_(nodes), turn_(turn), eta_(eta), laws_(laws), schedule_(laws, nodes, turn) {
+      : coordinates_(coordinates),
+        nodes_(nodes),
+        turn_(turn),
+        eta_(eta),
+        laws_(laws),
+        schedule_(laws, nodes, turn) {
     for (const DisturbedLaw& law : laws) {
       first_.push_back(rows_);
       rows_ += law.coordinates;

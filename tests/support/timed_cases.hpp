@@ -57,6 +57,9 @@ inline std::string rods(int highest, const std::string& element) {
 inline const std::string lift_off =
     "[[element]]\nkind = \"friction\"\nat = \"contact\"\nnormal = 2\ntangential_stiffness = 1.0\n"
     "normal_stiffness = 1.5\nmu = 0.5\nnormal_per_preload = 0.5\n";
+inline const std::string circle =
+    "[[element]]\nkind = \"friction_2d\"\nat = \"contact\"\ncontact = 1\nsecond = 2\ntangential_stiffness = "
+    "1.0\nmu = 0.5\nnormal_per_preload = 0.5\n";
 inline const std::string iwan = "kind = \"iwan\"\nstiffness = 10.0\nfirst_limit = 0.1\nspread = 3.0\n";
 inline const std::string iwan_4 =
     "kind = \"iwan_4\"\nslip_force = 3.0\nstiffness = 20.0\nchi = -0.4\nbeta = 0.2\n";

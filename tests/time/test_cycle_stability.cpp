@@ -5,17 +5,14 @@
 #include <map>
 
 #include "arcslip/problems/response/floquet_response.hpp"
-#include "arcslip/problems/tasks/verification.hpp"
-#include "arcslip/time/ring_stability.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "monodromy.hpp"
+#include "timed_cycle.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
 using continuation::Guess;
-using problems::FloquetCycle;
-using problems::HarmonicResponse;
 
 namespace {
 
@@ -42,36 +39,6 @@ SystemParameters on_free_ring(SystemParameters s) {
 
 FloquetCycle cycle(const SystemParameters& system) {
   return {build_harmonic_system(system), ring_waves(system, system.harmonics.back() + 1)};
-}
-
-/// The ring without load, and its state in a cycle.
-struct InTime {
-  InTime(const SystemParameters& system, const Guess& at)
-      : motion(unloaded(system), at.unknowns(FloquetCycle::eta), at.parameters(FloquetCycle::preload)) {
-    const HarmonicResponse response(build_harmonic_system(system));
-    Guess same{at.unknowns, Vector(2), at.regime};
-    same.unknowns.head<2>() << at.unknowns(FloquetCycle::amplitude), 0;
-    same.parameters << at.unknowns(FloquetCycle::eta), at.parameters(FloquetCycle::preload);
-    state = motion.travelling(problems::ring_harmonics(response, same));
-  }
-  static Ring unloaded(const SystemParameters& system) {
-    Ring ring = build_ring(system);
-    ring.loads.clear();
-    return ring;
-  }
-
-  RingMotion motion;
-  RingState state;
-};
-
-/// mu of what changes by no more than a hundredfold in a period.
-ComplexVector multipliers(const FloquetCycle& problem, const Guess& at) {
-  std::vector<Complex> kept;
-  for (const auto& one : problem.disturbances(at.unknowns, at.parameters, at.regime)) {
-    const Complex mu = std::exp(two_pi / at.unknowns(FloquetCycle::eta) * one.exponent);
-    if (std::abs(mu) > 1e-2) kept.push_back(mu);
-  }
-  return ComplexVector::Map(kept.data(), std::ssize(kept));
 }
 
 }  // namespace
@@ -111,7 +78,7 @@ TEST_CASE("A limit cycle's multipliers are those of all nodes in time, without t
   CAPTURE(system.wave_number, system.elements, system.fixed_damper);
   const FloquetCycle problem = cycle(system);
   const Guess at = problem.guess(system.base_damping, 1);
-  InTime time(system, at);
+  TimedCycle time(system, at);
   const ComplexVector expected = monodromy(time.motion, time.state).eigenvalues();
   std::vector<Complex> kept;
   for (const Complex& mu : expected) {
@@ -129,21 +96,8 @@ TEST_CASE("A disturbed cycle comes back in time, or leaves, as its growth says",
   const FloquetCycle problem = cycle(system);
   const Guess at = problem.guess(system.base_damping, 1);
   const double growth = problem.worst(at.unknowns, at.parameters, at.regime).growth;
-  InTime time(system, at);
-  RingState state = time.state;
-  for (Index i = 0; i < state.position.size(); ++i)
-    state.position(i) += 1e-4 * std::cos(1.0 + 2.0 * static_cast<double>(i)) * state.position.norm();
-  // How far one is from a motion that travels, whatever its phase.
-  const auto distance = [&] {
-    const RingState next = next_state(time.motion, state);
-    return (next.position - state.position).norm() / state.position.norm();
-  };
-  const auto advance = [&](int periods) { time.motion.advance(state, periods * time.motion.period()); };
-  advance(10);
-  const double before = distance();
-  constexpr int periods = 20;
-  advance(periods);
-  CHECK_THAT(std::pow(distance() / before, 1.0 / periods), WithinRel(growth, 0.02));
+  TimedCycle time(system, at);
+  CHECK_THAT(time.growth(10, 20), WithinRel(growth, 0.02));
 }
 
 TEST_CASE("At a fold of limit cycles one disturbance that travels with them changes sides",

@@ -15,10 +15,6 @@ using namespace arcslip::testing;
 
 namespace {
 
-const std::string circle =
-    "[[element]]\nkind = \"friction_2d\"\nat = \"contact\"\ncontact = 1\nsecond = 2\ntangential_stiffness = "
-    "1.0\nmu = 0.5\nnormal_per_preload = 0.5\n";
-
 Case plane(int highest) {
   return read_case(source_folder() + "/problems/friction_circle.toml",
                    {fmt::format("system.harmonics={}", highest)});
