@@ -32,6 +32,8 @@ SYMBOLS = {
     "alpha": (r"$\alpha$", "damper's phase"),
     "psi": (r"$\psi$", "relative phase"),
     "dissipated": ("", "dissipated energy"),
+    "T_max": (r"$T_\mathrm{max}$", "greatest friction force"),
+    "slip": ("", "part of the period in slip"),
     "mass_ratio": ("$M$*", "mass ratio"),
     "frequency_ratio": (r"$\gamma$", "frequency ratio"),
     "slenderness": (r"$L/h_\mathrm{D}$", "slenderness"),

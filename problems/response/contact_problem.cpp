@@ -77,14 +77,15 @@ double ContactProblem::border(const Vector& u, const Vector& p, const continuati
 }
 
 std::vector<continuation::Observable> ContactProblem::observables() const {
-  return {{"R"}, {"S"}, {"R_over_S"}, {"Y", true}, {"U"}, {"beta"}, {"alpha"}, {"psi"}, {"dissipated"}};
+  return {{"R"},     {"S"},   {"R_over_S"},   {"Y", true}, {"U"},   {"beta"},
+          {"alpha"}, {"psi"}, {"dissipated"}, {"T_max"},   {"slip"}};
 }
 
 void ContactProblem::observe_motion(const State& at, double log_R, Complex r, const Vector& p,
                                     const continuation::Regime& regime, Vector& values) const {
   const Complex y = -r * (1.0 + at.force * at.damper.compliance);
   const Complex motion = -r * at.force * at.damper.compliance;  // u of the damper
-  values.resize(9);
+  values.resize(told);
   values(R) = std::exp(log_R);
   values(S) = system_.slip_threshold(p(eta), p(preload));
   values(R_over_S) = std::exp(at.log_ratio);
@@ -93,7 +94,10 @@ void ContactProblem::observe_motion(const State& at, double log_R, Complex r, co
   values(beta) = lag(y);
   values(alpha) = lag(motion);
   values(psi) = lag(r);
-  values(dissipated) = regime[0] == slip ? dissipated_energy(at.log_ratio) : 0;
+  const bool slips = regime[0] == slip;
+  values(dissipated) = slips ? dissipated_energy(at.log_ratio) : 0;
+  values(T_max) = system_.contact_stiffness * values(slips ? S : R);
+  values(slip_part) = slips ? slip_fraction(at.log_ratio).value : 0;
 }
 
 std::vector<double> ContactProblem::landmarks(Index parameter, double from, double to) const {

@@ -30,7 +30,7 @@ bool ForcedResponse::evaluate(const Vector& u, const Vector& p, const continuati
 
 std::vector<continuation::Observable> ForcedResponse::observables() const {
   std::vector<continuation::Observable> all = ContactProblem::observables();
-  for (const Index one : {R, S, R_over_S, Y, U, dissipated})
+  for (const Index one : {R, S, R_over_S, Y, U, dissipated, T_max, slip_part})
     all[static_cast<std::size_t>(one)].has_gradient = true;
   for (const Index one : {beta, alpha, psi}) {
     continuation::Observable& phase = all[static_cast<std::size_t>(one)];
@@ -40,14 +40,15 @@ std::vector<continuation::Observable> ForcedResponse::observables() const {
   return all;
 }
 
-Complex ForcedResponse::motion(const State& at) {
-  return -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
+Complex ForcedResponse::motion(const State& at, double log_R) {
+  const Complex r = -at.base.free / (1.0 + at.force * (at.base.compliance + at.damper.compliance));
+  return r * (std::exp(log_R) / std::abs(r));
 }
 
 void ForcedResponse::observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                              Vector& values) const {
   const State at = state(u(0), p, regime);
-  const Complex r = motion(at);
+  const Complex r = motion(at, u(0));
   observe_motion(at, u(0), r, p, regime, values);
   const auto count = values.size();
   values.conservativeResize(count + std::ssize(system_.outputs));
@@ -87,7 +88,8 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, const continuat
   Vector values;
   observe(u, p, regime, values);
   const State at = state(u(0), p, regime);
-  const Change log_ratio{1, -at.threshold.by_eta, -at.threshold.by_preload};
+  const Change log_S{0, at.threshold.by_eta, at.threshold.by_preload};
+  const Change log_ratio = Change{1, 0, 0} + -1.0 * log_S;
   const Change force = system_.contact_stiffness * at.law.phi_log * log_ratio;
   const Complex c = at.base.compliance + at.damper.compliance;
   const Complex c_eta = at.base.compliance_eta + at.damper.compliance_eta;
@@ -100,18 +102,20 @@ double ForcedResponse::observe(const Vector& u, const Vector& p, const continuat
   constexpr Complex turn(0, 1);  // a lag is -Im of a logarithm
   switch (which) {
     case R: of(values(R), {1, 0, 0}); break;
-    case S: of(values(S), {0, at.threshold.by_eta, at.threshold.by_preload}); break;
+    case S: of(values(S), log_S); break;
     case R_over_S: of(values(R_over_S), log_ratio); break;
     case U: of(values(U), Change{1, 0, 0} + log_over_r); break;
     case beta: of(turn, log_r + 1.0 / (1.0 + over_r) * by_damper); break;
     case alpha: of(over_r == 0.0 ? 0.0 : turn, log_r + log_over_r); break;
     case psi: of(turn, log_r); break;
     case dissipated: of(regime[0] == slip ? 4 * values(R_over_S) : 0, log_ratio); break;
+    case T_max: of(values(T_max), regime[0] == slip ? log_S : Change{1, 0, 0}); break;
+    case slip_part: of(regime[0] == slip ? slip_fraction(at.log_ratio).by_log : 0, log_ratio); break;
     default: {
-      const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - dissipated - 1)];
+      const ContactOutput& output = system_.outputs[static_cast<std::size_t>(which - told)];
       const ContactReceptance receptance = output.modes.at(p(eta));
       const double side = output.on_base ? 1 : -1;
-      const Complex r = motion(at);
+      const Complex r = motion(at, u(0));
       const Complex pull = side * receptance.compliance(1, 0) * r;
       const Complex by_eta = receptance.free_eta(1) + side * receptance.compliance_eta(1, 0) * at.force * r;
       const Complex z = receptance.free(1) + pull * at.force;

@@ -30,7 +30,9 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
                  {"U", Measure::amplitude, Body::damper},
                  {"dissipated", Measure::dissipated}};
   if (system_.varied) layout_.varied = {Place::parameters, further};
+  add_readings(0, "");
   add_further_contacts();
+  add_further_elements();
   add_other_harmonics();
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
   for (const ContactMode& mode : system_.base[0].modes()) {

@@ -25,6 +25,7 @@ void HarmonicProblem::add_further_contacts() {
     quantities_.push_back({name("Y"), Measure::amplitude, Body::base, i});
     quantities_.push_back({name("U"), Measure::amplitude, Body::damper, i});
     quantities_.push_back({name("dissipated"), Measure::dissipated, Body::contact, i});
+    add_readings(i, fmt::format("_contact_{}", i + 1));
     for (Index a = 0; a < harmonics(); ++a) {
       if (system_.orders[at(a)] != 0) continue;
       quantities_.push_back({name("R_h0"), Measure::mean, Body::contact, i, a});
@@ -55,14 +56,19 @@ void HarmonicProblem::add_drifts() {
   }
 }
 
-void HarmonicProblem::add_readings() {
+void HarmonicProblem::add_readings(Index element, const std::string& suffix) {
+  const std::vector<Reading> told = coordinates_.element(element).readings();
+  for (std::size_t i = 0; i < told.size(); ++i)
+    quantities_.push_back(
+        {told[i].name + suffix, Measure::reading, Body::contact, element, static_cast<Index>(i)});
+}
+
+void HarmonicProblem::add_further_elements() {
   for (Index e = contacts(); e < coordinates_.elements(); ++e) {
+    const std::string suffix = "_" + first(e).name;
     if (coordinates_.element(e).dissipates())
-      quantities_.push_back({fmt::format("energy_{}", first(e).name), Measure::energy, Body::contact, e});
-    const std::vector<std::string> told = coordinates_.element(e).readings();
-    for (std::size_t i = 0; i < told.size(); ++i)
-      quantities_.push_back({fmt::format("{}_{}", told[i], first(e).name), Measure::reading, Body::contact, e,
-                             static_cast<Index>(i)});
+      quantities_.push_back({"energy" + suffix, Measure::energy, Body::contact, e});
+    add_readings(e, suffix);
   }
 }
 

@@ -157,13 +157,23 @@ class HarmonicProblem::Observation {
     add_motion(coordinate, mean, Complex(0, part * two_pi * f));
   }
 
+  /// Found together with the others of its element, which follow one another.
   double reading(Index of, Index which) {
-    if (gradient_ == nullptr) return elements_[at(of)].readings[at(which)];
-    const MotionNumber told = problem_.with_element(of, u_, p_, [&](const Element& element) {
-      return element.reading(which, system_.orders, problem_.element_motion(u_, p_, of),
-                             problem_.load(of, u_, p_));
-    });
-    problem_.add(told, of, u_, p_, *gradient_);
+    if (read_ != of) {
+      told_ = problem_.with_element(of, u_, p_, [&](const Element& element) {
+        return element.read(system_.orders, problem_.element_motion(u_, p_, of), problem_.load(of, u_, p_),
+                            slips(regime_, of), gradient_ != nullptr);
+      });
+    }
+    read_ = of;
+    MotionNumber told = told_[at(which)];
+    if (problem_.coordinates_.element(of).readings()[at(which)].is_force) {
+      const double factor = problem_.force_factor(of, u_, p_);
+      told = {factor * told.value, factor * told.by_motion, factor * told.by_log_load,
+              factor * told.by_setting};
+      if (gradient_ != nullptr) add_log_force(of, told.value);
+    }
+    if (gradient_ != nullptr) problem_.add(told, of, u_, p_, *gradient_);
     return told.value;
   }
 
@@ -171,10 +181,9 @@ class HarmonicProblem::Observation {
   double greatest(Body of, Index which) {
     HarmonicVector motion(problem_.harmonics());
     for (Index a = 0; a < motion.size(); ++a) motion(a) = phasor(of, which, a);
-    const Swing swing = Swing::of(system_.orders, motion);
-    for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a)
-      add(of, which, a, swing.peak_by(system_.orders[at(a)]));
-    return swing.peak();
+    const Farthest peak = farthest_of(system_.orders, motion);
+    for (Index a = 0; a < motion.size() && gradient_ != nullptr; ++a) add(of, which, a, peak.by(a));
+    return peak.value;
   }
 
   /// One harmonic of a motion: of the base y = u - x.
@@ -312,19 +321,15 @@ class HarmonicProblem::Observation {
   const ContactModes* responded_ = nullptr;
   Rest rest_;            // found once it is asked for
   ContactVector moved_;  // of the coordinates, by rigid motions
+  Index read_ = -1;      // the element whose readings are known
+  std::vector<MotionNumber> told_;
 };
 
 std::vector<continuation::Observable> HarmonicProblem::observables() const {
   std::vector<continuation::Observable> all;
   for (const Quantity& quantity : quantities_) {
-    const bool is_lag = quantity.measure == Measure::lag;
-    const bool by_solves =
-        quantity.of == Body::output && !is_lag && system_.outputs[at(quantity.which)].modes.is_solved();
-    const bool is_reading = quantity.measure == Measure::reading;
-    const bool has_gradient = is_reading ? coordinates_.element(quantity.which).has_gradient(quantity.order)
-                                         : quantity.measure != Measure::force && !by_solves;
-    all.push_back({quantity.name, has_gradient});
-    if (is_lag) all.back() = angle(quantity.name);
+    all.push_back({quantity.name, quantity.measure != Measure::force});
+    if (quantity.measure == Measure::lag) all.back() = angle(quantity.name);
   }
   return all;
 }

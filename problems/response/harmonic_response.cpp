@@ -37,12 +37,13 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                  {"alpha", Measure::lag, Body::damper},
                  {"psi", Measure::lag},
                  {"dissipated", Measure::dissipated}};
+  add_readings(0, "");
   add_further_contacts();
   for (const ContactOutput& output : system_.outputs) {
     quantities_.push_back({output.name, output.is_lag ? Measure::lag : Measure::amplitude, Body::output,
                            &output - system_.outputs.data()});
   }
-  add_readings();
+  add_further_elements();
   add_drifts();
   if (harmonics() == 1) return;
   quantities_.push_back({"R_peak", Measure::greatest});

@@ -66,8 +66,8 @@ double LimitCycle::border(const Vector& u, const Vector& p, const continuation::
 }
 
 std::vector<continuation::Observable> LimitCycle::observables() const {
-  return {{"eta", true}, {"R", true}, {"S", true},         {"R_over_S", true},
-          {"Y", true},   {"U", true}, {"dissipated", true}};
+  return {{"eta", true}, {"R", true},          {"S", true},     {"R_over_S", true}, {"Y", true},
+          {"U", true},   {"dissipated", true}, {"T_max", true}, {"slip", true}};
 }
 
 void LimitCycle::observe(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
@@ -75,7 +75,7 @@ void LimitCycle::observe(const Vector& u, const Vector& p, const continuation::R
   const double log_ratio = u(log_R) - system_.log_threshold(u(eta), p(preload)).value;
   const Complex motion =
       system_.contact_stiffness * slip_coefficient(log_ratio).phi * system_.damper.at(u(eta)).compliance;
-  values.resize(7);
+  values.resize(9);
   values(frequency) = u(eta);
   values(R) = std::exp(u(log_R));
   values(S) = system_.slip_threshold(u(eta), p(preload));
@@ -83,6 +83,8 @@ void LimitCycle::observe(const Vector& u, const Vector& p, const continuation::R
   values(Y) = values(R) * std::abs(1.0 + motion);
   values(U) = values(R) * std::abs(motion);
   values(dissipated) = dissipated_energy(log_ratio);
+  values(T_max) = system_.contact_stiffness * values(S);
+  values(slip) = slip_fraction(log_ratio).value;
 }
 
 double LimitCycle::observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
@@ -105,6 +107,8 @@ double LimitCycle::observe(const Vector& u, const Vector& p, const continuation:
     case S: fill(values(S), 0, 1, 0); break;
     case R_over_S: fill(values(R_over_S), 1, -1, 0); break;
     case dissipated: fill(4 * values(R_over_S), 1, -1, 0); break;
+    case T_max: fill(values(T_max), 0, 1, 0); break;
+    case slip: fill(slip_fraction(u(log_R) - threshold.value).by_log, 1, -1, 0); break;
     case U: {
       if (values(U) == 0) break;  // a damper that is held
       const double by_ratio = std::real(law.phi_log / law.phi);

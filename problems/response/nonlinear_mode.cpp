@@ -22,7 +22,9 @@ NonlinearMode::NonlinearMode(HarmonicSystem system)
                  {"dissipated", Measure::dissipated},
                  {"force", Measure::force}};
   if (system_.varied) layout_.varied = {Place::parameters, further};
+  add_readings(0, "");
   add_further_contacts();
+  add_further_elements();
   add_other_harmonics();
 }
 

@@ -38,6 +38,14 @@ HarmonicCoefficient hysteresis_coefficient(double amplitude, double slip_thresho
   return slip_coefficient(std::log1p((amplitude - slip_threshold) / slip_threshold));
 }
 
+SlipFraction slip_fraction(double log_ratio) {
+  if (!(log_ratio > 0)) return {0, 0};
+  const double x = std::exp(-log_ratio);
+  const double rest = -std::expm1(-log_ratio);
+  return {2 * std::numbers::inv_pi * std::atan2(std::sqrt(rest), std::sqrt(x)),
+          std::numbers::inv_pi * std::sqrt(x / rest)};
+}
+
 double dissipated_energy(double log_ratio) { return log_ratio > 0 ? 4 * std::expm1(log_ratio) : 0; }
 
 }  // namespace arcslip

@@ -9,7 +9,6 @@ namespace arcslip {
 
 void ElementForce::set_linear(double stiffness, const HarmonicVector& x, bool derivatives) {
   const Index count = x.size();
-  readings.clear();
   harmonics = stiffness * x;
   by_setting.resize(0);
   energy = 0;
@@ -152,11 +151,6 @@ double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexV
 double Element::event(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
                       double /*load*/) const {
   throw std::logic_error("Element: it has no events");
-}
-
-MotionNumber Element::reading(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
-                              double /*load*/) const {
-  throw std::logic_error("Element: it has no gradient of a reading");
 }
 
 double Element::threshold(double /*load*/) const { return std::numeric_limits<double>::infinity(); }

@@ -5,6 +5,7 @@
 
 #include "arcslip/elements/hysteresis_loop.hpp"
 #include "arcslip/elements/pressed/pressed_law.hpp"
+#include "arcslip/elements/pressed/pressed_readings.hpp"
 #include "elements/pressed/moving_arcs.hpp"
 
 namespace arcslip {
@@ -88,6 +89,25 @@ void Jenkins::second_of_any(std::span<const int> orders, const HarmonicVector& x
     return out;
   };
   moving.add_change(way.pace(x, 1), filled, change);
+}
+
+std::optional<RestingForce> Jenkins::resting_force(std::span<const int> orders, const HarmonicVector& x,
+                                                   double load) const {
+  const PressedSettings settings{1, stiffness_, 0, stiffness_ * threshold(load)};
+  const PressedArcs course(settings, PeriodicMotion(orders, x, highest_order(orders)),
+                           PeriodicMotion(ComplexVector::Zero(1)), PressedArcs::Course::sticks);
+  return RestingForce{course.least_mean_force(), course.greatest_mean_force()};
+}
+
+std::vector<MotionNumber> Jenkins::read(std::span<const int> orders, const HarmonicVector& x, double load,
+                                        bool slips, bool /*derivatives*/) const {
+  const double limit = stiffness_ * threshold(load);
+  const PressedReadings found =
+      pressed_readings({1, stiffness_, 0, limit}, orders, x, ComplexVector::Zero(x.size()), course(slips));
+  const auto told = [&](const PressedNumber& number) {
+    return MotionNumber{number.value, number.by_sliding, limit * number.by[PressedForce::normal_force], 0};
+  };
+  return {told(found.greatest_traction), told(found.slip_fraction)};
 }
 
 void Jenkins::second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x,

@@ -38,17 +38,38 @@ class MasingCycle {
       if (std::abs(motion_.value(turns[i])) > std::abs(motion_.value(turns[first]))) first = i;
     }
     begin(turns.empty() ? 0 : turns[first]);
+    greatest_ = open_.back();
     for (std::size_t i = 0; i < turns.size(); ++i) {
       const bool wraps = first + i + 1 >= turns.size();
       const double from = turns[(first + i) % turns.size()] + (first + i >= turns.size() ? two_pi : 0);
       const double to = turns[(first + i + 1) % turns.size()] + (wraps ? two_pi : 0);
       pass(from, to);
-      if (i + 1 < turns.size()) open_.push_back(reversal(to));
+      if (i + 1 == turns.size()) continue;
+      open_.push_back(reversal(to));
+      meet(open_.back());
     }
     if (turns.empty()) take(0, two_pi);
   }
 
+  /// The greatest force, which is met where the motion turns back, known once it has run.
+  MotionNumber greatest() const {
+    const double sign = greatest_.force < 0 ? -1 : 1;
+    return {sign * greatest_.force, sign * greatest_.by_motion, 0, sign * greatest_.by_setting};
+  }
+
  private:
+  /// Of as great forces to both sides the mean of what they change by.
+  void meet(const Reversal& other) {
+    constexpr double rounding = 1e-11;
+    const double more = std::abs(other.force) - std::abs(greatest_.force);
+    if (std::abs(more) > rounding * std::abs(greatest_.force)) {
+      if (more > 0) greatest_ = other;
+    } else if (other.force * greatest_.force < 0) {
+      greatest_.by_motion = 0.5 * (greatest_.by_motion - other.by_motion);
+      greatest_.by_setting = 0.5 * (greatest_.by_setting - other.by_setting);
+    }
+  }
+
   /// On the backbone.
   void begin(double angle) {
     const double x = motion_.value(angle);
@@ -130,6 +151,7 @@ class MasingCycle {
   std::vector<double> corners_;
   std::vector<Reversal> open_;  // turning points of loops that are not closed, the last one last
   HarmonicTurn turn_;
+  Reversal greatest_{};
 };
 
 void masing_force(const Backbone& backbone, std::span<const int> orders, const HarmonicVector& x, double load,
@@ -137,7 +159,6 @@ void masing_force(const Backbone& backbone, std::span<const int> orders, const H
   const Index n = x.size();
   out.harmonics.setZero(n);
   out.by_setting.setZero(derivatives && is_varied ? n : 0);
-  out.readings.clear();
   if (derivatives) {
     out.linear.setZero(n, n);
     out.conjugate.setZero(n, n);
@@ -156,6 +177,19 @@ MasingElement::MasingElement(Made made, double setting_scale)
 void MasingElement::force(std::span<const int> orders, const HarmonicVector& x, double load, bool /*beyond*/,
                           bool derivatives, ElementForce& out) const {
   masing_force(*backbone_, orders, x, load, setting_scale_ > 0, derivatives, out);
+}
+
+std::vector<MotionNumber> MasingElement::read(std::span<const int> orders, const HarmonicVector& x,
+                                              double load, bool /*beyond*/, bool /*derivatives*/) const {
+  ElementForce out;
+  out.harmonics.setZero(x.size());
+  MasingCycle cycle(*backbone_, orders, x, load, false, out);
+  cycle.run();
+  MotionNumber told = cycle.greatest();
+  double by_size = 0;
+  for (Index a = 0; a < x.size(); ++a) by_size += std::real(std::conj(told.by_motion(a)) * x(a));
+  told.by_log_load = told.value - by_size;  // it is homogeneous in x and the load
+  return {told};
 }
 
 void MasingElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

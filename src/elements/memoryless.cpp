@@ -117,7 +117,6 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
   const Index count = x.size();
   out.harmonics.setZero(count);
   out.energy = 0;
-  out.readings.clear();
   out.by_setting.setZero(law_.is_varied() ? count : 0);
   if (derivatives) {
     out.linear.setZero(count, count);

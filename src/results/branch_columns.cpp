@@ -94,6 +94,7 @@ PhysicalColumns::PhysicalColumns(const TracedBranch& traced) {
   add("P", std::string("preload_") + scale_->preload_unit(), Unit::preload);
   for (const char* name : {"R", "S", "Y", "U"}) add(name, std::string(name) + "_m", Unit::length);
   if (threshold_ >= 0) add("dissipated", "dissipated_J", Unit::energy);
+  add("T_max", "T_max_N", Unit::force);
 }
 
 std::vector<double> PhysicalColumns::values(const std::vector<double>& row) const {
@@ -103,6 +104,7 @@ std::vector<double> PhysicalColumns::values(const std::vector<double>& row) cons
     switch (unit) {
       case Unit::frequency: values.push_back(scale_->frequency(value)); break;
       case Unit::preload: values.push_back(scale_->preload(value)); break;
+      case Unit::force: values.push_back(scale_->force(value)); break;
       case Unit::length: values.push_back(scale_->displacement(value)); break;
       case Unit::energy:
         values.push_back(scale_->dissipated(value, row[static_cast<std::size_t>(threshold_)]));

@@ -60,7 +60,7 @@ class PhysicalColumns {
   const std::vector<std::size_t>& shown() const { return shown_; }
 
  private:
-  enum class Unit { frequency, preload, length, energy };
+  enum class Unit { frequency, preload, length, energy, force };
 
   std::optional<PhysicalScale> scale_;
   Index threshold_ = -1;                               ///< the column S, or -1

@@ -27,9 +27,9 @@ TEST_CASE("check and run print the groups of a system in SI units, and run its s
   CHECK_THAT(run.out, ContainsSubstring(units) && ContainsSubstring("frequency_Hz             Y_m") &&
                           ContainsSubstring("2283.16277  4.57696756e-06"));
   const std::vector<std::string> header = read_csv(folder.path("r/branches.csv")).front();
-  const std::vector<std::string> last(header.end() - 7, header.end());
+  const std::vector<std::string> last(header.end() - 8, header.end());
   CHECK(last == std::vector<std::string>{"frequency_Hz", "preload_N_per_m", "R_m", "S_m", "Y_m", "U_m",
-                                         "dissipated_J"});
+                                         "dissipated_J", "T_max_N"});
 }
 
 TEST_CASE("curves.csv has the points of branches.csv, more of the curve in between, and no verdicts") {
@@ -69,9 +69,10 @@ TEST_CASE("run writes both files whole, prints the special points and nothing on
   CHECK(names_in(folder.path("r")) == std::set<std::string>{"branches.csv", "curves.csv", "summary.json"});
 
   const auto rows = read_csv(folder.path("r/branches.csv"));
-  const std::vector<std::string> header = {
-      "branch", "point", "type", "regime", "eta", "P",          "R",         "S",          "R_over_S",
-      "Y",      "U",     "beta", "alpha",  "psi", "dissipated", "arclength", "iterations", "residual"};
+  const std::vector<std::string> header = {"branch", "point", "type",      "regime",     "eta",
+                                           "P",      "R",     "S",         "R_over_S",   "Y",
+                                           "U",      "beta",  "alpha",     "psi",        "dissipated",
+                                           "T_max",  "slip",  "arclength", "iterations", "residual"};
   REQUIRE(rows.front() == header);
   std::set<std::string> types;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -309,9 +310,10 @@ TEST_CASE("A curve's rows have the columns of a branch, with both parameters amo
   const Outcome outcome = arcslip_program("run " + case_named("ridge") + " -o " + folder.path("r"));
   CHECK(outcome.status == 0);
   const auto rows = read_csv(folder.path("r/branches.csv"));
-  const std::vector<std::string> header = {
-      "branch", "point", "type", "regime", "eta", "P",          "R",         "S",          "R_over_S",
-      "Y",      "U",     "beta", "alpha",  "psi", "dissipated", "arclength", "iterations", "residual"};
+  const std::vector<std::string> header = {"branch", "point", "type",      "regime",     "eta",
+                                           "P",      "R",     "S",         "R_over_S",   "Y",
+                                           "U",      "beta",  "alpha",     "psi",        "dissipated",
+                                           "T_max",  "slip",  "arclength", "iterations", "residual"};
   REQUIRE(rows.front() == header);
   // At P = 1 the ridges start on the peaks of the response.
   std::vector<std::string> starts;

@@ -168,6 +168,9 @@ TEST_CASE("Rotor and ring move as two continua in SI units do", "[geometry]") {
     CHECK_THAT(number(row, "Y_m"), WithinRel(motion.Y, tolerance));
     CHECK_THAT(number(row, "U_m"), WithinRel(motion.U, tolerance));
     CHECK_THAT(number(row, "dissipated_J"), WithinRel(motion.lost, tolerance) || WithinAbs(0, 1e-18));
+    const Geometry& rings = *request.problem.geometry;
+    const double limit = rings.friction_coefficient * rings.preload_per_length * rings.circumference / 100000;
+    CHECK_THAT(number(row, "T_max_N"), WithinRel(limit * std::min(1.0, motion.R / motion.S), tolerance));
     CHECK_THAT(number(row, "preload_N_per_m"),
                WithinRel(request.problem.geometry->preload_per_length, rounding));
     slipping += static_cast<int>(motion.lost > 0);

@@ -63,6 +63,7 @@ class PhysicalScale {
   const char* preload_unit() const { return per_length_ ? "N_per_m" : "N"; }
   double force_per_length(double force) const { return force * base_stiffness_; }  ///< f_0, N/m
   double energy(double energy) const { return energy * energy_; }                  ///< J
+  double force(double force) const { return force * energy_ / circumference_; }    ///< of a contact, N
 
   /// Energy lost to friction per cycle by the whole ring, J. `dissipated` is that of one contact over k S^2,
   /// as in branches.csv, and N k S^2 = K_FD S^2.

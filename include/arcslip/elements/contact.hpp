@@ -29,4 +29,11 @@ HarmonicCoefficient hysteresis_coefficient(double amplitude, double slip_thresho
 /// Energy lost per cycle over k S^2: 4 (R/S - 1) in slip, 0 in stick [Caughey 1960].
 double dissipated_energy(double log_ratio);
 
+/// The part of a period in slip, 1 - theta*/pi, and its derivative by ln(R/S); 0 in stick.
+struct SlipFraction {
+  double value;   ///< from 0 to 1
+  double by_log;  ///< without bound at the border
+};
+SlipFraction slip_fraction(double log_ratio);
+
 }  // namespace arcslip

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,15 +24,14 @@ namespace arcslip {
 /// The force of an element, with its derivatives: df_h = sum_l linear(h, l) dx_l + conjugate(h, l)
 /// conj(dx_l), of which for l = 0 each is half of the derivative.
 struct ElementForce {
-  HarmonicVector harmonics;      ///< f_h, against x
-  HarmonicVector by_log_load;    ///< df_h/d ln(load)
-  HarmonicVector by_setting;     ///< df_h by a setting of the element that is continued; empty if none is
-  HarmonicVector by_eta = {};    ///< df_h/deta of what is viscous; empty if nothing is
-  ComplexMatrix linear;          ///< harmonics of all coordinates, squared
-  ComplexMatrix conjugate;       ///< the same
-  double energy = 0;             ///< lost per cycle
-  Swing swing{};                 ///< of the motion of one coordinate, where the force was found from it
-  std::vector<double> readings;  ///< what else is told, as `Element::readings` names it
+  HarmonicVector harmonics;    ///< f_h, against x
+  HarmonicVector by_log_load;  ///< df_h/d ln(load)
+  HarmonicVector by_setting;   ///< df_h by a setting of the element that is continued; empty if none is
+  HarmonicVector by_eta = {};  ///< df_h/deta of what is viscous; empty if nothing is
+  ComplexMatrix linear;        ///< harmonics of all coordinates, squared
+  ComplexMatrix conjugate;     ///< the same
+  double energy = 0;           ///< lost per cycle
+  Swing swing{};               ///< of the motion of one coordinate, where the force was found from it
 
   /// k x, whatever the load is.
   void set_linear(double stiffness, const HarmonicVector& x, bool derivatives);
@@ -72,6 +72,18 @@ struct MotionNumber {
   double by_setting;         ///< by a setting of the element that is continued
 };
 
+/// Bounds of the mean force along an element's first coordinate as it sticks for ever.
+struct RestingForce {
+  double least;     ///< where its slider rests farthest forwards
+  double greatest;  ///< and backwards
+};
+
+/// What an element tells beside its force.
+struct Reading {
+  std::string name;       ///< as "slip"
+  bool is_force = false;  ///< whether a factor on the element's force is one on it
+};
+
 /// Immutable, and used from all threads.
 class Element {
  public:
@@ -88,12 +100,21 @@ class Element {
   virtual bool takes_any_orders() const { return true; }
   virtual bool is_odd() const { return true; }
 
-  /// What its force comes with beside energy and swing, by name.
-  virtual std::vector<std::string> readings() const { return {}; }
-  /// Whether one of these has derivatives, and that one with them; throws std::logic_error of others.
-  virtual bool has_gradient(Index /*reading*/) const { return false; }
-  virtual MotionNumber reading(Index which, std::span<const int> orders, const HarmonicVector& x,
-                               double load) const;
+  /// What it tells of a period beside its force, as "T_max", the greatest tangential force, or "slip", the
+  /// part of it in which it slips, and their values under a motion with, if they are wanted, derivatives.
+  virtual std::vector<Reading> readings() const { return {}; }
+  virtual std::vector<MotionNumber> read(std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
+                                         double /*load*/, bool /*beyond*/, bool /*derivatives*/) const {
+    return {};
+  }
+
+  /// Whether its first state is that of a slider that may rest at other places as well, and between which
+  /// forces it then does under a motion without drift; none of one that slides along two coordinates.
+  virtual bool may_rest() const { return false; }
+  virtual std::optional<RestingForce> resting_force(std::span<const int> /*orders*/,
+                                                    const HarmonicVector& /*x*/, double /*load*/) const {
+    return {};
+  }
 
   /// Whether a cycle may take energy.
   virtual bool dissipates() const { return false; }
@@ -116,7 +137,7 @@ class Element {
   /// first one, under small ones.
   virtual bool is_linear(bool /*beyond*/) const { return false; }
 
-  /// The force under the motion x with these orders; all but harmonics, energy, readings and, beyond, the
+  /// The force under the motion x with these orders; all but harmonics, energy and, beyond, the
   /// swing only with `derivatives`. No motion beyond the border is zero. Of odd orders it allocates nothing
   /// where the sizes are those of before.
   virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,

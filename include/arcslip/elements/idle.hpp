@@ -24,6 +24,11 @@ class Idle final : public Element {
              bool derivatives, ElementForce& out) const override {
     out.set_linear(0, x, derivatives);
   }
+  std::vector<Reading> readings() const override { return {{"T_max", true}, {"slip"}}; }
+  std::vector<MotionNumber> read(std::span<const int> /*orders*/, const HarmonicVector& x, double /*load*/,
+                                 bool /*slips*/, bool /*derivatives*/) const override {
+    return std::vector<MotionNumber>(2, {0, HarmonicVector::Zero(x.size()), 0, 0});
+  }
   VaryingStiffness stiffness_in_time(std::span<const int> /*orders*/,
                                      const HarmonicVector& /*x*/) const override {
     return {{0}};

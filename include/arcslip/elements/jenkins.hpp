@@ -24,6 +24,12 @@ class Jenkins final : public Element {
   std::shared_ptr<const Element> alone() const override;
   std::string beyond() const override { return "slip"; }
   bool is_linear(bool slips) const override { return !slips; }
+  bool may_rest() const override { return true; }
+  std::optional<RestingForce> resting_force(std::span<const int> orders, const HarmonicVector& x,
+                                            double load) const override;
+  std::vector<Reading> readings() const override { return {{"T_max", true}, {"slip"}}; }
+  std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
+                                 bool slips, bool derivatives) const override;
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool slips, bool derivatives,
              ElementForce& out) const override;
 

@@ -51,6 +51,11 @@ class MasingElement final : public Element {
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
 
+  /// The greatest force. What part of the period some of the sliders slip in says little of them all.
+  std::vector<Reading> readings() const override { return {{"T_max", true}}; }
+  std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
+                                 bool beyond, bool derivatives) const override;
+
   /// The curve of first loading.
   const Backbone& backbone() const { return *backbone_; }
 

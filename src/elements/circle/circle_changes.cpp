@@ -1,5 +1,6 @@
 #include "elements/circle/circle_changes.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
 
@@ -31,6 +32,7 @@ class CirclePassage {
   CircleChanges through(const CircleCourse& course) {
     touched_ = course.begins_apart();
     for (const CircleCourse::Arc& arc : course.arcs()) {
+      out_.arcs.emplace_back();
       if (arc.phase == Phase::stick) stick(arc);
       if (arc.phase == Phase::slip && !arc.panels.empty()) slip(arc);
       touched_ = arc.phase == Phase::apart;
@@ -56,6 +58,7 @@ class CirclePassage {
 
   void stick(const CircleCourse::Arc& arc) {
     if (touched_) touch(arc.begin);
+    out_.arcs.back().offset = out_.offset;
     for (std::size_t a = 0; a < orders_.size(); ++a) {
       const auto row = static_cast<Index>(a);
       const Index other = row + std::ssize(orders_);
@@ -103,6 +106,7 @@ class CirclePassage {
       direction_ = rows.row(panel_nodes - 1);
       if (!orders_.empty()) add_forces(panel, rows);
     }
+    out_.arcs.back().direction_at_end = direction_;
     end(arc.panels.back());
   }
 
@@ -191,6 +195,23 @@ void CircleColumns::add_settings(double theta, const Share& share, Eigen::Ref<Ro
   row(first + PressedForce::normal_stiffness) +=
       s.friction * (share.radius * closes.value + share.radius_rate * closes.first);
   row(first + PressedForce::normal_force) += s.friction * share.radius;
+}
+
+CircleColumns::Rates CircleColumns::rates(const Row& row) const {
+  const Index n = harmonics();
+  Rates rates{ComplexVector(3 * n), {}};
+  for (Index c = 0; c < 3; ++c) {
+    for (Index a = 0; a < n; ++a)
+      rates.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
+  }
+  for (Index s = 0; s < PressedForce::settings; ++s)
+    rates.by[static_cast<std::size_t>(s)] = row(settings() + s);
+  return rates;
+}
+
+Matrix start_of(const CircleChanges& changes) {
+  const Eigen::Matrix2d by = Eigen::Matrix2d::Identity() - changes.offset.rightCols<2>();
+  return by.fullPivLu().solve(changes.offset.leftCols(changes.offset.cols() - 2));
 }
 
 CircleChanges changes_of(const CircleMotion& motion, const CircleCourse& course, const CircleColumns& columns,

@@ -8,7 +8,9 @@
 // The force is continuous, so that moving ends of arcs do not count, but where the parts touch again.
 
 #include <span>
+#include <vector>
 
+#include "arcslip/elements/pressed/pressed_contact.hpp"
 #include "elements/circle/circle_course.hpp"
 
 namespace arcslip {
@@ -35,6 +37,13 @@ class CircleColumns {
   /// Adds what each column has of it at theta.
   void add(double theta, const Share& share, Eigen::Ref<Eigen::RowVectorXd> row) const;
 
+  /// A row as derivatives by motion, Re and Im of x_h as real and imaginary part, and settings.
+  struct Rates {
+    ComplexVector by_motion;
+    std::array<double, PressedForce::settings> by;
+  };
+  Rates rates(const Eigen::RowVectorXd& row) const;
+
  private:
   void add_settings(double theta, const Share& share, Eigen::Ref<Eigen::RowVectorXd> row) const;
 
@@ -49,11 +58,21 @@ struct CircleChanges {
   Matrix offset;  ///< of A at the end of the period, two rows
   Vector force_x;  ///< that force itself
   Vector force_y;  ///< along the other direction
+
+  /// What changes on one arc.
+  struct Arc {
+    Matrix offset;                        ///< A in stick, two rows
+    Eigen::RowVectorXd direction_at_end;  ///< of phi where slip ends
+  };
+  std::vector<Arc> arcs = {};  ///< of a course
 };
 
 /// Of a course.
 CircleChanges changes_of(const CircleMotion& motion, const CircleCourse& course, const CircleColumns& columns,
                          std::span<const int> orders);
+
+/// How A at the begin changes with the other columns, as it comes back after the period.
+Matrix start_of(const CircleChanges& changes);
 
 /// Of A at the end of the period by A at its begin.
 Eigen::Matrix2d offset_by_offset(const CircleMotion& motion, const CircleCourse& course);

@@ -17,20 +17,6 @@ namespace {
 using Course = PressedArcs::Course;
 using Phase = PressedArcs::Phase;
 
-CircleMotion motion_of(const PressedSettings& settings, std::span<const int> orders,
-                       const ComplexVector& motion) {
-  const Index n = std::ssize(orders);
-  if (n == 0 || (motion.size() != 2 * n && motion.size() != 3 * n))
-    throw std::invalid_argument("circle_force: two or three motions of at least one order");
-  if (!(settings.friction > 0)) throw std::invalid_argument("circle_force: friction must be positive");
-  const int highest = highest_order(orders);
-  const auto part = [&](Index which) {
-    return which < motion.size() / n ? PeriodicMotion(orders, motion.segment(which * n, n), highest)
-                                     : PeriodicMotion(ComplexVector::Zero(highest + 1));
-  };
-  return {settings, part(0), part(1), part(2)};
-}
-
 /// Forces and derivatives as sums over arcs.
 class CircleIntegrals {
  public:
@@ -126,8 +112,7 @@ class CircleIntegrals {
   static void close_period(const CircleCourse& course, CircleChanges& changes) {
     if (course.begins_apart() || course.arcs().front().phase == Phase::apart) return;
     const Index last = changes.offset.cols() - 2;
-    const Eigen::Matrix2d by = Eigen::Matrix2d::Identity() - changes.offset.rightCols<2>();
-    const Matrix start = by.fullPivLu().solve(changes.offset.leftCols(last));
+    const Matrix start = start_of(changes);
     changes.x.leftCols(last) += changes.x.rightCols<2>() * start;
     changes.y.leftCols(last) += changes.y.rightCols<2>() * start;
   }
@@ -194,15 +179,8 @@ CircleRoom room_of(const CircleMotion& moves, std::span<const int> orders, const
     columns.add(touch.angle, {.centre = is_one ? 0 : touch.weight / far * pull, .radius = -touch.weight},
                 row);
   }
-  const Index n = std::ssize(orders);
-  CircleRoom room{point.excess, ComplexVector(3 * n), {}};
-  for (Index c = 0; c < 3; ++c) {
-    for (Index a = 0; a < n; ++a)
-      room.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
-  }
-  for (Index s = 0; s < PressedForce::settings; ++s)
-    room.by[static_cast<std::size_t>(s)] = row(columns.settings() + s);
-  return room;
+  const CircleColumns::Rates rates = columns.rates(row);
+  return {point.excess, rates.by_motion, rates.by};
 }
 
 /// Where the excess is hardly anything, or on the other side of the border: between what the force is at the
@@ -272,21 +250,17 @@ class BesideBorder {
   double part_by_excess_;
 };
 
-// Of excess, over the size of the motion.
-constexpr double hardly = 1e-10;
-constexpr double clearly = 1e-3;
-
 CircleForce sticking(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
   const RestingPlace place(motion);
-  const double just_so = -hardly * motion.size();
+  const double just_so = -hardly_slips * motion.size();
   if (place.part < 1 && place.centre.excess > just_so)
     return BesideBorder(motion, orders, place.centre, just_so).force(derivatives);
   return CircleIntegrals(motion, orders).stuck(place, derivatives);
 }
 
 CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bool derivatives) {
-  const CommonPoint point = least_excess(motion, clearly * motion.size());
-  const double just_so = hardly * motion.size();
+  const CommonPoint point = least_excess(motion, clearly_slips * motion.size());
+  const double just_so = hardly_slips * motion.size();
   if (point.excess < just_so) return BesideBorder(motion, orders, point, just_so).force(derivatives);
   return CircleIntegrals(motion, orders)
       .moved(CircleCourse(motion, point.offset, point.roomiest), derivatives);
@@ -296,7 +270,7 @@ CircleForce slipping(const CircleMotion& motion, std::span<const int> orders, bo
 
 CircleForce circle_force(const PressedSettings& settings, std::span<const int> orders,
                          const ComplexVector& motion, bool derivatives, PressedArcs::Course course) {
-  const CircleMotion moves = motion_of(settings, orders, motion);
+  const CircleMotion moves = CircleMotion::of(settings, orders, motion);
   const Index n = std::ssize(orders);
   bool sticks = course == Course::sticks;
   if (course == Course::any) sticks = least_excess(moves, 0).excess <= 0;
@@ -308,15 +282,15 @@ CircleForce circle_force(const PressedSettings& settings, std::span<const int> o
 
 DisturbedLaw circle_law(const PressedSettings& settings, std::span<const int> orders,
                         const ComplexVector& motion, bool slips, double turn) {
-  const CircleMotion moves = motion_of(settings, orders, motion);
+  const CircleMotion moves = CircleMotion::of(settings, orders, motion);
   const bool closes = motion.size() == 3 * std::ssize(orders);
   if (!slips) {
     Vector stiffness = Vector::Constant(closes ? 3 : 2, settings.tangential_stiffness);
     if (closes) stiffness(2) = settings.normal_stiffness;
     return DisturbedLaw::constant(stiffness.asDiagonal());
   }
-  const CommonPoint point = least_excess(moves, clearly * moves.size());
-  const CircleMotion beyond = moves.tightened(std::max(0.0, hardly * moves.size() - point.excess));
+  const CommonPoint point = least_excess(moves, clearly_slips * moves.size());
+  const CircleMotion beyond = moves.tightened(std::max(0.0, hardly_slips * moves.size() - point.excess));
   const CircleCourse course(beyond, point.offset, point.roomiest);
   if (course.arcs().empty()) throw std::domain_error("friction in a plane does not settle");
   return circle_law(beyond, course, closes, turn);
@@ -324,7 +298,7 @@ DisturbedLaw circle_law(const PressedSettings& settings, std::span<const int> or
 
 CircleRoom circle_room(const PressedSettings& settings, std::span<const int> orders,
                        const ComplexVector& motion) {
-  const CircleMotion moves = motion_of(settings, orders, motion);
+  const CircleMotion moves = CircleMotion::of(settings, orders, motion);
   const CommonPoint point = least_excess(moves, std::numeric_limits<double>::infinity());
   CircleRoom room = room_of(moves, orders, point);
   room.by_motion.conservativeResize(motion.size());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/elements/circle/circle_readings.hpp"
+
 namespace arcslip {
 
 CircleElement::CircleElement(const Settings& settings, bool closes) : settings_(settings), closes_(closes) {
@@ -37,7 +39,6 @@ void CircleElement::force_at(std::span<const int> orders, const HarmonicVector& 
   out.harmonics = found.harmonics.head(size);
   if (mean < size) out.harmonics(mean) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
-  out.readings = {found.least_normal, found.greatest_normal, found.slip_fraction, found.apart_fraction};
   out.by_setting.resize(0);
   if (!derivatives) return;
   out.linear = found.linear.topLeftCorner(size, size);
@@ -102,6 +103,21 @@ MotionNumber CircleElement::border(std::span<const int> orders, const HarmonicVe
     if (s == PressedForce::normal_force) border.by_log_load = slope * settings_.by_log_load(load, 0);
   }
   return border;
+}
+
+std::vector<MotionNumber> CircleElement::read(std::span<const int> orders, const HarmonicVector& x,
+                                              double load, bool beyond, bool derivatives) const {
+  const CircleReadings found = circle_readings(settings(load), orders, x, beyond, derivatives);
+  const auto told = [&](const CircleNumber& number) {
+    MotionNumber all{number.value, number.by_motion.head(x.size()),
+                     settings_.by_log_load(load, 0) * number.by[PressedForce::normal_force], 0};
+    const auto rates = settings_.rates(load);
+    for (std::size_t s = 0; s < rates.size(); ++s) all.by_setting += rates[s] * number.by[s];
+    return all;
+  };
+  return {told(found.greatest_traction), PressedElement::extreme_press(settings_, orders, x, load, 2, false),
+          PressedElement::extreme_press(settings_, orders, x, load, 2, true), told(found.slip_fraction),
+          told(found.apart_fraction)};
 }
 
 void CircleElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arcslip/motion/swing.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -48,6 +50,20 @@ CircleMotion::CircleMotion(const PressedSettings& settings, const PeriodicMotion
   add_square(wy_, 1, square_);
   add_square(b_, -1, square_);
   size_ = wx_.lpNorm<1>() + wy_.lpNorm<1>() + b_.lpNorm<1>();
+}
+
+CircleMotion CircleMotion::of(const PressedSettings& settings, std::span<const int> orders,
+                              const ComplexVector& motion) {
+  const Index n = std::ssize(orders);
+  if (n == 0 || (motion.size() != 2 * n && motion.size() != 3 * n))
+    throw std::invalid_argument("circle_force: two or three motions of at least one order");
+  if (!(settings.friction > 0)) throw std::invalid_argument("circle_force: friction must be positive");
+  const int highest = highest_order(orders);
+  const auto part = [&](Index which) {
+    return which < motion.size() / n ? PeriodicMotion(orders, motion.segment(which * n, n), highest)
+                                     : PeriodicMotion(ComplexVector::Zero(highest + 1));
+  };
+  return {settings, part(0), part(1), part(2)};
 }
 
 CircleMotion CircleMotion::tightened(double less) const {

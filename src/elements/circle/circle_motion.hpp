@@ -22,6 +22,11 @@ class CircleMotion {
   CircleMotion(const PressedSettings& settings, const PeriodicMotion& x, const PeriodicMotion& y,
                const PeriodicMotion& closing);
 
+  /// Of the motion with these orders, x, y and perhaps g one behind the other. Throws the same of orders that
+  /// do not fit and of mu = 0.
+  static CircleMotion of(const PressedSettings& settings, std::span<const int> orders,
+                         const ComplexVector& motion);
+
   /// At one theta, with derivatives by it.
   struct Local {
     Complex centre;      ///< w

@@ -35,6 +35,10 @@ struct TouchConditions {
   Vector weight;  ///< over B
 };
 
+/// Excess over the size of the motion, below which it hardly slips, and above which it clearly does.
+inline constexpr double hardly_slips = 1e-10;
+inline constexpr double clearly_slips = 1e-3;
+
 /// The search ends where the excess is above `enough`.
 CommonPoint least_excess(const CircleMotion& motion, double enough);
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "arcslip/elements/pressed/pressed_law.hpp"
+#include "arcslip/elements/pressed/pressed_readings.hpp"
 #include "elements/pressed/moving_arcs.hpp"
 
 namespace arcslip {
@@ -61,7 +62,6 @@ void PressedElement::force(std::span<const int> orders, const HarmonicVector& x,
   out.harmonics << found.tangential, found.normal;
   out.harmonics(n + place_of_mean(orders)) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
-  out.readings = {found.least_normal, found.greatest_normal, found.slip_fraction, found.apart_fraction};
   out.by_setting.resize(0);
   if (derivatives) set_derivatives(found, orders, load, 0, out);
 }
@@ -181,6 +181,33 @@ MotionNumber PressedElement::extreme_press(const Settings& settings, std::span<c
   }
   if (found.value > 0) return found;
   return {0, HarmonicVector::Zero(x.size()), 0, 0};
+}
+
+std::optional<RestingForce> PressedElement::resting_force(std::span<const int> orders,
+                                                          const HarmonicVector& x, double load) const {
+  const Index n = std::ssize(orders);
+  const int highest = highest_order(orders);
+  const PressedArcs course(settings(load), PeriodicMotion(orders, x.head(n), highest),
+                           PeriodicMotion(orders, x.tail(n), highest), PressedArcs::Course::sticks);
+  return RestingForce{course.least_mean_force(), course.greatest_mean_force()};
+}
+
+std::vector<MotionNumber> PressedElement::read(std::span<const int> orders, const HarmonicVector& x,
+                                               double load, bool beyond, bool /*derivatives*/) const {
+  const Index n = std::ssize(orders);
+  const PressedReadings found =
+      pressed_readings(settings(load), orders, x.head(n), x.tail(n), course(beyond));
+  const auto told = [&](const PressedNumber& number) {
+    MotionNumber all{number.value, HarmonicVector(2 * n),
+                     settings_.by_log_load(load, 0) * number.by[PressedForce::normal_force], 0};
+    all.by_motion << number.by_sliding, number.by_closing;
+    const auto rates = settings_.rates(load);
+    for (std::size_t s = 0; s < rates.size(); ++s) all.by_setting += rates[s] * number.by[s];
+    return all;
+  };
+  return {told(found.greatest_traction), extreme_press(settings_, orders, x, load, 1, false),
+          extreme_press(settings_, orders, x, load, 1, true), told(found.slip_fraction),
+          told(found.apart_fraction)};
 }
 
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

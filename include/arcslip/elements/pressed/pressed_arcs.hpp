@@ -89,7 +89,14 @@ class PressedArcs {
   /// where it is negative.
   double room() const { return lowest_high().high - highest_low().low; }
 
+  /// k_t r_0 - A at the ends of what A may be as it sticks.
+  double least_mean_force() const { return mean_of_sliding() - lowest_high().high; }
+  double greatest_mean_force() const { return mean_of_sliding() - highest_low().low; }
+
  private:
+  double mean_of_sliding() const {
+    return settings_.tangential_stiffness * sliding_.coefficients()(0).real();
+  }
   static bool lower_low(const Node& a, const Node& b) { return a.low < b.low; }
   static bool lower_high(const Node& a, const Node& b) { return a.high < b.high; }
   struct Cell {

@@ -44,12 +44,14 @@ class PressedElement final : public Element {
   Index coordinates() const override { return 2; }
   double reference_stiffness(Index coordinate = 0) const override;
   bool is_odd() const override { return false; }
-  std::vector<std::string> readings() const override { return {"N_min", "N_max", "slip", "apart"}; }
-  bool has_gradient(Index reading) const override { return reading < 2; }
-  MotionNumber reading(Index which, std::span<const int> orders, const HarmonicVector& x,
-                       double load) const override {
-    return extreme_press(settings_, orders, x, load, 1, which == 1);
+  bool may_rest() const override { return true; }
+  std::optional<RestingForce> resting_force(std::span<const int> orders, const HarmonicVector& x,
+                                            double load) const override;
+  std::vector<Reading> readings() const override {
+    return {{"T_max", true}, {"N_min", true}, {"N_max", true}, {"slip"}, {"apart"}};
   }
+  std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
+                                 bool beyond, bool derivatives) const override;
   bool dissipates() const override { return true; }
   std::vector<std::string> events() const override {
     return settings_.normal.value > 0 ? std::vector<std::string>{"lift_off"} : std::vector<std::string>{};

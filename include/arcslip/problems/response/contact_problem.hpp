@@ -62,7 +62,7 @@ class ContactProblem : public continuation::Problem {
   /// States of the one switch.
   enum ContactState : int { stick, slip };
   /// Observables in this order; amplitudes and phases as in the columns of branches.csv.
-  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
+  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated, T_max, slip_part, told };
 
   /// The system is kept whole.
   explicit ContactProblem(FrictionSystem system) : system_(std::move(system)) {}

@@ -39,7 +39,7 @@ class ForcedResponse : public ContactProblem {
 
   /// r, whose modulus the unknown has.
   ComplexVector motions(const Vector& u, const Vector& p, const continuation::Regime& regime) const override {
-    return ComplexVector::Constant(1, motion(state(u(0), p, regime)));
+    return ComplexVector::Constant(1, motion(state(u(0), p, regime), u(0)));
   }
 
   /// The solution at (eta, P), of several the one with the smallest R: stick if it holds, else the slipping
@@ -49,7 +49,8 @@ class ForcedResponse : public ContactProblem {
  private:
   double observe_base(const Vector& u, const Vector& p, const continuation::Regime& regime,
                       continuation::Gradient& gradient) const;
-  static Complex motion(const State& at);
+  /// r of this modulus, with the phase that the equation gives it.
+  static Complex motion(const State& at, double log_R);
 };
 
 }  // namespace arcslip::problems

@@ -35,7 +35,7 @@ class HarmonicProblem : public continuation::Problem {
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
 
-  /// All but synthesised forces have gradients, and the amplitudes of outputs of sectors that are solved for.
+  /// All but synthesised forces have gradients.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
@@ -53,6 +53,19 @@ class HarmonicProblem : public continuation::Problem {
   Index coordinates() const { return coordinates_.size(); }
   Index harmonics() const { return std::ssize(system_.orders); }
   const HarmonicSystem& system() const { return system_; }
+
+  /// The elements, first those of the contacts, and whether elements alone hold the mean of some part.
+  Index elements() const { return coordinates_.elements(); }
+  const Element& element(Index e) const { return coordinates_.element(e); }
+  bool is_free_to_move() const { return rigid_.count() > 0; }
+
+  /// Between which mean forces an element that sticks for ever does so, which has such.
+  RestingForce resting_force(Index element, const continuation::Guess& at) const {
+    return coordinates_.element(element)
+        .resting_force(system_.orders, element_motion(at.unknowns, at.parameters, element),
+                       load(element, at.unknowns, at.parameters))
+        .value();
+  }
 
   /// x_h of a coordinate.
   HarmonicVector motion(const Vector& u, const Vector& p, Index coordinate) const;
@@ -113,11 +126,12 @@ class HarmonicProblem : public continuation::Problem {
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   HarmonicProblem(HarmonicSystem system, Layout layout);
 
-  /// The quantities of the contacts but the first, of the first in the other harmonics, and what elements
-  /// tell, and how fast what they alone hold drifts.
+  /// The quantities of the contacts but the first, of the first in the other harmonics, what an element tells
+  /// and all those beside the contacts do, and how fast what elements alone hold drifts.
   void add_further_contacts();
   void add_other_harmonics();
-  void add_readings();
+  void add_readings(Index element, const std::string& suffix);
+  void add_further_elements();
   void add_drifts();
 
   /// What stands there; 0 of what stands nowhere.

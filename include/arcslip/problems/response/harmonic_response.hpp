@@ -29,10 +29,11 @@ class HarmonicResponse : public HarmonicProblem {
   /// Positions of eta, P and, if it may be continued, a further parameter of the system.
   enum Parameter : Index { eta, preload, further };
   /// Observables in this order: those of the first contact in the first harmonic but for `dissipated`, which
-  /// is the energy of all, over k S^2; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
-  /// dissipated_contact_2 of each further contact; the outputs; then, of the first contact,
-  /// the greatest values in time R_peak, Y_peak, U_peak and the amplitudes R_h3, Y_h3, U_h3, R_h5, ...
-  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated };
+  /// is the energy of all, over k S^2, and T_max and slip of friction: the greatest force in a period and the
+  /// part of it in which it slips; R_contact_2, R_over_S_contact_2, Y_contact_2, U_contact_2,
+  /// dissipated_contact_2, ... of each further contact; the outputs; what elements tell; then, of the first
+  /// contact, the greatest values in time R_peak, Y_peak, U_peak and the amplitudes R_h3, Y_h3, U_h3, ...
+  enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated, T_max, slip };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
   explicit HarmonicResponse(HarmonicSystem system);

@@ -34,7 +34,7 @@ class LimitCycle : public continuation::Problem {
   enum Unknown : Index { eta, log_R };
   enum Parameter : Index { zeta, preload };
   /// Observables in this order, `dissipated` over k S^2 as in ForcedResponse. The phase is arbitrary.
-  enum Quantity : Index { frequency, R, S, R_over_S, Y, U, dissipated };
+  enum Quantity : Index { frequency, R, S, R_over_S, Y, U, dissipated, T_max, slip };
   /// Which cycle is wanted of those at one zeta_B.
   enum class Size { any, small, large };
 
