@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "arcslip/assembly/reduced_pair.hpp"
+#include "arcslip/structure/sector.hpp"
 #include "assembly/system_numbers.hpp"
 
 namespace arcslip {
@@ -18,6 +19,33 @@ ContactModes in_contact_modes(const ModalModel& model) {
                      shape > 0 ? mode.load_residue / shape : Complex(0)});
   }
   return {1, std::move(modes), model.loss()};
+}
+
+/// What is wanted of the rings. The dofs of an element's second node are the first one's with the next phase.
+std::vector<ContactOutput> outputs_of(const SystemParameters& parameters, const ReducedPair& pair,
+                                      const Loss& base_loss, const Loss& damper_loss) {
+  const PreciseReal a = propagation_constant(parameters.wave_number, parameters.elements);
+  const PreciseComplex forward{cos(a), -sin(a)};
+  std::vector<ContactOutput> outputs;
+  for (const WantedOutput& wanted : parameters.wanted) {
+    const ReducedStructure& structure = wanted.on_base ? pair.base : pair.damper;
+    const Index dofs = structure.mass.rows();
+    PreciseComplexMatrix rows(2, dofs);  // the contact and the sum
+    for (Index i = 0; i < dofs; ++i) {
+      rows(0, i) = i == 0 ? 1 : 0;
+      rows(1, i) = PreciseComplex(wanted.weights(i)) + PreciseComplex(wanted.weights(dofs + i)) * forward;
+    }
+    std::vector<ContactMode> modes;
+    if (wanted.on_base || !parameters.fixed_damper) {
+      for (SeenMode& mode : seen_modes(structure, rows))
+        modes.push_back({mode.frequency, std::move(mode.shape), mode.load});
+    }
+    const char letter = wanted.on_base ? 'Y' : 'U';
+    outputs.push_back({std::string{letter, '_'} + wanted.name,
+                       ContactModes(2, std::move(modes), wanted.on_base ? base_loss : damper_loss),
+                       wanted.on_base});
+  }
+  return outputs;
 }
 
 /// All that goes with the base's stiffness, as K* grows by a factor with this rate.
@@ -73,8 +101,8 @@ FrictionSystem Rings::one_contact(const SystemParameters& parameters) const {
   const Loss base_loss = parameters.base_damping_kind == DampingKind::structural
                              ? Loss{0, 2 * parameters.base_damping}
                              : Loss{base_damping_factor(parameters), 0};
-  const ModalModel damper =
-      parameters.fixed_damper ? ModalModel() : ModalModel(pair.damper, 0, damper_damping_factor(parameters));
+  const Loss damper_loss{damper_damping_factor(parameters), 0};
+  const ModalModel damper = parameters.fixed_damper ? ModalModel() : ModalModel(pair.damper, 0, damper_loss);
   const auto elements = static_cast<double>(parameters.elements);
   return {ModalModel(pair.base, 0, base_loss),
           damper,
@@ -84,7 +112,7 @@ FrictionSystem Rings::one_contact(const SystemParameters& parameters) const {
           cubic_coefficient(parameters),
           parameters.preload_growth,
           {},
-          {}};
+          outputs_of(parameters, pair, base_loss, damper_loss)};
 }
 
 PairLosses Rings::losses(const SystemParameters& parameters) const {

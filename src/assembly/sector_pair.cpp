@@ -184,13 +184,17 @@ struct Part {
       ContactReceptance one = solves.with_output(terms[i].output, eta, load);
       const Index m = one.free.size() - 1;
       one.compliance.row(m) *= terms[i].weight;
+      one.compliance_eta.row(m) *= terms[i].weight;
       one.free(m) *= terms[i].weight;
+      one.free_eta(m) *= terms[i].weight;
       if (i == 0) {
         sum = std::move(one);
         continue;
       }
       sum.compliance.row(m) += one.compliance.row(m);
+      sum.compliance_eta.row(m) += one.compliance_eta.row(m);
       sum.free(m) += one.free(m);
+      sum.free_eta(m) += one.free_eta(m);
     }
     return sum;
   }

@@ -4,69 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <functional>
-#include <new>
-#include <numeric>
 #include <optional>
 
-#include "arcslip/cases/case_file.hpp"
-#include "arcslip/sectors/matrix_market.hpp"
+#include "cases/named_file.hpp"
 #include "cases/output_weights.hpp"
-#include "keys/input_file.hpp"
 
 namespace arcslip {
 namespace {
 
-/// The folder of a case file, which the names of other files start from. One in a pipe has none.
-std::string folder_of(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return folder == "/dev" || folder == "/dev/fd" || folder == "/proc/self/fd" ? "" : folder.string();
-}
-
-/// The text that a program gives under this name, or null.
-const std::string* given_text(const TomlDocument& document, const std::string& name) {
-  if (document.parts() == nullptr) return nullptr;
-  const auto found = document.parts()->files.find(name);
-  return found == document.parts()->files.end() ? nullptr : &found->second;
-}
-
-/// What the file that the key names holds: `parse` of its text and its path.
-template <class Parse>
-auto parsed(PartSettings& part, const TomlSection& section, std::string_view key, std::size_t largest,
-            const Parse& parse,
-            const std::function<void(std::string_view, const std::string&)>& begins = {}) {
-  const std::string name = section.text(key, {});
-  const std::string* given = given_text(section.document(), name);
-  const std::string path = given != nullptr ? name : (std::filesystem::path(part.folder) / name).string();
-  try {
-    const std::string read =
-        given != nullptr ? "" : read_text(path, largest, [&](std::string_view beginning) {
-          if (begins) begins(beginning, path);
-        });
-    const std::string& text = given != nullptr ? *given : read;
-    for (const char c : text) {  // FNV-1a
-      part.fingerprint ^= static_cast<unsigned char>(c);
-      part.fingerprint *= 1099511628211U;
-    }
-    return parse(text, path);
-  } catch (const InputError& error) {
-    section.fail(key, error.what());
-  } catch (const MatrixTextError& error) {
-    section.fail(key, error.what());
-  } catch (const std::bad_alloc&) {
-    section.fail(key, path + ": there is not enough memory for it");
-  }
-}
-
 std::vector<Index> listed(const PartSettings& part, const TomlSection& section, std::string_view key) {
-  const Index size = part.sector.mass.rows();
-  const NumberRule rule{
-      [=](double dof) { return dof >= 1 && dof <= static_cast<double>(size) && dof == std::floor(dof); },
-      fmt::format(" that is a dof from 1 to {}", size)};
-  std::vector<Index> dofs;
-  for (const double dof : section.numbers(key, rule)) dofs.push_back(static_cast<Index>(dof) - 1);
-  return dofs;
+  return listed_dofs(section, key, part.sector.mass.rows());
 }
 
 void read_load(PartSettings& part, const TomlSection& section) {
@@ -74,9 +21,10 @@ void read_load(PartSettings& part, const TomlSection& section) {
   const char* expected = "a file of loads, or a table { dof = [...], value = [...] }";
   ComplexVector& load = part.sector.load;
   if (section.require("load", expected).is_string()) {
-    load = parsed(part, section, "load", largest_list, [&](const std::string& text, const std::string& path) {
-      return arcslip::read_load(text, path, size);
-    });
+    load = parsed(section, "load", largest_list, &part.fingerprint,
+                  [&](const std::string& text, const std::string& path) {
+                    return arcslip::read_load(text, path, size);
+                  });
   } else {
     const TomlSection table = section.inside("load", expected);
     table.allow_only({"dof", "value", "imaginary"});
@@ -98,39 +46,13 @@ void read_load(PartSettings& part, const TomlSection& section) {
   if (load.isZero(0)) section.fail("load", "expected a force that is not 0");
 }
 
-/// A file of them, or a table of a name for each.
 void read_weights(PartSettings& part, const TomlSection& section) {
-  const char* expected = "a file of weights, or a table { NAME = { dof = [...], value = [...] } }";
-  if (section.require("weights", expected).is_string()) {
-    std::vector<Index> all(static_cast<std::size_t>(part.sector.mass.rows()));
-    std::iota(all.begin(), all.end(), 0);
-    const auto rows =
-        parsed(part, section, "weights", largest_list, [&](const std::string& text, const std::string& path) {
-          return arcslip::read_weights(text, path, std::ssize(all));
-        });
-    for (const WeightRow& row : rows)
-      add_combination(part, row.name, all, {row.weights.begin(), row.weights.end()}, section);
-    return;
-  }
-  const TomlSection tables = section.inside("weights", expected);
-  if (tables.table()->empty()) section.fail("weights", "expected one output or more, got none");
-  for (const auto& [key, node] : *tables.table()) {
-    const TomlSection table = tables.inside(key.str(), "a table { dof = [...], value = [...] }");
-    table.allow_only({"dof", "value"});
-    table.require("dof", "an array of dofs");
-    table.require("value", "an array of numbers");
-    const std::vector<Index> dofs = listed(part, table, "dof");
-    const std::vector<double> values = table.numbers("value", any_number());
-    if (dofs.empty()) table.fail("dof", "expected one dof or more, got none");
-    if (values.size() != dofs.size())
-      table.fail("value",
-                 fmt::format("expected {} numbers, as many as dofs, got {}", dofs.size(), values.size()));
-    add_combination(part, std::string(key.str()), dofs, values, section);
-  }
+  for (const WeightRow& row : read_weights(section, part.sector.mass.rows(), &part.fingerprint))
+    add_combination(part, row);
 }
 
 void read_coordinates(PartSettings& part, const TomlSection& section) {
-  part.places = parsed(part, section, "coordinates", largest_list,
+  part.places = parsed(section, "coordinates", largest_list, &part.fingerprint,
                        [&](const std::string& text, const std::string& path) {
                          return read_places(text, path, part.sector.mass.rows());
                        });
@@ -142,7 +64,8 @@ PartKey matrix(const char* name, SparseMatrix FiniteSector::*member, const std::
                const auto&... term) {
   const auto read = [=](PartSettings& part, const TomlSection& section) {
     section.require(name, "a Matrix Market file");
-    part.sector.*member = parsed(part, section, name, largest_matrix, read_matrix_market, check_banner);
+    part.sector.*member =
+        parsed(section, name, largest_matrix, &part.fingerprint, read_matrix_market, check_banner);
   };
   return PartKey::special(name, "Matrix Market file", meaning, read, term...);
 }
@@ -153,11 +76,11 @@ PartKey dofs(const char* name, std::vector<Index> FiniteSector::*member, const s
     const char* expected = "a file of dofs, or an array of them";
     const toml::node& node = section.require(name, expected);
     if (!node.is_string() && !node.is_array()) section.mismatch(name, expected);
-    part.sector.*member =
-        node.is_array() ? listed(part, section, name)
-                        : parsed(part, section, name, largest_list, [&](const auto& text, const auto& path) {
-                            return read_dofs(text, path, part.sector.mass.rows());
-                          });
+    part.sector.*member = node.is_array() ? listed(part, section, name)
+                                          : parsed(section, name, largest_list, &part.fingerprint,
+                                                   [&](const auto& text, const auto& path) {
+                                                     return read_dofs(text, path, part.sector.mass.rows());
+                                                   });
   };
   return PartKey::special(name, "file or list of dofs", meaning, read, term...);
 }
@@ -169,9 +92,9 @@ void read_contacts(PartSettings& part, const TomlSection& section) {
   FiniteSector& sector = part.sector;
   if (!node.is_array()) {
     if (!node.is_string()) section.mismatch("contact", expected);
-    sector.contacts = parsed(part, section, "contact", largest_list, [&](const auto& text, const auto& path) {
-      return read_dofs(text, path, sector.mass.rows());
-    });
+    sector.contacts =
+        parsed(section, "contact", largest_list, &part.fingerprint,
+               [&](const auto& text, const auto& path) { return read_dofs(text, path, sector.mass.rows()); });
     return;
   }
   const toml::array& given = *node.as_array();
@@ -291,7 +214,6 @@ SectorPart read_part(const TomlDocument& document, const std::string& path, Sect
   const bool loaded = path == "system.base";
   PartSettings part;
   part.path = response;
-  part.folder = folder_of(document.path());
   part.fingerprint = 14695981039346656037U;
   part_keys(loaded).read(part, section);
   if (!loaded) part.sector.load = ComplexVector::Zero(part.sector.mass.rows());

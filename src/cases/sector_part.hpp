@@ -10,8 +10,7 @@ namespace arcslip {
 /// One of them as it is read.
 struct PartSettings : SectorPart {
   SectorPath path = SectorPath::reduced;
-  std::string folder = {};  ///< that the names of files start from
-  double mass_factor = 0;   ///< alpha of alpha M
+  double mass_factor = 0;  ///< alpha of alpha M
 };
 
 /// With a load, which the base has.

@@ -25,6 +25,25 @@ Swing Swing::at(const PeriodicMotion& motion, std::span<const double> angles) {
   return swing;
 }
 
+Farthest farthest_of(std::span<const int> orders, const HarmonicVector& x) {
+  constexpr double rounding = 1e-13;
+  const PeriodicMotion motion(orders, x, highest_order(orders));
+  std::vector<double> places = motion.derivative().zeros();
+  if (places.empty()) places.push_back(0);
+  Farthest peak{0, HarmonicVector::Zero(x.size())};
+  for (const double angle : places) peak.value = std::max(peak.value, std::abs(motion.value(angle)));
+  int count = 0;
+  for (const double angle : places) {
+    const double here = motion.value(angle);
+    if (std::abs(here) < (1 - rounding) * peak.value) continue;
+    ++count;
+    for (Index a = 0; a < x.size(); ++a)
+      peak.by(a) += std::polar(1.0, -orders[static_cast<std::size_t>(a)] * angle) * (here < 0 ? -1.0 : 1.0);
+  }
+  peak.by /= count;
+  return peak;
+}
+
 Complex Swing::half_by(int h) const {
   const Complex top = std::polar(1.0, -h * greatest.angle);
   return is_odd ? top : 0.5 * (top - std::polar(1.0, -h * least.angle));

@@ -15,6 +15,8 @@ SectorResponse not_finite(Index contacts, Index outputs) {
           ComplexVector::Constant(contacts, unknown),
           ComplexMatrix::Constant(outputs, contacts, unknown),
           ComplexVector::Constant(outputs, unknown),
+          ComplexMatrix::Constant(outputs, contacts, unknown),
+          ComplexVector::Constant(outputs, unknown),
           ComplexMatrix::Constant(contacts + 1, contacts + 1, unknown),
           ComplexVector::Constant(contacts + 1, unknown),
           ComplexVector::Constant(contacts + 1, unknown)};
@@ -58,7 +60,9 @@ ContactReceptance FullReceptance::with_output(Index output, double eta, double f
   const Index m = found.free.size();
   ContactReceptance receptance = with_one_more(found, force);
   receptance.compliance.row(m).head(m) = found.output_compliance.row(output);
+  receptance.compliance_eta.row(m).head(m) = found.output_compliance_eta.row(output);
   receptance.free(m) = force * found.output_free(output);
+  receptance.free_eta(m) = force * found.output_free_eta(output);
   return receptance;
 }
 

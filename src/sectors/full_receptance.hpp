@@ -22,12 +22,10 @@ class FullReceptance {
   /// The response of the m contacts under `force` times the load; not finite where Z is singular.
   ContactReceptance at(double eta, double force) const;
 
-  /// The same with an output after the contacts, of which the motion alone is known, not what a force on it
-  /// does nor any derivative: these are nan.
+  /// The same with an output after the contacts; what a force on it does is nan.
   ContactReceptance with_output(Index output, double eta, double force) const;
 
-  /// The same with the motion F^H d that the load does work on after the contacts, and its derivatives; what
-  /// a force on it does is nan.
+  /// The same with the motion F^H d that the load does work on in its place.
   ContactReceptance with_driven_motion(double eta, double force) const;
 
   /// Of that response under `forces` on the contacts as well.

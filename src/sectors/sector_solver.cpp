@@ -24,15 +24,9 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
   right_.resize(reduction_.size(), m + 1);
   product_.resize(reduction_.size(), m + 1);
   left_.resize(reduction_.size(), m + 1);
-  response_ = {ComplexMatrix(m, m),
-               ComplexMatrix(m, m),
-               ComplexVector(m),
-               ComplexVector(m),
-               ComplexMatrix(p, m),
-               ComplexVector(p),
-               ComplexMatrix(m + 1, m + 1),
-               ComplexVector(m + 1),
-               ComplexVector(m + 1)};
+  response_ = {ComplexMatrix(m, m),         ComplexMatrix(m, m),  ComplexVector(m),    ComplexVector(m),
+               ComplexMatrix(p, m),         ComplexVector(p),     ComplexMatrix(p, m), ComplexVector(p),
+               ComplexMatrix(m + 1, m + 1), ComplexVector(m + 1), ComplexVector(m + 1)};
   factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
 }
 
@@ -94,6 +88,18 @@ void SectorSolver::collect() {
   response_.load_motion_eta.noalias() = -product_.transpose() * left_.col(m);
 }
 
+/// From Z' X, which it uses up.
+void SectorSolver::collect_output_slopes() {
+  const Index m = contacts();
+  factors_->solve(product_);
+  for (Index i = 0; i < outputs(); ++i) {
+    const Index dof = outputs_[static_cast<std::size_t>(i)];
+    const auto row = -reduction_.factor(dof) * product_.row(reduction_.reduced_dof(dof));
+    response_.output_compliance_eta.row(i) = row.head(m);
+    response_.output_free_eta(i) = row(m);
+  }
+}
+
 /// Im Z = (beta eta + delta) K + w* (C + 2 pi mu M), itself Hermitian but for what is gyroscopic in C and
 /// does no work.
 void SectorSolver::collect_works(double eta) {
@@ -114,8 +120,9 @@ const SectorResponse& SectorSolver::at(double eta) {
   set_right_hand_sides();
   factors_->solve(right_);
   factors_->solve_transposed(left_);
-  factors_->release();
   collect();
+  if (outputs() > 0) collect_output_slopes();
+  factors_->release();
   collect_works(eta);
   return response_;
 }

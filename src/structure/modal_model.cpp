@@ -107,6 +107,25 @@ class PreciseModes {
 
 }  // namespace
 
+std::vector<SeenMode> seen_modes(const ReducedStructure& structure, const PreciseComplexMatrix& rows) {
+  const PreciseModes modes(structure);
+  const PreciseReal& turn = boost::math::constants::two_pi<PreciseReal>();
+  std::vector<SeenMode> all;
+  for (const Index k : modes.ascending()) {
+    const PreciseReal eigenvalue = modes.eigenvalue(k);
+    const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / turn) : PreciseReal(0);
+    SeenMode mode{static_cast<double>(frequency), ComplexVector(rows.rows()),
+                  rounded(modes.by_load(k) / PreciseComplex(turn))};
+    for (Index i = 0; i < rows.rows(); ++i) {
+      PreciseComplex sum = 0;
+      for (Index dof = 0; dof < rows.cols(); ++dof) sum += rows(i, dof) * modes.at(dof, k);
+      mode.shape(i) = rounded(sum / PreciseComplex(turn));
+    }
+    all.push_back(std::move(mode));
+  }
+  return all;
+}
+
 ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, const Loss& loss) : loss_(loss) {
   const PreciseModes modes(structure);
   const PreciseReal& turn = boost::math::constants::two_pi<PreciseReal>();

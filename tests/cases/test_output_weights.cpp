@@ -151,6 +151,67 @@ TEST_CASE("Peaks of an output in time are where a branch close by is lower on bo
   CHECK(found == highest);
 }
 
+namespace {
+
+/// Places and values of the positive maxima of a motion, the greatest first.
+std::vector<std::pair<double, double>> maxima_of(const std::vector<int>& orders, const HarmonicVector& x) {
+  const PeriodicMotion motion(orders, x, highest_order(orders));
+  std::vector<std::pair<double, double>> all;
+  for (const double angle : motion.derivative().zeros()) all.emplace_back(motion.value(angle), angle);
+  std::sort(all.rbegin(), all.rend());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("A greatest value that is met twice in a period has the mean of both derivatives") {
+  RandomSystems draw(77);
+  const TemporaryFolder folder;
+  const SmallStructure s = chain_of(draw);
+  write_matrices(s, folder);
+  const TracedBranch traced = traced_of(folder.write("case.toml", chain_text(s, "5", "")));
+  const auto& problem = dynamic_cast<const HarmonicResponse&>(traced.problem());
+  int found = 0;
+  for (std::size_t k = 5; k < traced.branch.points.size() && found < 2; k += 10) {
+    const BranchPoint& point = traced.branch.points[k];
+    const auto mixed = [&](double angle) {
+      return HarmonicVector(std::cos(angle) * problem.motion(point.unknowns, 0) +
+                            std::sin(angle) * problem.motion(point.unknowns, 1));
+    };
+    const auto first = [&](double angle) { return maxima_of(problem.system().orders, mixed(angle)).front(); };
+    for (int i = 0; i < 200 && found < 2; ++i) {
+      double low = two_pi * i / 200;
+      double high = two_pi * (i + 1) / 200;
+      const double way = std::abs(std::remainder(first(low).second - first(high).second, two_pi));
+      const HarmonicVector x = mixed(low);
+      const auto all = maxima_of(problem.system().orders, x);
+      if (way < 0.5 || all.front().first < 1.05 * std::abs(all.back().first)) continue;
+      const double from = first(low).second;
+      for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (std::abs(std::remainder(first(middle).second - from, two_pi)) < 0.25 ? low : high) = middle;
+      }
+      const auto gradient_at = [&](double angle) {
+        const std::string weights =
+            fmt::format("weights = {{ w = {{ dof = [1, 2], value = [{:.17g}, {:.17g}] }} }}\n",
+                        -std::cos(angle), -std::sin(angle));
+        const TracedBranch other = traced_of(folder.write("w.toml", chain_text(s, "5", weights)));
+        const Index which =
+            continuation::index_of(continuation::observable_names(other.problem()), "Y_w_peak");
+        continuation::Gradient gradient{Vector(point.unknowns.size()), Vector(point.parameters.size())};
+        other.problem().observe(point.unknowns, point.parameters, point.regime, which, gradient);
+        return gradient.unknowns;
+      };
+      const Vector below = gradient_at(low - 1e-7);
+      const Vector above = gradient_at(high + 1e-7);
+      REQUIRE((below - above).norm() > 0.1 * below.norm());
+      CHECK((gradient_at(low) - 0.5 * (below + above)).norm() < 1e-5 * below.norm());
+      ++found;
+    }
+  }
+  CHECK(found > 0);
+}
+
 TEST_CASE("Wrong weights are refused by one line") {
   const auto mistake = GENERATE(values<std::pair<std::string, std::string>>({
       {"weights = { a = { dof = [4], value = [1.0] } }", "that is a dof from 1 to 3"},
@@ -179,6 +240,31 @@ TEST_CASE("Wrong weights are refused by one line") {
   const std::string message = error_of([&] { read_case(path); });
   CHECK_THAT(message, ContainsSubstring(mistake.second) && ContainsSubstring("weights"));
   CHECK(message.find('\n') == message.npos);
+}
+
+TEST_CASE("Outputs of the full path have exact gradients, and peaks by them") {
+  RandomSystems draw(78);
+  const TemporaryFolder folder;
+  const SmallStructure s = chain_of(draw);
+  write_matrices(s, folder);
+  const std::string text = chain_text(s, "3", three_weights, "extrema_of = [\"Y_strain_peak\", \"Y_2\"]\n");
+  const std::string full = replaced(text, "model = \"sector\"\n", "model = \"sector\"\npath = \"full\"\n");
+  const TracedBranch one = traced_of(folder.write("reduced.toml", text));
+  const TracedBranch other = traced_of(folder.write("full.toml", full));
+  for (std::size_t k = 7; k < other.branch.points.size(); k += 60) {
+    const BranchPoint& point = other.branch.points[k];
+    if (point.type != PointType::regular) continue;
+    const auto report =
+        continuation::check_derivatives(other.problem(), point.unknowns, point.parameters, point.regime);
+    INFO(report.where);
+    CHECK(report.worst < 1e-7);
+  }
+  const std::vector<BranchPoint> peaks = points(one, PointType::peak);
+  const std::vector<BranchPoint> same = points(other, PointType::peak);
+  REQUIRE(!peaks.empty());
+  REQUIRE(same.size() == peaks.size());
+  for (std::size_t i = 0; i < peaks.size(); ++i)
+    CHECK_THAT(same[i].parameters(0), WithinRel(peaks[i].parameters(0), 1e-7));
 }
 
 TEST_CASE("Weights act alike on the reduced and the full path") {

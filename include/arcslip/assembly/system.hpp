@@ -55,6 +55,13 @@ struct PlacedElement {
   Index coordinates() const { return kind->slides + (closes() ? 1 : 0); }  ///< in how many it acts
 };
 
+/// A motion that is wanted beside those of the contacts, a sum over dofs of one structure times weights.
+struct WantedOutput {
+  std::string name;     ///< the column's, behind Y_ or U_
+  bool on_base = true;  ///< or of the damper
+  Vector weights = {};  ///< of all dofs, as the kind of structure counts them
+};
+
 /// [system] of a case file, nondimensional throughout.
 struct SystemParameters {
   StructureModel model = StructureModel::beams;  ///< of both
@@ -75,6 +82,7 @@ struct SystemParameters {
   bool one_way = false;        ///< friction acts on the damper and not back on the base
   std::vector<int> harmonics = {1};        ///< h in which friction is balanced, 1 first, then ascending
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
+  std::vector<WantedOutput> wanted = {};   ///< of rods and beams the dofs of an element, else the masses
   Excitation excitation{nullptr, {}};      ///< the load's harmonics, of which the balanced ones act
 
   std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued

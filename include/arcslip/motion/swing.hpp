@@ -49,4 +49,12 @@ struct Swing {
   Complex peak_by(int h) const;
 };
 
+/// max |x|, with its derivatives by all x_h as in Swing: where x is as far from 0 at several places, to
+/// whichever side, the mean of them all.
+struct Farthest {
+  double value;       ///< max |x|
+  HarmonicVector by;  ///< by Re x_h and Im x_h as real and imaginary part
+};
+Farthest farthest_of(std::span<const int> orders, const HarmonicVector& x);
+
 }  // namespace arcslip

@@ -6,6 +6,8 @@
 //   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
 //   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
 //
+// and of outputs, which are dofs, the same entries of -Z^{-1} Z' X_r and -Z^{-1} Z' Z^{-1} F.
+//
 // E has a column for each contact, with 1 at its dof and -1 at that which it is against. One symbolic
 // analysis serves the sparse LU factorisations of Z at every eta.
 
@@ -21,11 +23,13 @@ class ComplexFactors;
 /// Response of m contacts and p outputs at a given eta.
 struct SectorResponse {
   ComplexMatrix compliance;  ///< c, m x m: motion of the contact of the row per force on that of the column
-  ComplexMatrix compliance_eta;     ///< dc/deta
-  ComplexVector free;               ///< y_0, m: the response without contact
-  ComplexVector free_eta;           ///< dy_0/deta
-  ComplexMatrix output_compliance;  ///< p x m: motion of the outputs per force on a contact
-  ComplexVector output_free;        ///< p: motion of the outputs without contact
+  ComplexMatrix compliance_eta;         ///< dc/deta
+  ComplexVector free;                   ///< y_0, m: the response without contact
+  ComplexVector free_eta;               ///< dy_0/deta
+  ComplexMatrix output_compliance;      ///< p x m: motion of the outputs per force on a contact
+  ComplexVector output_free;            ///< p: motion of the outputs without contact
+  ComplexMatrix output_compliance_eta;  ///< derivative of the one
+  ComplexVector output_free_eta;        ///< and the other
   ComplexMatrix damping;  ///< X^H Im Z X, m+1 x m+1, X = [X_r, Z^{-1} F]: by pi what damping takes a cycle
   ComplexVector load_motion;      ///< m+1: X^T F*, the motion F^H d that the load does work on
   ComplexVector load_motion_eta;  ///< its derivative
@@ -57,6 +61,7 @@ class SectorSolver {
   void assemble(double eta);
   void set_right_hand_sides();
   void collect();
+  void collect_output_slopes();
   void collect_works(double eta);
 
   SectorReduction reduction_;

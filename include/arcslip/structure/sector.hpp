@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <stdexcept>
+#include <vector>
 
 #include "arcslip/structure/chain_elements.hpp"
 
@@ -51,6 +52,17 @@ struct ReducedStructure {
   PreciseComplexMatrix stiffness;
   PreciseComplexVector load;
 };
+
+/// A mode v_k of such a structure as sums of its dofs see it.
+struct SeenMode {
+  double frequency;     ///< eta_k
+  ComplexVector shape;  ///< rows v_k/(2 pi)
+  Complex load;         ///< v_k^H F/(2 pi)
+};
+
+/// All of them in ascending order, seen through `rows`, sums x J. Throws std::invalid_argument where the mass
+/// is not positive definite.
+std::vector<SeenMode> seen_modes(const ReducedStructure& structure, const PreciseComplexMatrix& rows);
 
 /// Ring of equal elements: the reduction of `element` with its propagation constant.
 ReducedStructure reduce(const ChainElement& element, Index wave_number, Index elements);

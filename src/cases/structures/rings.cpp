@@ -6,6 +6,7 @@
 
 #include "arcslip/results/results.hpp"
 #include "cases/geometry_section.hpp"
+#include "cases/output_weights.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/system_section.hpp"
 
@@ -57,6 +58,18 @@ void check_groups(const TomlDocument& document, const TomlSection& section, cons
   }
 }
 
+/// `base` or `damper`, a table of outputs among the dofs of an element.
+RingKey outputs_of(const std::string& part, const std::string& meaning) {
+  static const KeyTable<OutputSettings> keys(output_keys());
+  const auto read = [=](R& settings, const TomlSection& section) {
+    OutputSettings wanted{settings.model == StructureModel::rods ? 2 : 4, {}};
+    keys.read(wanted, section.inside(part, "a table { output, weights }"));
+    want(std::move(wanted.outputs), part == "base", settings);
+  };
+  const auto inner = [](auto& key) { key.words.inner = keys.words(); };
+  return RingKey::special(part, "table", meaning, read, inner, otherwise("none"), unlisted);
+}
+
 const KeyTable<R>& ring_keys() {
   const auto in_groups = only(in_geometry, without_geometry);
   const auto group = [=](auto& key) {
@@ -93,7 +106,11 @@ const KeyTable<R>& ring_keys() {
        RingKey("cubic_stiffness", &R::cubic_stiffness, any_number(),
                "N k_3/K* of springs k_3 y^3 between the base's nodes and ground",
                parameter("cubic_stiffness")),
-       RingKey::flag("fixed_damper", &R::fixed_damper, "friction against a rigid ring")}};
+       RingKey::flag("fixed_damper", &R::fixed_damper, "friction against a rigid ring"),
+       outputs_of("base",
+                  "outputs beside the contact, of an element's dofs: of rods the displacements of its two "
+                  "nodes, of beams displacement and rotation of the first, then of the second"),
+       outputs_of("damper", "the same of the damper")}};
   return keys;
 }
 

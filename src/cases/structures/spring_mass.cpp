@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/output_weights.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/system_section.hpp"
 
@@ -20,14 +21,15 @@ using nlohmann::ordered_json;
 constexpr std::size_t most_masses = 100;
 
 /// Masses m_1, m_2, ... with springs k_1 from ground to m_1, k_2 from m_1 to m_2, ...
-struct SpringMassChain {
+struct SpringMassChain : OutputSettings {
   std::vector<double> mass = {1};
   std::vector<double> stiffness = {1};
   std::vector<double> load = {};  ///< of each mass; if empty the last one has 1
   Index contact = 0;              ///< the mass that rubs, from 1; 0: the last one
 
-  /// Natural frequencies sqrt(k/m) with shapes of unit modal mass, in radians per unit of time.
-  ContactModes modes(double force, const Loss& loss) const {
+  /// Natural frequencies sqrt(k/m) with shapes of unit modal mass, in radians per unit of time; an output, if
+  /// one is wanted, as a contact after the first one.
+  ContactModes modes(double force, const Loss& loss, const Vector* output = nullptr) const {
     const Index count = std::ssize(mass);
     Matrix k = Matrix::Zero(count, count);
     for (Index i = 0; i < count; ++i) {
@@ -46,10 +48,11 @@ struct SpringMassChain {
     for (Index i = 0; i < count; ++i) {
       const Vector shape = scale.cwiseProduct(solver.eigenvectors().col(i));
       const bool is_rigid = i == 0 && stiffness.front() == 0;
-      all.push_back({is_rigid ? 0 : std::sqrt(solver.eigenvalues()(i)),
-                     ContactVector::Constant(1, shape(rubs)), force * shape.dot(forces)});
+      ContactVector seen = ContactVector::Constant(output != nullptr ? 2 : 1, shape(rubs));
+      if (output != nullptr) seen(1) = output->dot(shape);
+      all.push_back({is_rigid ? 0 : std::sqrt(solver.eigenvalues()(i)), seen, force * shape.dot(forces)});
     }
-    return {1, std::move(all), loss};
+    return {output != nullptr ? 2 : 1, std::move(all), loss};
   }
 };
 
@@ -63,6 +66,11 @@ class SpringMass : public Structures {
     const PairLosses losses = this->losses(system);
     const ContactModes damper = damper_ ? damper_->modes(0, losses.damper(system)) : ContactModes(1, {}, {});
     ContactSystem wave{base_.modes(system.force, losses.base(system)), damper, system.contacts};
+    for (const auto& [name, on_base, weights] : system.wanted) {
+      wave.outputs.push_back(
+          on_base ? ContactOutput{"Y_" + name, base_.modes(system.force, losses.base(system), &weights), true}
+                  : ContactOutput{"U_" + name, damper_->modes(0, losses.damper(system), &weights), false});
+    }
     if (system.tells_lag) wave.outputs.push_back(driven_motion(wave.base.with_driven_motion()));
     return wave;
   }
@@ -99,9 +107,10 @@ struct SpringMassSettings : FrictionSettings {
 using ChainKey = Key<SpringMassChain>;
 using SpringMassKey = Key<SpringMassSettings>;
 
-void check_masses(const SpringMassChain& chain, const TomlSection& section) {
+void check_masses(SpringMassChain& chain, const TomlSection& section) {
   if (chain.mass.empty() || chain.mass.size() > most_masses)
     section.fail("mass", fmt::format("expected from 1 to {} masses, got {}", most_masses, chain.mass.size()));
+  chain.dofs = std::ssize(chain.mass);
 }
 
 /// One for each mass, in the list of this name.
@@ -138,6 +147,7 @@ std::vector<ChainKey> chain_keys(bool is_base) {
                   return within(1, count, fmt::format(" >= 1 and <= {}", count));
                 }},
                "the mass that rubs", otherwise("the last one"), unresolved)};
+  for (const Key<OutputSettings>& key : output_keys()) keys.push_back(key);
   if (is_base)
     keys.push_back(ChainKey("load", &C::load, any_number(), "the force on each mass, times `force`",
                             otherwise("1 on the last one"), unresolved, one_each("load", &C::load)));
@@ -185,6 +195,8 @@ void read_spring_mass(const StructureKind::Source& source, ProblemRequest& probl
   settings.contacts = {{settings.contact_stiffness, settings.limit_per_preload / settings.contact_stiffness}};
   std::optional<SpringMassChain> damper;
   if (settings.has_damper) damper = settings.damper;
+  want(settings.base.outputs, true, settings);
+  want(settings.damper.outputs, false, settings);
   settings.structures = std::make_shared<const SpringMass>(settings.base, damper, settings.kind);
   take(std::move(settings), problem);
 }
