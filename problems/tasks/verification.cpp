@@ -183,6 +183,7 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
       one.Y_time = timed.Y;
       one.growth = timed.growth;
     }
+    one.offsets = offset_bounds(parameters, problem, at);
     all.push_back(one);
     if (options.found) options.found(one);
   }

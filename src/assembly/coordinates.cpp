@@ -5,6 +5,7 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/elements/held_element.hpp"
 #include "arcslip/elements/idle.hpp"
 #include "arcslip/elements/jenkins.hpp"
 #include "arcslip/elements/memoryless.hpp"
@@ -103,6 +104,12 @@ Coordinates::Coordinates(const HarmonicSystem& system)
     if ((*this)[i].part > 0 || !element(elements() - 1).has_border()) continue;
     if (++switches_ < elements())
       throw std::invalid_argument("Coordinates: elements with a border must come first");
+  }
+  for (const auto& [e, force] : system.held) {
+    const auto held = std::make_shared<HeldElement>((*this)[first(e)].element, force);
+    for (Index i = 0; i < size(); ++i) {
+      if (element_of(i) == e) all_[static_cast<std::size_t>(i)].element = held;
+    }
   }
 }
 

@@ -45,6 +45,8 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
+  offsets_ = std::make_unique<AtomicFile>(folder + "/offsets.csv");
+  offsets_->write(offsets_header());
 }
 
 void RunFiles::take_over(std::size_t branches, const std::string& header) {
@@ -56,12 +58,18 @@ void RunFiles::take_over(std::size_t branches, const std::string& header) {
   curve_rows_ = curves_.take_over(branches, header);
   for (std::size_t i = 0; i < branches; ++i) summary_.add(summary["branches"][i]);
   count_ = branches;
-  if (!verification_) return;
-  std::ifstream before(folder_ + "/verify.csv", std::ios::binary);
+  for (AtomicFile* file : {verification_.get(), offsets_.get()}) {
+    if (file != nullptr) take_over_lines(*file, branches);
+  }
+}
+
+/// Those of so many branches, from the file of that name that stands in the folder.
+void RunFiles::take_over_lines(AtomicFile& file, std::size_t branches) {
+  std::ifstream before(file.path(), std::ios::binary);
   std::string line;
   std::getline(before, line);
   while (std::getline(before, line) && std::strtoul(line.c_str(), nullptr, 10) < branches)
-    verification_->write(line + "\n");
+    file.write(line + "\n");
 }
 
 void RunFiles::add(const TracedBranch& traced) {
@@ -100,7 +108,9 @@ void RunFiles::begin_verification() {
 
 void RunFiles::add(const TracedBranch& traced, const problems::Verification& point) {
   const std::scoped_lock lock(mutex_);
-  if (!finished_) verification_->write(verification_row(count_ - 1, traced, point));
+  if (finished_) return;
+  verification_->write(verification_row(count_ - 1, traced, point));
+  offsets_->write(offset_rows(count_ - 1, traced, point));
 }
 
 void RunFiles::end_verification(const VerifiedBranch& verified) {
@@ -125,14 +135,19 @@ void RunFiles::finish(double seconds, bool interrupted) {
   branches_.finish();
   curves_.finish();  // the later one: pictures are drawn from it
   summary_.file().sync();
-  if (verification_) verification_->sync();
+  for (const auto& file : {verification_.get(), offsets_.get()}) {
+    if (file != nullptr) file->sync();
+  }
   std::error_code ignored;
-  // It belongs to other branches.
-  if (!verification_) std::filesystem::remove(folder_ + "/verify.csv", ignored);
+  for (const char* name : {"/verify.csv", "/offsets.csv"}) {  // they belong to other branches
+    if (!verification_) std::filesystem::remove(folder_ + name, ignored);
+  }
   branches_.commit();
   curves_.commit();
   summary_.file().commit();
-  if (verification_) verification_->commit();
+  for (const auto& file : {verification_.get(), offsets_.get()}) {
+    if (file != nullptr) file->commit();
+  }
 }
 
 }  // namespace arcslip

@@ -1,7 +1,8 @@
 #pragma once
 
 // What `arcslip run` writes: branches.csv, the same as it is drawn in curves.csv, summary.json and, where it
-// is asked for, verify.csv. Branches go to the disk as they come; the files appear together at the end.
+// is asked for, verify.csv and offsets.csv. Branches go to the disk as they come; the files appear together
+// at the end.
 
 #include <mutex>
 #include <optional>
@@ -45,6 +46,7 @@ class RunFiles {
 
  private:
   void write_summary();
+  void take_over_lines(AtomicFile& file, std::size_t branches);
 
   std::string folder_;
   std::mutex mutex_;
@@ -55,8 +57,9 @@ class RunFiles {
   std::size_t curve_rows_ = 0;
   SummaryFile summary_;
   std::unique_ptr<AtomicFile> verification_;
-  nlohmann::ordered_json last_;  ///< the last branch's summary
-  bool verifying_ = false;       ///< whether a verification is not at its end
+  std::unique_ptr<AtomicFile> offsets_;  ///< beside it
+  nlohmann::ordered_json last_;          ///< the last branch's summary
+  bool verifying_ = false;               ///< whether a verification is not at its end
 };
 
 }  // namespace arcslip

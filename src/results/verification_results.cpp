@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/assembly/structures.hpp"
@@ -27,6 +28,33 @@ std::string largest(const VerifiedBranch& branch, double Verification::*other) {
     }
   }
   return most < 0 ? "without result" : fmt::format("{:.2g} at eta = {:.9g}", most, eta);
+}
+
+/// How far Y changes with where sliders rest that stick for ever, of the branch's points that have such.
+std::string by_offsets(const VerifiedBranch& branch) {
+  long known = 0;
+  std::string reason;
+  double most = 0;
+  double eta = 0;
+  for (const Verification& point : branch.points) {
+    if (!point.offsets) continue;
+    if (!point.offsets->reason.empty()) reason = point.offsets->reason;
+    if (!point.offsets->reason.empty()) continue;
+    ++known;
+    for (const auto& [name, value, least, greatest] : point.offsets->quantities) {
+      const double change = std::max(greatest - value, value - least) / value;
+      if (name != "Y" || !(change > most)) continue;
+      most = change;
+      eta = eta_of(branch, point);
+    }
+  }
+  std::string text;
+  if (known > 0)
+    text =
+        fmt::format("; at {} of them contacts stick for ever, and where their sliders rest changes Y by {}",
+                    known, most > 0 ? fmt::format("at most {:.2g} at eta = {:.9g}", most, eta) : "nothing");
+  if (!reason.empty()) text += "; what it changes is not known at others: " + reason;
+  return text;
 }
 
 }  // namespace
@@ -66,6 +94,21 @@ std::string verification_row(std::size_t number, const TracedBranch& traced, con
                      point.Y_time, point.Y_time / point.Y - 1, point.growth);
 }
 
+std::string offsets_header() { return "branch,point,type,eta,P,quantity,value,least,greatest,reason\n"; }
+
+std::string offset_rows(std::size_t number, const TracedBranch& traced, const Verification& point) {
+  if (!point.offsets) return "";
+  const continuation::BranchPoint& at = traced.branch.points[point.point];
+  std::string reason = point.offsets->reason;
+  std::replace(reason.begin(), reason.end(), ',', ';');  // what separates columns
+  std::string rows;
+  for (const auto& [name, value, least, greatest] : point.offsets->quantities)
+    rows +=
+        fmt::format("{},{},{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{}\n", number, point.point,
+                    at.type_name(), at.parameters(0), at.parameters(1), name, value, least, greatest, reason);
+  return rows;
+}
+
 std::string interrupted_verification_row(std::size_t number) {
   return fmt::format("{},nan,interrupted,nan,nan,nan,nan,nan,nan,nan,nan,nan,nan\n", number);
 }
@@ -95,7 +138,7 @@ std::string describe_verification(const VerifiedBranch& branch) {
   }
   if (!branch.untimed.empty())
     text += (timed > 0 ? "; others were not: " : "; not integrated in time: ") + branch.untimed;
-  return text + "\n";
+  return text + by_offsets(branch) + "\n";
 }
 
 }  // namespace arcslip

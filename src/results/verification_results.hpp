@@ -31,7 +31,11 @@ std::string verification_row(std::size_t number, const TracedBranch& traced,
                              const problems::Verification& point);
 std::string interrupted_verification_row(std::size_t number);
 
-/// The largest differences of a branch, one line.
+/// The first line of offsets.csv, and those of a point; none where no contact sticks for ever.
+std::string offsets_header();
+std::string offset_rows(std::size_t number, const TracedBranch& traced, const problems::Verification& point);
+
+/// The largest differences of a branch, and how far offsets matter, one line.
 std::string describe_verification(const VerifiedBranch& branch);
 
 }  // namespace arcslip

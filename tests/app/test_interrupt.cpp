@@ -40,8 +40,8 @@ TEST_CASE("A verification that is interrupted has status 3, and what is there of
     const Outcome outcome = run.wait();
     CHECK(outcome.status == 3);
     CHECK_THAT(outcome.err, ContainsSubstring("interrupted"));
-    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "curves.csv", "run.checkpoint", "summary.json",
-                                               "verify.csv"});
+    CHECK(names_in(r) == std::set<std::string>{"branches.csv", "curves.csv", "offsets.csv", "run.checkpoint",
+                                               "summary.json", "verify.csv"});
     const auto rows = read_csv(r + "/verify.csv");
     CHECK(rows.back().at(2) == "interrupted");
     CHECK(rows.back().size() == rows.front().size());

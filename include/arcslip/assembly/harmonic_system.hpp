@@ -6,6 +6,7 @@
 //
 //   r_h + C_h k f_h(r) = -y_0 delta_h1,   C_h(eta) = C_B(h eta; h a) + C_D(h eta; h a).
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct HarmonicSystem {
   Loss base_loss_per_zeta = {};                ///< the base's loss over zeta_B
   Loss base_loss_fixed = {};                   ///< the rest of it
   std::optional<SystemParameter> varied = {};  ///< which may be continued beside eta and the preload
+
+  /// Elements that stick for ever with these mean forces along their first coordinate, by number.
+  std::map<Index, double> held = {};
 
   /// The outputs of each order, in which those of the first one come first; empty where it is that alone.
   std::vector<std::vector<ContactOutput>> outputs_of_orders = {};

@@ -307,7 +307,7 @@ Command::Action add_run(CLI::App& app) {
   command->add_flag(
       "--verify", options->verify,
       "Solve special points and samples of forced responses anew, with more harmonics and by integrating "
-      "the whole ring in time; writes DIR/verify.csv");
+      "the whole ring in time; writes DIR/verify.csv and DIR/offsets.csv");
   command->add_flag(
       "--certify", options->certify,
       "Prove by interval arithmetic that each branch exists as traced, has no other folds and was not "

@@ -49,7 +49,7 @@ def run(case, out=None, set=(), *, verify=False, certify=False, resume=None, pro
         Values in place of those of the case, "section.key=value", as `--set` takes them.
     verify : bool
         Solve special points and samples of forced responses anew, with more harmonics and by integrating the whole
-        ring in time: `verification` of each branch, and verify.csv.
+        ring in time: `verification` of each branch, and verify.csv and offsets.csv.
     certify : bool
         Prove each branch by interval arithmetic: `certificate` of each branch, which the summary has too.
     resume : path or Run, optional
@@ -140,7 +140,7 @@ class Run:
             self._core.write(os.fsdecode(folder))
         elif not (os.path.isdir(folder) and os.path.samefile(self._folder, folder)):
             os.makedirs(folder, exist_ok=True)
-            for name in ("branches.csv", "curves.csv", "summary.json", "verify.csv"):
+            for name in ("branches.csv", "curves.csv", "summary.json", "verify.csv", "offsets.csv"):
                 if os.path.exists(os.path.join(self._folder, name)):
                     shutil.copy(os.path.join(self._folder, name), folder)
 

@@ -10,6 +10,7 @@
 #include "arcslip/assembly/system.hpp"
 #include "arcslip/continuation/path/branch.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/problems/tasks/offset_bounds.hpp"
 #include "arcslip/time/ring_motion.hpp"
 
 namespace arcslip::problems {
@@ -41,6 +42,8 @@ struct Verification {
   double Y_harmonics;  ///< of the second solution
   double Y_time;       ///< by time integration
   double growth;       ///< of the worst disturbance in a period, |mu|: stable below 1; by time integration
+
+  std::optional<OffsetBounds> offsets = {};  ///< where contacts stick for ever
 };
 
 /// Which points are solved anew, and by what means.
