@@ -74,6 +74,9 @@ Correction Stepper::start_along(const Vector& unknowns, const Vector& parameters
   } else {  // a branch point: the direction is all there is
     step_.here.log_determinant = -std::numeric_limits<double>::infinity();
     monitors_.look(step_.here, step_.here.scale, step_.here.tangent, at_here_);
+    // What is the same on both sides has a slope of rounding, or a corner, as the greater of two equal
+    // values.
+    for (Monitor& monitor : at_here_) monitor.slope = std::numeric_limits<double>::quiet_NaN();
     bend_.setZero();
     step_.past.clear();
     revision_ = problem_.revision();

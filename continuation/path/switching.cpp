@@ -64,14 +64,93 @@ bool meets_others(const BranchPoint& point) {
   return point.type == PointType::branch_point || point.type == PointType::regime_switch;
 }
 
+/// A branch point as its own conditions have it, which hold it also across both branches, where a point of
+/// one of them alone is known to the root of rounding; the point itself where they do not find it there.
+Guess settled(const Problem& problem, Index active, const BranchPoint& point, const Tolerances& tolerances) {
+  Guess at{point.unknowns, point.parameters, point.regime, {}};
+  BranchPointProblem conditions(problem, active);
+  const auto located = locate(conditions, {at.unknowns, at.parameters, at.regime, Vector::Zero(1)});
+  if (!located) return at;
+  Vector scale(at.unknowns.size());
+  Vector parameter_scale(at.parameters.size());
+  problem.scale(at.unknowns, at.parameters, scale, parameter_scale);
+  const BasePoint& found = located->point;
+  const auto far = [](const Vector& a, const Vector& b, const Vector& size) {
+    return (a - b).cwiseQuotient(size).lpNorm<Eigen::Infinity>();
+  };
+  const bool is_there = far(found.unknowns, at.unknowns, scale) < tolerances.same_point &&
+                        std::abs(found.parameters(active) - at.parameters(active)) <
+                            tolerances.same_point * parameter_scale(active);
+  Vector before(problem.size());
+  Vector after(problem.size());
+  const bool has_values = problem.evaluate(at.unknowns, at.parameters, at.regime, {&before}) &&
+                          problem.evaluate(found.unknowns, found.parameters, at.regime, {&after});
+  if (!is_there || !has_values || after.lpNorm<Eigen::Infinity>() > before.lpNorm<Eigen::Infinity>())
+    return at;
+  return {found.unknowns, found.parameters, at.regime, {}};
+}
+
+/// Traces branches one after the other, each way once.
+class Network {
+ public:
+  Network(const Problem& problem, const TraceOptions& options, const Observer& observer)
+      : problem_(problem),
+        options_(options),
+        observer_(observer),
+        time_(options),
+        map_(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances) {}
+
+  /// Ways that leave the points of a branch, at branch points in both senses or, of images, in one.
+  void leave(const std::vector<BranchPoint>& points, bool images = false) {
+    for (const BranchPoint& point : points) {
+      if (meets_others(point)) map_.pass(point);
+    }
+    for (const BranchPoint& point : points) {
+      if (!meets_others(point)) continue;
+      std::vector<Guess> ways = other_ways(problem_, options_.parameter, point, options_.tolerances);
+      if (images && point.type == PointType::branch_point && ways.size() > 1) ways.resize(1);
+      for (Guess& way : ways) waiting_.push_back(std::move(way));
+    }
+  }
+
+  void follow(const Guess& guess) {
+    branches_.push_back(trace(problem_, guess, time_.rest(), observer_));
+    interrupted_ = is_unfinished(branches_.back().stop);
+    leave(branches_.back().points);
+  }
+
+  std::vector<Branch> all(const FollowOptions& follow_options) {
+    while (!waiting_.empty() && branches_.size() < follow_options.max_branches && !interrupted_) {
+      const Guess next = std::move(waiting_.front());
+      waiting_.pop_front();
+      Way way = map_.way(next.unknowns, next.parameters, next.direction);
+      if (map_.gone(way)) continue;
+      map_.go(std::move(way));
+      follow(next);
+    }
+    return std::move(branches_);
+  }
+
+ private:
+  const Problem& problem_;
+  const TraceOptions& options_;
+  const Observer& observer_;
+  TimeBudget time_;
+  Map map_;
+  std::vector<Branch> branches_;
+  std::deque<Guess> waiting_;
+  bool interrupted_ = false;
+};
+
 }  // namespace
 
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
                               const Tolerances& tolerances) {
   const Index active = index_of(problem.parameter_names(), parameter);
-  const Guess at{point.unknowns, point.parameters, point.regime, {}};
+  Guess at{point.unknowns, point.parameters, point.regime, {}};
   std::vector<Guess> ways;
   if (point.type == PointType::branch_point) {
+    at = settled(problem, active, point, tolerances);
     const auto form = branch_point_form(problem, active, at, tolerances);
     if (!form) return {};
     for (const Vector& direction : form->directions) {
@@ -92,33 +171,17 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
 
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow, const Observer& observer) {
-  const TimeBudget time(options);
-  Map map(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances);
-  std::vector<Branch> branches;
-  std::deque<Guess> waiting;
-  bool interrupted = false;
-  const auto collect = [&](Branch branch) {
-    interrupted = is_unfinished(branch.stop);
-    for (const BranchPoint& point : branch.points) {
-      if (meets_others(point)) map.pass(point);
-    }
-    for (const BranchPoint& point : branch.points) {
-      if (!meets_others(point)) continue;
-      for (Guess& way : other_ways(problem, options.parameter, point, options.tolerances))
-        waiting.push_back(std::move(way));
-    }
-    branches.push_back(std::move(branch));
-  };
-  collect(trace(problem, guess, options, observer));
-  while (!waiting.empty() && branches.size() < follow.max_branches && !interrupted) {
-    const Guess next = std::move(waiting.front());
-    waiting.pop_front();
-    Way way = map.way(next.unknowns, next.parameters, next.direction);
-    if (map.gone(way)) continue;
-    map.go(std::move(way));
-    collect(trace(problem, next, time.rest(), observer));
-  }
-  return branches;
+  Network network(problem, options, observer);
+  network.follow(guess);
+  return network.all(follow);
+}
+
+std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,
+                                  const TraceOptions& options, const FollowOptions& follow,
+                                  const Observer& observer) {
+  Network network(problem, options, observer);
+  network.leave(points, follow.images);
+  return network.all(follow);
 }
 
 std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,

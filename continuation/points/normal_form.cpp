@@ -196,8 +196,9 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
   result.kind = rates[1] < tolerances.turns ? BranchPointKind::pitchfork : BranchPointKind::transcritical;
   if (result.kind == BranchPointKind::pitchfork) {
     result.slopes[1] = 0;
-    const Vector v =
-        result.directions[1].head(n) / result.directions[1].head(n).cwiseQuotient(scale.head(n)).norm();
+    Vector& turning = result.directions[1];
+    turning -= turning(n) / result.directions[0](n) * result.directions[0];
+    const Vector v = turning.head(n) / turning.head(n).cwiseQuotient(scale.head(n)).norm();
     CubicTerm cubic(problem, parameter, extended, point);
     result.cubic = cubic.coefficient(v, result.directions[0]);
     result.evaluations += cubic.evaluations();

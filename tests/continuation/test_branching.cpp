@@ -90,6 +90,21 @@ TEST_CASE("A pitchfork is found, classified, and left along all its ways") {
   }
 }
 
+TEST_CASE("What leaves a branch is traced without it, and each way once") {
+  const ScalarProblem problem = pitchfork();
+  const TraceOptions options = over("lambda", -1, 1);
+  const Branch branch = trace(problem, {vector_of({0}), vector_of({-1})}, options);
+  std::vector<BranchPoint> points = of_type(branch, PointType::branch_point);
+  REQUIRE(points.size() == 1);
+  points.push_back(points.front());  // met twice
+  const std::vector<Branch> leaving = trace_leaving(problem, points, options);
+  REQUIRE(leaving.size() == 2);
+  for (const Branch& one : leaving) CHECK_THAT(std::abs(one.points.back().unknowns(0)), WithinRel(1.0, 1e-9));
+  CHECK(leaving[0].points.back().unknowns(0) == -leaving[1].points.back().unknowns(0));
+  CHECK(trace_leaving(problem, points, options, {.images = true}).size() == 1);
+  CHECK(trace_leaving(problem, {branch.points.front()}, options).empty());
+}
+
 TEST_CASE("A transcritical point has two branches with their slopes") {
   const double a = 0.5;
   const ScalarProblem problem = pitchfork(a);

@@ -17,12 +17,21 @@ std::vector<Guess> other_ways(const Problem& problem, const std::string& paramet
 /// What bounds the search.
 struct FollowOptions {
   std::size_t max_branches = 50;  ///< all of them together
+  /// Whether both senses in which a way leaves a given point are images of each other, by a symmetry that is
+  /// lost there: one is enough.
+  bool images = false;
 };
 
 /// A branch and all that can be reached from it through branch points and corners, each way once, in the
 /// order in which they are met. The first one is traced as `trace` does it.
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow = {}, const Observer& observer = {});
+
+/// The same without that branch, of which these are the special points: what leaves it there, and all that
+/// can be reached from that.
+std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<BranchPoint>& points,
+                                  const TraceOptions& options, const FollowOptions& follow = {},
+                                  const Observer& observer = {});
 
 /// The branches through solutions at one value of the parameter, as `solve_all` finds them, both ways, each
 /// branch once however many of the solutions it holds. Each gets a `user` point at the value.
