@@ -44,10 +44,10 @@ std::vector<int> other_orders(const SystemParameters& parameters) {
   const bool odd = all_odd(parameters.harmonics);
   const int most = odd ? 2 * most_harmonics - 1 : most_harmonics / 2 - 1;
   const int highest = highest_order(parameters.harmonics);
-  const auto up_to = [&](int other) { return odd ? odd_up_to(other) : all_up_to(other); };
+  const auto up_to = [&](int other) { return orders_up_to(other, parameters.periods(), odd); };
   if (2 * highest + 1 > most) return up_to(std::max(1, highest / 2));
   const int wide = std::min(4 * highest + 3, most);
-  const Index waves = parameters.elements / std::gcd(parameters.wave_number, parameters.elements);
+  const Index waves = parameters.elements / std::gcd(parameters.first_wave(), parameters.elements);
   return up_to(RingDisturbances::is_exact(waves, wide) ? wide : 2 * highest + 1);
 }
 
@@ -146,7 +146,7 @@ RingDisturbances::Disturbances FloquetOf<Motion>::found(const RingDisturbances& 
                                                         const Vector& p, const continuation::Regime& regime,
                                                         std::span<const StickPattern> contacts,
                                                         bool active) const {
-  RingDisturbances::Disturbances found = ring.at(this->frequency(u, p), contacts, active);
+  RingDisturbances::Disturbances found = ring.at(turns(u, p), contacts, active);
   const bool may_fold =
       std::any_of(found.all.begin(), found.all.end(), [](const auto& one) { return one.is_own; });
   if ((ring.is_balanced() && is_in_modes_) || !may_fold) return found;
@@ -227,7 +227,7 @@ Floquet::Worst FloquetOf<Motion>::worst(const Vector& u, const Vector& p,
       return a.exponent.real() < b.exponent.real();
     });
     if (most == all.end()) return {0, 0};
-    const double turns = this->frequency(u, p);
+    const double turns = this->turns(u, p);
     return {std::exp(two_pi * most->exponent.real() / turns), ring.wave_of(*most, turns, contacts)};
   });
 }
@@ -277,7 +277,7 @@ template <class Motion>
 auto FloquetOf<Motion>::nearest(const Guess& at, std::optional<Complex> turned) const
     -> std::optional<Followed> {
   const auto all = disturbances(at.unknowns, at.parameters, at.regime);
-  const double turns = this->frequency(at.unknowns, at.parameters);
+  const double turns = this->turns(at.unknowns, at.parameters);
   const auto distance = [&](const RingDisturbances::Disturbance& one) {
     return turned ? std::abs(ring_.given().turned(one, turns) - *turned) : std::abs(one.exponent.real());
   };
@@ -319,7 +319,7 @@ template class FloquetOf<HarmonicCycle>;
 std::set<Index> disturbed_waves(const SystemParameters& parameters) {
   std::set<Index> all;
   for (const std::vector<int>& orders : {parameters.harmonics, other_orders(parameters)})
-    all.merge(RingDisturbances::waves(parameters.wave_number, parameters.elements, orders));
+    all.merge(RingDisturbances::waves(parameters.first_wave(), parameters.elements, orders));
   return all;
 }
 

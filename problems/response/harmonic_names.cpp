@@ -6,6 +6,10 @@
 
 namespace arcslip::problems {
 
+std::string HarmonicProblem::name_of(const std::string& quantity, Index order) const {
+  return fmt::format("{}_h{}", quantity, system_.name(order));
+}
+
 /// What the contacts do, then what each further element does that is beyond its border, of several by number.
 std::string HarmonicProblem::describe(const continuation::Regime& regime) const {
   std::string name = slip_name(regime, contacts());
@@ -37,9 +41,8 @@ void HarmonicProblem::add_further_contacts() {
 
 void HarmonicProblem::add_other_harmonics() {
   for (Index a = 1; a < harmonics(); ++a) {
-    const int h = system_.orders[at(a)];
-    const auto name = [&](const char* quantity) { return fmt::format("{}_h{}", quantity, h); };
-    const Measure measure = h == 0 ? Measure::mean : Measure::amplitude;
+    const auto name = [&](const char* quantity) { return name_of(quantity, a); };
+    const Measure measure = system_.orders[at(a)] == 0 ? Measure::mean : Measure::amplitude;
     quantities_.push_back({name("R"), measure, Body::contact, 0, a});
     quantities_.push_back({name("Y"), measure, Body::base, 0, a});
     quantities_.push_back({name("U"), measure, Body::damper, 0, a});

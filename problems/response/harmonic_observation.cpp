@@ -100,8 +100,8 @@ class HarmonicProblem::Observation {
 
   double drift(Index coordinate) {
     const double v = drift_of(coordinate);
-    if (v != 0) add_motion(coordinate, problem_.rigid_.order(), Complex(0, 1));
-    return v;
+    if (v != 0) add_motion(coordinate, problem_.rigid_.order(), Complex(0, 1.0 / system_.periods()));
+    return v / system_.periods();
   }
 
   double lag_of(const Quantity& quantity) {
@@ -110,10 +110,11 @@ class HarmonicProblem::Observation {
     return lag(z);
   }
 
-  /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics.
+  /// E/(k S^2) of a contact, E = pi sum_h h Im(f_h conj(x_h)), since x has no other harmonics, in each of the
+  /// load's periods.
   double dissipated(Index contact) {
     const double S = problem_.slip_threshold(contact, u_, p_);
-    const double unit = problem_.reference_stiffness(contact, u_, p_) * S * S;
+    const double unit = system_.periods() * problem_.reference_stiffness(contact, u_, p_) * S * S;
     const ElementForce& element = elements_[at(contact)];
     if (gradient_ != nullptr) {
       const HarmonicVector x = problem_.motion(u_, p_, contact);
@@ -129,21 +130,22 @@ class HarmonicProblem::Observation {
     return element.energy / unit;
   }
 
-  /// E = pi sum_h h Im(f_h conj(x_h)) of an element, over all its coordinates.
+  /// E = pi sum_h h Im(f_h conj(x_h)) of an element, over all its coordinates, in each of the load's periods.
   double energy(Index of) {
     const ElementForce& element = elements_[at(of)];
+    const double part = 1.0 / system_.periods();
     const Index begin = problem_.coordinates_.first(of);
     const Index end = begin + problem_.coordinates_.element(of).coordinates();
     for (Index j = begin; j < end && gradient_ != nullptr; ++j) {
       const HarmonicVector x = problem_.motion(u_, p_, j);
       for (Index a = 0; a < problem_.harmonics(); ++a) {
-        const Complex per = Complex(0, pi * system_.orders[at(a)]);
+        const Complex per = Complex(0, part * pi * system_.orders[at(a)]);
         add_force(j, a, per * x(a));
         add_motion(j, a, -per * element.harmonics(problem_.place(j, a)));
       }
     }
-    if (gradient_ != nullptr) add_drift_energy(begin, 1);
-    return element.energy;
+    if (gradient_ != nullptr) add_drift_energy(begin, part);
+    return part * element.energy;
   }
 
   /// Adds so much of the energy of a drift, 2 pi v f_0.

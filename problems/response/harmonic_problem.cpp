@@ -8,7 +8,8 @@ namespace arcslip::problems {
 HarmonicProblem::HarmonicProblem(HarmonicSystem system, Layout layout)
     : system_(std::move(system)), coordinates_(system_), rigid_(system_, coordinates_), layout_(layout) {
   check(system_);
-  if (system_.orders.front() != 1) throw std::invalid_argument("HarmonicProblem: the first harmonic is 1");
+  if (system_.periods() < 1)
+    throw std::invalid_argument("HarmonicProblem: the first harmonic is that of eta");
   find_drifts();
 }
 
@@ -77,7 +78,7 @@ std::optional<ElementForce::Viscous> HarmonicProblem::viscous_of(const Element& 
                                                                  const Vector& p) const {
   const Jet damping = element.damping();
   if (damping.value == 0 && damping.first == 0) return std::nullopt;
-  return ElementForce::Viscous{damping, frequency(u, p), system_.orders};
+  return ElementForce::Viscous{damping, frequency(u, p), system_.periods(), system_.orders};
 }
 
 /// Known where the forces were last found, as at each point that a corrector ends on; else null.
@@ -112,7 +113,7 @@ void HarmonicProblem::set_damping(bool is_base, const Vector& u, const Vector& p
 
 void HarmonicProblem::respond(const ContactModes& structure, bool is_base, Index order, const Vector& u,
                               const Vector& p, Response& response) const {
-  const double h = system_.orders[at(order)];
+  const double h = system_.multiple(order);
   const double eta = frequency(u, p);
   const bool is_damped = layout_.damping.of != Place::nowhere;
   Variation here{.loss = structure.loss()};

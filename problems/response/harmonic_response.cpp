@@ -61,9 +61,8 @@ void HarmonicResponse::add_outputs_in_time() {
     if (output.is_lag) continue;
     quantities_.push_back({output.name + "_peak", Measure::greatest, Body::output, i});
     for (Index a = 1; a < harmonics(); ++a) {
-      const int h = system_.orders[at(a)];
-      quantities_.push_back({fmt::format("{}_h{}", output.name, h),
-                             h == 0 ? Measure::mean : Measure::amplitude, Body::output, i, a});
+      const Measure measure = system_.orders[at(a)] == 0 ? Measure::mean : Measure::amplitude;
+      quantities_.push_back({name_of(output.name, a), measure, Body::output, i, a});
     }
   }
 }
@@ -123,7 +122,7 @@ void HarmonicResponse::set_varied(Order& order, double frequency_value, const Ve
 
 void HarmonicResponse::set_order(Index which, const Vector& p, const continuation::Regime& regime,
                                  Order& order) const {
-  const double h = system_.orders[at(which)];
+  const double h = system_.multiple(which);
   ContactReceptance& joint = order.joint;
   order.which = which;
   if (is_varied()) {
@@ -358,7 +357,7 @@ std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, do
     for (const ContactModes* structure : {base, damper}) {
       for (const ContactMode& mode : structure->modes()) found.push_back(mode.frequency);
     }
-    for (const double value : found) values.push_back(value / system_.orders[at(a)]);
+    for (const double value : found) values.push_back(value / system_.multiple(a));
   }
   std::erase_if(values, [&](double value) { return !(value > from && value < to); });
   return values;

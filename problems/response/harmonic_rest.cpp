@@ -196,7 +196,7 @@ ComplexMatrix HarmonicResponse::drag(const Vector& p) const {
   const auto loss = [&](const ContactModes& structure) { return structure.loss().part_eta(0); };
   const Vector each =
       rigid_.of_each(loss(system_.base[at(rigid_.order())]), loss(system_.damper[at(rigid_.order())]));
-  return (p(eta) * each).asDiagonal() * rigid_.parts();
+  return (p(eta) / system_.periods() * each).asDiagonal() * rigid_.parts();
 }
 
 }  // namespace arcslip::problems

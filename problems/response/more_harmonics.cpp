@@ -10,11 +10,13 @@ using continuation::Guess;
 
 Guess carried(const HarmonicProblem& from, const Guess& at, const HarmonicProblem& to) {
   Guess guess{Vector::Zero(to.size()), at.parameters, at.regime};
+  const std::vector<int>& orders = to.system().orders;
   for (Index i = 0; i < from.coordinates(); ++i) {
     for (Index a = 0; a < from.harmonics(); ++a) {
-      const std::vector<int>& orders = to.system().orders;
-      const int order = from.system().orders[static_cast<std::size_t>(a)];
-      const auto place = std::find(orders.begin(), orders.end(), order) - orders.begin();
+      const int order = from.system().orders[static_cast<std::size_t>(a)] * to.system().periods();
+      if (order % from.system().periods() != 0) continue;
+      const auto place =
+          std::find(orders.begin(), orders.end(), order / from.system().periods()) - orders.begin();
       if (place == std::ssize(orders)) continue;
       guess.unknowns.segment<2>(2 * (i * to.harmonics() + place)) =
           at.unknowns.segment<2>(2 * (i * from.harmonics() + a));

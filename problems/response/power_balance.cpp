@@ -20,8 +20,9 @@ PowerBalance power_balance(const HarmonicResponse& problem, const Vector& u, con
   PowerBalance balance{0, forces.drag, 0, forces.energy, std::abs(forces.energy)};
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
     const int cycles = system.orders[a];
-    const CycleWork base = system.base[a].work(cycles * eta, forces.base[a]);
-    const CycleWork damper = system.damper[a].work(cycles * eta, forces.damper[a]);
+    const double frequency = system.multiple(static_cast<Index>(a)) * eta;
+    const CycleWork base = system.base[a].work(frequency, forces.base[a]);
+    const CycleWork damper = system.damper[a].work(frequency, forces.damper[a]);
     balance.input += cycles * base.load;
     balance.base += cycles * base.damping;
     balance.damper += cycles * damper.damping;
@@ -38,7 +39,7 @@ double motion_error(const HarmonicResponse& problem, const Vector& u, const Vect
   double gap = 0;
   double largest = 0;
   for (std::size_t a = 0; a < system.orders.size(); ++a) {
-    const double frequency = system.orders[a] * p(HarmonicResponse::eta);
+    const double frequency = system.multiple(static_cast<Index>(a)) * p(HarmonicResponse::eta);
     const ContactReceptance at_base = system.base[a].at(frequency);
     ContactVector base = at_base.free + at_base.compliance * forces.base[a];
     ContactVector damper = system.damper[a].at(frequency).compliance * forces.damper[a];

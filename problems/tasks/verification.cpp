@@ -71,7 +71,7 @@ TimedResponse in_time(const Ring& ring, const HarmonicResponse& problem, const G
   const SettledMotion found = shoot(motion, motion.travelling(ring_harmonics(problem, at)), sought);
   if (!(found.error < settled)) throw std::runtime_error("the motion does not settle");
   const double growth = floquet_stability(motion, found.state).growth();
-  HarmonicRecord record(motion, {1}, true);
+  HarmonicRecord record(motion, {ring.periods}, true);
   next_state(motion, found.state, &record);
   return {std::abs(record.base()(0)), growth};
 }
@@ -175,7 +175,13 @@ std::vector<Verification> verify(const SystemParameters& parameters, const std::
     if (options.progress && !options.progress(all.size(), points.size())) break;
     const BranchPoint& point = branch.points[i];
     const Guess at = known.at(point);
-    Verification one{i, first_harmonic(problem, at), power(problem, at).error(), highest, none, none, none};
+    Verification one{i,
+                     first_harmonic(problem, at),
+                     power(problem, at).error(),
+                     highest / parameters.periods(),
+                     none,
+                     none,
+                     none};
     const std::optional<Guess> better = solved_in_more(more, problem, at);
     if (better) one.Y_harmonics = first_harmonic(more, *better);
     if (ring && point.type != PointType::regular) {

@@ -1,7 +1,10 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +26,13 @@ double static_compliance(const ContactModes& structure, Index dof) {
 }
 
 }  // namespace
+
+std::string HarmonicSystem::name(Index order) const {
+  const int h = orders[static_cast<std::size_t>(order)];
+  const int common = std::gcd(h, periods());
+  return common < periods() ? fmt::format("{}/{}", h / common, periods() / common)
+                            : fmt::format("{}", h / common);
+}
 
 ContactSystem build_wave(const SystemParameters& parameters) {
   return structures_of(parameters).wave(parameters);
@@ -96,11 +106,12 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value) {
 
 SystemParameters in_order(const SystemParameters& parameters, int h) {
   SystemParameters wave = parameters;
-  if (h == 1) return wave;
-  wave.wave_number = h * parameters.wave_number % parameters.elements;
-  wave.eta_low = h * parameters.eta_low;
-  wave.eta_high = std::max(h, 1) * parameters.eta_high;
-  wave.force = parameters.force * parameters.excitation.share(h);
+  const int p = parameters.periods();
+  if (h == p) return wave;
+  wave.wave_number = h * parameters.first_wave() % parameters.elements;
+  wave.eta_low = h * parameters.eta_low / p;
+  wave.eta_high = std::max(h, 1) * parameters.eta_high / p;
+  wave.force = h % p == 0 ? parameters.force * parameters.excitation.share(h / p) : 0;
   wave.tells_lag = false;
   return wave;
 }
@@ -108,8 +119,9 @@ SystemParameters in_order(const SystemParameters& parameters, int h) {
 HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   HarmonicSystem system;
   for (const int h : parameters.harmonics) {
-    if (h == 1) {
+    if (h == parameters.periods()) {
       system = one_harmonic(build_wave(parameters));
+      system.orders = {h};
       continue;
     }
     ContactSystem of_order = build_wave(in_order(parameters, h));

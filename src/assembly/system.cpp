@@ -42,10 +42,29 @@ std::vector<int> all_up_to(int highest) {
   return orders;
 }
 
+std::vector<int> orders_up_to(int highest, int periods, bool odd) {
+  std::vector<int> orders =
+      odd ? odd_up_to(std::max(highest, periods)) : all_up_to(std::max(highest, periods));
+  if (periods == 1) return orders;
+  std::sort(orders.begin(), orders.end());
+  const auto first = std::find(orders.begin(), orders.end(), periods);
+  std::rotate(orders.begin(), first, first + 1);
+  return orders;
+}
+
 std::vector<int> orders_up_to(int highest, const SystemParameters& system) {
   const int most = most_orders(system);
-  if (is_odd(system) && all_odd(system.harmonics)) return odd_up_to(std::min(highest, 2 * most - 1));
-  return all_up_to(std::min(highest, most - 1));
+  const bool odd = is_odd(system) && all_odd(system.harmonics);
+  return orders_up_to(std::min(highest, odd ? 2 * most - 1 : most - 1), system.periods(), odd);
+}
+
+std::vector<Index> subharmonic_waves(Index wave_number, Index elements, int periods) {
+  std::vector<Index> waves;
+  for (Index turn = 0; turn < periods; ++turn) {
+    const Index all = wave_number + turn * elements;
+    if (all % periods == 0) waves.push_back(all / periods);
+  }
+  return waves;
 }
 
 int most_orders(const SystemParameters& system) {

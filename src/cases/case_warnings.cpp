@@ -69,7 +69,7 @@ bool resonates(const SystemParameters& system, const Range& range) {
   for (std::size_t i = 0; i < harmonics.orders.size(); ++i) {
     const ContactSystem wave{harmonics.base[i], harmonics.damper[i], harmonics.contacts};
     for (const Resonance& one : meant_resonances(system, wave)) {
-      const double eta = one.eta / harmonics.orders[i];
+      const double eta = one.eta / harmonics.multiple(static_cast<Index>(i));
       if (eta >= range.first && eta <= range.second) return true;
     }
   }

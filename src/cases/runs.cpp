@@ -289,7 +289,8 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
                                 const TimeBudget& time) {
   constexpr int least = 15;
   SystemParameters wide = system;
-  wide.harmonics = orders_up_to(std::max(2 * highest_order(system.harmonics) + 1, least), system);
+  wide.harmonics =
+      orders_up_to(std::max(2 * highest_order(system.harmonics) + 1, least * system.periods()), system);
   const problems::HarmonicResponse problem(build_harmonic_system(wide));
   const problems::HarmonicResponse traced(build_harmonic_system(system));
   Vector residual(problem.size());
@@ -314,10 +315,11 @@ std::vector<int> missing_orders(const SystemParameters& system, const Branch& br
 }
 
 void add_orders(std::vector<int>& orders, const std::vector<int>& more) {
+  const int of_load = orders.front();
   orders.insert(orders.end(), more.begin(), more.end());
   std::sort(orders.begin(), orders.end());
   orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
-  const auto first = std::find(orders.begin(), orders.end(), 1);
+  const auto first = std::find(orders.begin(), orders.end(), of_load);
   std::rotate(orders.begin(), first, first + 1);
 }
 

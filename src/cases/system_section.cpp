@@ -74,29 +74,62 @@ void read_orders(S& settings, const TomlSection& section) {
   }
 }
 
-/// Adds the mean and the even harmonics that elements which are not odd call for.
+constexpr Index most_periods = 12;
+
+/// On how many waves a response over several periods travels in its harmonic 1.
+Index read_subharmonic_wave(const TomlSection& section, const SystemParameters& system, int periods) {
+  const std::vector<Index> waves = subharmonic_waves(system.wave_number, system.elements, periods);
+  if (waves.empty())
+    section.fail("periods",
+                 fmt::format("a response over {0} periods does not travel as the load does: no whole "
+                             "number m of waves has {0} m = {1} modulo {2}",
+                             periods, system.wave_number, system.elements));
+  if (!section.has("subharmonic_wave")) return waves.front();
+  const Index given = section.integer("subharmonic_wave", at_least(0));
+  if (std::find(waves.begin(), waves.end(), given) == waves.end())
+    section.mismatch("subharmonic_wave", fmt::format("{}", fmt::join(waves, " or ")));
+  return given;
+}
+
+/// Adds the mean and the even harmonics that elements which are not odd, or the case, call for, and those
+/// between of a response over several periods.
 void complete_orders(const TomlSection& section, SystemParameters& system) {
   const toml::node* node = section.has("harmonics") ? &section.require("harmonics", "") : nullptr;
   const auto highest = static_cast<int>(node != nullptr ? node->value<Index>().value_or(1) : 1);
   const bool is_listed = node != nullptr && node->is_array();
-  if (is_odd(system)) {
-    if (highest % 2 == 0) refuse_orders(section);
-  } else {
-    if (!is_listed) system.harmonics = all_up_to(highest);
-    if (std::find(system.harmonics.begin(), system.harmonics.end(), 0) == system.harmonics.end())
+  const auto periods = static_cast<int>(
+      section.has("periods")
+          ? section.integer("periods", within(1, most_periods, fmt::format(" >= 1 and <= {}", most_periods)))
+          : 1);
+  const bool even = section.has("even_harmonics") && section.boolean("even_harmonics");
+  const bool odd = is_odd(system) && !even && periods % 2 == 1;
+  if (is_listed) {
+    for (const char* key : {"even_harmonics", "periods", "subharmonic_wave"}) {
+      if (section.has(key)) section.fail(key, "not beside a list of harmonics");
+    }
+    if (!is_odd(system) && place_of_mean(system.harmonics) == std::ssize(system.harmonics))
       section.fail("harmonics", "expected 0 among them, the mean, as elements are not odd");
+  } else {
+    if (odd && highest % 2 == 0) refuse_orders(section);
+    system.harmonics = orders_up_to(highest * periods, periods, odd);
+  }
+  if (periods > 1) {
+    system.subharmonic_wave = read_subharmonic_wave(section, system, periods);
+  } else if (section.has("subharmonic_wave")) {
+    section.fail("subharmonic_wave", "only beside periods > 1");
   }
   if (std::ssize(system.harmonics) > most_orders(system))
-    section.fail(
-        "harmonics",
-        fmt::format("expected at most {} of them beside elements that {}, got {}", most_orders(system),
-                    is_odd(system) ? "slide along two dofs" : "close", system.harmonics.size()));
+    section.fail("harmonics", fmt::format("expected at most {} of them{}, got {}", most_orders(system),
+                                          most_orders(system) == most_harmonics ? ""
+                                          : is_odd(system) ? " beside elements that slide along two dofs"
+                                                           : " beside elements that close",
+                                          system.harmonics.size()));
 }
 
 /// Refuses structures that cannot travel as the waves of the harmonics.
 void check_waves(const TomlSection& section, const SystemParameters& system) {
   for (const int h : system.harmonics) {
-    const Index wave = h * system.wave_number % system.elements;
+    const Index wave = h * system.first_wave() % system.elements;
     try {
       structures_of(system).check(wave, system.elements);
     } catch (const std::invalid_argument& error) {
@@ -205,6 +238,9 @@ std::vector<K> shared_keys() {
   const auto needs_preload = [](const S& settings, const TomlSection&) {
     return !settings.has_geometry && settings.use->parameter != "P";
   };
+  const auto is_response = [](const S& settings, const TomlSection&) {
+    return !settings.use->linear_passive;
+  };
   const auto is_auto = [](const S& settings, const TomlSection&) {
     return settings.harmonics_tolerance.has_value();
   };
@@ -219,6 +255,21 @@ std::vector<K> shared_keys() {
                  "the harmonics in which friction is balanced: all odd ones up to this, or those listed; "
                  "beside elements that are not odd the mean 0 and the even ones as well",
                  read_orders, resolved([](const S&) { return 1; })),
+      K::special(
+          "even_harmonics", "true or false",
+          "balance the mean 0 and the even harmonics beside odd elements, too: for responses whose half "
+          "periods differ",
+          {}, otherwise("false"), resolved([](const S& settings) { return !all_odd(settings.harmonics); })),
+      K::special("periods", fmt::format("integer >= 1 and <= {}", most_periods),
+                 "p: the response repeats itself after so many periods of the load, and has the harmonics of "
+                 "eta/p up to `harmonics` eta; where periods double, `switching` reaches it",
+                 {}, otherwise("1"), resolved([](const S& settings) { return settings.periods(); }),
+                 only("not of studies, whose responses repeat themselves with the load", is_response,
+                      "not of studies")),
+      K::special(
+          "subharmonic_wave", "integer",
+          "m, on how many waves the harmonic of eta/p travels: p m = n modulo N; only beside periods > 1", {},
+          otherwise("the least")),
       K("harmonics_tolerance", &S::harmonics_tolerance, within(1e-9, 0.1, " >= 1e-9 and <= 0.1"),
         "the largest harmonic left out, relative to R", only(R"(only beside harmonics = "auto")", is_auto),
         otherwise(fmt::format("{}", usual_harmonics_tolerance)))};

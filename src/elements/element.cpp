@@ -31,14 +31,14 @@ void ElementForce::scale(double factor, bool derivatives) {
 }
 
 void ElementForce::add(const Viscous& viscous, const HarmonicVector& x, bool derivatives) {
-  const auto& [damping, eta, orders] = viscous;
+  const auto& [damping, eta, periods, orders] = viscous;
   if (derivatives) by_eta.setZero(x.size());
   if (derivatives && damping.first != 0 && by_setting.size() == 0) by_setting.setZero(x.size());
   for (Index a = 0; a < x.size(); ++a) {
-    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)]);
+    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)] / periods);
     const Complex force = damping.value * eta * rate * x(a);
     harmonics(a) += force;
-    energy += 0.5 * std::real(force * std::conj(rate * x(a)));  // pi h Im(f conj x)
+    energy += 0.5 * periods * std::real(force * std::conj(rate * x(a)));  // pi h Im(f conj x)
     if (!derivatives) continue;
     linear(a, a) += damping.value * eta * rate;
     by_eta(a) = damping.value * rate * x(a);
@@ -48,10 +48,10 @@ void ElementForce::add(const Viscous& viscous, const HarmonicVector& x, bool der
 
 void ElementForce::add_change(const Viscous& viscous, const HarmonicVector& x, const HarmonicVector& dx,
                               double deta, double setting) {
-  const auto& [damping, eta, orders] = viscous;
+  const auto& [damping, eta, periods, orders] = viscous;
   by_eta.resize(x.size());
   for (Index a = 0; a < x.size(); ++a) {
-    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)]);
+    const Complex rate(0, two_pi * orders[static_cast<std::size_t>(a)] / periods);
     const Complex per_eta = damping.value * rate;  // of linear
     const Complex per_setting = damping.first * eta * rate;
     harmonics(a) += per_eta * x(a) * deta;

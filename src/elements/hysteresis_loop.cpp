@@ -76,7 +76,7 @@ void HysteresisLoop::force(HarmonicVector& harmonics) const {
   for (Index a = 0; a < count; ++a)
     harmonics(a) = mismatch_ * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * begin_);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
-    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * highest_order(orders));
     for (Index b = 0; b < count; ++b) {
       const int l = orders[static_cast<std::size_t>(b)];
       const Complex velocity = 0.5 * l * j * r(b);
@@ -95,7 +95,7 @@ void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate)
   linear.setZero(count, count);
   conjugate.setZero(count, count);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
-    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * orders.back());
+    const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * highest_order(orders));
     for (Index b = 0; b < count; ++b) {
       const int l = orders[static_cast<std::size_t>(b)];
       const Complex turn = std::polar(1.0, l * stick_[arc].begin);
@@ -119,7 +119,7 @@ void HysteresisLoop::second(const HarmonicVector& motion, double threshold, Comp
   conjugate.setZero(count, count);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
     const auto [begin, width, before, behind] = stick_[arc];
-    const ArcIntegrals integral(begin, width, orders.back());
+    const ArcIntegrals integral(begin, width, highest_order(orders));
     const double shift = change.slopes(begin).first / motion_.slopes(begin).second;
     const double end = begin + width;
     const double slip = behind == 0 ? 0

@@ -84,7 +84,7 @@ void HystereticElement::force(std::span<const int> orders, const HarmonicVector&
 
 void HystereticElement::at(std::span<const int> orders, const HarmonicVector& x, double setting,
                            bool derivatives, ElementForce& out) const {
-  const Index least = samples_of_harmonic * orders.back();
+  const Index least = samples_of_harmonic * highest_order(orders);
   const CycleTurn turn(orders, x, std::max(law_->samples(), least));
   CycleSamples samples;
   law_->at(turn.x(), derivatives ? turn.ways() : Matrix(), setting, derivatives, samples);

@@ -89,7 +89,7 @@ struct SampledMeans {
 /// `terms` gives what is averaged over a turn.
 template <class Terms>
 SampledMeans settled_means(std::span<const int> orders, const HarmonicVector& x, const Terms& terms) {
-  const int highest = orders.back();
+  const int highest = highest_order(orders);
   Index count = 32;
   while (count < 4 * highest) count *= 2;
   const auto angles = [&](double shift) -> Vector {

@@ -18,6 +18,10 @@ void each_harmonic(std::span<const int> orders, const HarmonicVector& coefficien
   Complex power = turn;
   int reached = 1;
   for (std::size_t a = 0; a < orders.size(); ++a) {
+    if (reached > orders[a]) {
+      power = turn;
+      reached = 1;
+    }
     for (; reached < orders[a]; reached += 2) power *= two_turns;
     use(static_cast<double>(orders[a]), coefficients(static_cast<Index>(a)), power);
   }

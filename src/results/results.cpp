@@ -109,6 +109,14 @@ ordered_json modes_to_json(const std::vector<PartModes>& found) {
   return parts;
 }
 
+/// In multiples of eta.
+ordered_json harmonics_of(const std::vector<int>& orders) {
+  if (orders.front() == 1) return orders;
+  std::vector<double> multiples;
+  for (const int h : orders) multiples.push_back(static_cast<double>(h) / orders.front());
+  return multiples;
+}
+
 }  // namespace
 
 ordered_json summarize(std::size_t number, const TracedBranch& traced) {
@@ -124,7 +132,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const SystemParameters& system = traced.request->problem.system;
   const std::vector<PartModes> found = structures_of(system).modes(system);
   if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
-  if (traced.request->problem.model == nullptr) summary["harmonics"] = traced.base.harmonics;
+  if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(traced.base.harmonics);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
   if (why_not_verifiable(*traced.request).empty()) {
     const std::optional<problems::BalanceErrors> errors = problems::largest_errors(
@@ -205,7 +213,10 @@ std::string describe_modes(const SystemParameters& system) {
 std::string describe_harmonics(const TracedBranch& traced) {
   const std::vector<int> orders = traced.base.harmonics;
   if (orders.size() == 1) return "";
-  return fmt::format("{} harmonics, up to {}\n", orders.size(), highest_order(orders));
+  const int periods = orders.front();
+  const std::string over =
+      periods > 1 ? fmt::format(" of a response over {} periods of the load", periods) : "";
+  return fmt::format("{} harmonics{}, up to {}\n", orders.size(), over, highest_order(orders) / periods);
 }
 
 }  // namespace arcslip

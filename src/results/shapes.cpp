@@ -193,13 +193,15 @@ std::vector<RingShapes::Shape> RingShapes::response(const std::vector<ContactSys
   const double eta = at.parameters(problems::HarmonicResponse::eta);
   std::vector<Shape> shapes;
   for (std::size_t a = 0; a < waves.size(); ++a) {
-    const int h = problem.system().orders[a];
-    Shape& shape = shapes.emplace_back(Shape{fmt::format("harmonic_{}", h), h, {}});
+    const HarmonicSystem& system = problem.system();
+    Shape& shape = shapes.emplace_back(
+        Shape{fmt::format("harmonic_{}", system.name(static_cast<Index>(a))), system.orders[a], {}});
     auto output = waves[a].outputs.begin();
     for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
       shape.motion[part].resize(parts_[part].dofs);
       for (Complex& motion : shape.motion[part])
-        motion = (output++)->motion(h * eta, (part == 0 ? forces.base : forces.damper)[a]);
+        motion = (output++)->motion(system.multiple(static_cast<Index>(a)) * eta,
+                                    (part == 0 ? forces.base : forces.damper)[a]);
     }
   }
   return shapes;
@@ -237,7 +239,7 @@ std::string RingShapes::vectors(const Shape& shape) const {
     }
     for (Index sector = 0; sector < system_.elements; ++sector) {
       const double angle = two_pi * static_cast<double>(sector) / static_cast<double>(system_.elements);
-      const Index waves = shape.order * system_.wave_number % system_.elements;
+      const Index waves = shape.order * system_.first_wave() % system_.elements;
       const Complex lag = std::polar(1.0, -angle * static_cast<double>(waves));
       for (const auto& move : moves) {
         const auto at = turned(move, turn_ * angle);

@@ -82,7 +82,7 @@ DisturbanceFlow::DisturbanceFlow(const HarmonicSystem& system, int highest)
       modal_states_ += 2 * parts(static_cast<Index>(a));
     }
   }
-  const Index n = points_for(std::max(orders_.back(), highest));
+  const Index n = points_for(std::max(highest_order(orders_), highest));
   places_ = chebyshev_points(n);
   weights_ = chebyshev_weights(n);
   derivative_ = chebyshev_derivative(places_);

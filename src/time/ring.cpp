@@ -161,7 +161,7 @@ class Builder {
     SystemParameters of_order = in_order(parameters_, order);
     if (of_order.force == 0) return;
     of_order.eta_low = parameters_.eta_low;  // the same modes as the ring has
-    of_order.eta_high = parameters_.eta_high * highest_order(parameters_.harmonics);
+    of_order.eta_high = parameters_.eta_high * highest_order(parameters_.harmonics) / parameters_.periods();
     const Index nodes = ring_.nodes();
     const Index forward = of_order.wave_number % nodes;
     const Index wave = std::min(forward, nodes - forward);
@@ -291,7 +291,8 @@ Ring build_ring(const SystemParameters& given) {
   for (Index c = 0; c < coordinates.size(); ++c) rows.push_back(coordinates[c]);
   Ring ring;
   ring.node_count = parameters.elements;
-  ring.wave_number = parameters.wave_number;
+  ring.wave_number = parameters.first_wave();
+  ring.periods = parameters.periods();
   ring.preload_growth = parameters.preload_growth;
   add_elements(coordinates, ring);
   const RingWaves waves = ring_waves(parameters, highest_order(parameters.harmonics));

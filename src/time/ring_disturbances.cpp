@@ -31,7 +31,7 @@ HarmonicSystem even_system(const HarmonicSystem& system, const RingWaves& waves)
   HarmonicSystem even;
   even.contacts = system.contacts;
   even.others = system.others;
-  for (int h = 0; h <= system.orders.back() + 1; h += 2) {
+  for (int h = 0; h <= highest_order(system.orders) + 1; h += 2) {
     RingWaves::Structures under = waves.structures(h * waves.wave_number());
     even.orders.push_back(h);
     even.base.push_back(std::move(under.base));

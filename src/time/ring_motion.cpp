@@ -47,8 +47,8 @@ Index series_order(double reach_of_step) {
 
 RingMotion::RingMotion(const Ring& ring, double eta, double preload)
     : ring_(ring),
-      frequency_(two_pi * eta),
-      period_(1 / eta),
+      frequency_(two_pi * eta / ring.periods),
+      period_(ring.periods / eta),
       load_(preload + ring.preload_growth * eta * eta),
       fastest_load_(frequency_),
       sizes_(ring.motion.cwiseAbs()) {

@@ -141,8 +141,8 @@ std::vector<Oscillator> RingWaves::at(Index wave, std::span<const Coordinate> ot
 RingWaves ring_waves(const SystemParameters& parameters, int highest) {
   SystemParameters wide = parameters;
   wide.force = 0;
-  wide.eta_high *= highest;
-  return {parameters.wave_number, parameters.elements, [wide](Index wave) {
+  wide.eta_high = wide.eta_high * highest / parameters.periods();
+  return {parameters.first_wave(), parameters.elements, [wide](Index wave) {
             SystemParameters one = wide;
             one.wave_number = wave;
             ContactSystem system = build_wave(one);

@@ -5,9 +5,13 @@
 // h eta, and each has its own compliance, whatever N is:
 //
 //   r_h + C_h k f_h(r) = -y_0 delta_h1,   C_h(eta) = C_B(h eta; h a) + C_D(h eta; h a).
+//
+// A response that repeats itself after p periods of the load alone has harmonics h of eta/p, of which the
+// load acts in that of h = p, and travels on m waves, p m = n modulo N, with a of m.
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "arcslip/assembly/coordinates.hpp"
@@ -20,8 +24,8 @@ struct SystemParameters;
 
 /// All that a response in several harmonics needs to know.
 struct HarmonicSystem {
-  std::vector<int> orders;                     ///< h: of a response 1 first, then ascending, perhaps from 0
-  std::vector<ContactModes> base;              ///< of each order, with the load that it has
+  std::vector<int> orders;         ///< h: of a response p first, 1 as a rule, then ascending, perhaps from 0
+  std::vector<ContactModes> base;  ///< of each order, with the load that it has
   std::vector<ContactModes> damper;            ///< of each order, without load
   std::vector<SectorContact> contacts;         ///< in the order of the structures' own
   double preload_growth = 0;                   ///< P_2 of the preload P + P_2 eta^2
@@ -37,6 +41,17 @@ struct HarmonicSystem {
 
   /// The outputs of each order, in which those of the first one come first; empty where it is that alone.
   std::vector<std::vector<ContactOutput>> outputs_of_orders = {};
+
+  /// p: eta is the frequency of this harmonic.
+  int periods() const { return orders.front(); }
+
+  /// What eta is multiplied by in the harmonic at this position among the orders.
+  double multiple(Index order) const {
+    return static_cast<double>(orders[static_cast<std::size_t>(order)]) / periods();
+  }
+
+  /// The same as text, "3" or "3/2".
+  std::string name(Index order) const;
 
   /// An output in the harmonic at this position among the orders.
   const ContactOutput& output(Index which, Index order) const {
@@ -59,7 +74,7 @@ double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinat
 /// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
 ContactSystem build_wave(const SystemParameters& parameters);
 
-/// The system whose first harmonic is the harmonic h of another: its wave, load and window of eta.
+/// The system whose load acts in the harmonic h of another: its wave, load and window of eta.
 SystemParameters in_order(const SystemParameters& parameters, int h);
 
 /// A system in the first harmonic alone.

@@ -80,7 +80,10 @@ struct SystemParameters {
   double cubic_stiffness = 0;  ///< of springs from the base's nodes to ground: N k_3/K*
   double preload_growth = 0;   ///< P_2 of the preload P + P_2 eta^2, which grows with the speed of rotation
   bool one_way = false;        ///< friction acts on the damper and not back on the base
-  std::vector<int> harmonics = {1};        ///< h in which friction is balanced, 1 first, then ascending
+  /// h in which friction is balanced, in parts of the load's frequency: that in which it acts first, p if the
+  /// response repeats itself after p of its periods, then ascending.
+  std::vector<int> harmonics = {1};
+  Index subharmonic_wave = 0;  ///< m, if p > 1: on how many waves the harmonic 1 travels, p m = n modulo N
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
   std::vector<WantedOutput> wanted = {};   ///< of rods and beams the dofs of an element, else the masses
   Excitation excitation{nullptr, {}};      ///< the load's harmonics, of which the balanced ones act
@@ -94,6 +97,12 @@ struct SystemParameters {
   std::vector<SectorContact> contacts = {};  ///< theirs, one or several
   double eta_low = 0;                        ///< window of eta in which they must give the response
   double eta_high = 0;
+
+  /// p.
+  int periods() const { return harmonics.front(); }
+
+  /// On how many waves the harmonic 1 travels.
+  Index first_wave() const { return periods() == 1 ? wave_number : subharmonic_wave; }
 
   /// Whether elements act beside the contacts.
   bool has_others() const { return has_cubic_springs() || !others.empty(); }
@@ -114,9 +123,19 @@ std::string setting_name(const SystemParameters& parameters, std::size_t i, std:
 /// 1, 3, ..., `highest`.
 std::vector<int> odd_up_to(int highest);
 
-/// The same with 0 and the even ones between or, of a system whose elements are odd, without: 1, 0, 2, 3, ...
+/// The same with 0 and the even ones between: 1, 0, 2, 3, ...
 std::vector<int> all_up_to(int highest);
+
+/// The orders up to `highest`, or to p, that a response over p periods of the load takes, p first: all of
+/// them or, of one that is odd, the odd ones.
+std::vector<int> orders_up_to(int highest, int periods, bool odd);
+
+/// Those of a system, as many as may be balanced: as its own orders are.
 std::vector<int> orders_up_to(int highest, const SystemParameters& system);
+
+/// On how many of `elements` nodes' waves m the harmonic 1 of a response over p periods of a load of n waves
+/// may travel: all m with p m = n modulo N, ascending.
+std::vector<Index> subharmonic_waves(Index wave_number, Index elements, int periods);
 
 /// How many harmonics may be balanced.
 int most_orders(const SystemParameters& system);

@@ -71,7 +71,7 @@ std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::O
 std::vector<int> missing_orders(const SystemParameters& system, const continuation::Branch& branch,
                                 double tolerance, const continuation::TimeBudget& time);
 
-/// Adds orders to others, each once; 1 is the first, the rest ascends.
+/// Adds orders to others, each once; the first one stays the first, the rest ascends.
 void add_orders(std::vector<int>& orders, const std::vector<int>& more);
 
 }  // namespace arcslip

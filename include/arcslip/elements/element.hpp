@@ -39,10 +39,11 @@ struct ElementForce {
   /// By a factor on the force.
   void scale(double factor, bool derivatives);
 
-  /// A force c dx/dt in time t, of which a period is 1/eta; one coordinate.
+  /// A force c dx/dt in time t, of which a period is p/eta; one coordinate.
   struct Viscous {
     Jet damping;                  ///< c
-    double eta;                   ///< frequency
+    double eta;                   ///< frequency of the harmonic p
+    int periods;                  ///< p
     std::span<const int> orders;  ///< h
   };
 

@@ -33,7 +33,7 @@ struct Angles {
 /// Looks at coefficients that somebody else owns.
 class OddMotion {
  public:
-  /// `orders` are the h, odd and ascending, with one coefficient each. Both must outlive the motion.
+  /// `orders` are the h, odd and different, with one coefficient each. Both must outlive the motion.
   OddMotion(std::span<const int> orders, const HarmonicVector& coefficients);
 
   /// What it was made of.

@@ -49,7 +49,7 @@ struct UnseenMotion {
   double damping;    ///< as in D
 };
 
-/// Modal form of the ring; D coordinates, N nodes. Time is nondimensional: one period is 1/eta.
+/// Modal form of the ring; D coordinates, N nodes. Time is nondimensional: one period is p/eta.
 struct Ring {
   Vector stiffness;           ///< D: diagonal of W, squares of the circular frequencies 2 pi eta_k
   Vector damping;             ///< D: diagonal of D
@@ -62,6 +62,7 @@ struct Ring {
   Index node_count;                         ///< N
   Index wave_number;                        ///< n
   double preload_growth;                    ///< P_2
+  int periods = 1;                          ///< p, of those in which harmonics are told
   std::vector<RingElements> elements = {};  ///< that act
   std::vector<RingLoad> loads = {};         ///< that act
   std::vector<UnseenMotion> unseen = {};    ///< of the load's harmonics

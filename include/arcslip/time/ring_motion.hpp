@@ -23,7 +23,7 @@ namespace arcslip {
 /// All that the future depends on. Of each kind of element in turn, node by node: its phases and each number
 /// of its memory, of a contact the place of its slider.
 struct RingState {
-  double time = 0;         ///< t, of which a period is 1/eta
+  double time = 0;         ///< t, of which a period is p/eta
   Vector position;         ///< D
   Vector velocity;         ///< D
   Vector memory;           ///< M
@@ -115,7 +115,7 @@ class RingMotion {
 
   /// What moves, and at what frequency and load P + P_2 eta^2.
   const Ring& ring() const { return ring_; }
-  double frequency() const { return frequency_; }  ///< w* = 2 pi eta
+  double frequency() const { return frequency_; }  ///< w* = 2 pi eta/p
   double period() const { return period_; }
   double load() const { return load_; }
   double fastest_rate() const { return rate_; }  ///< a bound on the moduli of eigenvalues, in any phases

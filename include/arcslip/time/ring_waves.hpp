@@ -69,8 +69,8 @@ class RingWaves {
   Build build_;
 };
 
-/// Those of a system of rods, beams or sectors; of sectors with the modes that serve up to `highest` times
-/// the window of eta. `at` throws SectorError.
+/// Those of a system of rods, beams or sectors; of sectors with the modes that serve up to its harmonic
+/// `highest` in the window of eta. `at` throws SectorError.
 RingWaves ring_waves(const SystemParameters& parameters, int highest);
 
 }  // namespace arcslip

@@ -121,6 +121,10 @@ class FloquetOf : public Motion, public Floquet {
  private:
   static constexpr bool is_cycle = std::is_base_of_v<FreeVibration, Motion>;
 
+  /// How often the motion repeats itself in a unit of time.
+  double turns(const Vector& u, const Vector& p) const {
+    return this->frequency(u, p) / this->system().periods();
+  }
   DisturbedLaw law(Index element, const Vector& u, const Vector& p, const continuation::Regime& regime) const;
   std::vector<StickPattern> patterns(const Vector& u, const Vector& p,
                                      const continuation::Regime& regime) const;

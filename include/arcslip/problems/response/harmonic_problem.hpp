@@ -134,6 +134,10 @@ class HarmonicProblem : public continuation::Problem {
   void add_further_elements();
   void add_drifts();
 
+  /// What a quantity is called in a harmonic: "Y_h3", over p = 2 periods of the load "Y_h3/2" in that of h
+  /// = 3.
+  std::string name_of(const std::string& quantity, Index order) const;
+
   /// What stands there; 0 of what stands nowhere.
   double value(const Place& place, const Vector& u, const Vector& p) const {
     return place.of == Place::unknowns ? u(place.index) : place.of == Place::parameters ? p(place.index) : 0;

@@ -8,7 +8,8 @@
 
 namespace arcslip::problems {
 
-/// The same motion in the harmonics of another problem, those that are new being zero.
+/// The same motion in the harmonics of another problem, maybe over more periods of the load, those that are
+/// new being zero.
 continuation::Guess carried(const HarmonicProblem& from, const continuation::Guess& at,
                             const HarmonicProblem& to);
 
