@@ -12,6 +12,7 @@
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
+#include "cases/departures.hpp"
 
 namespace arcslip {
 namespace {
@@ -353,8 +354,16 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
   const auto kept = std::make_shared<const CaseBranch>(request);
   const TimeBudget time(request.options);
-  return request.problem.harmonics_tolerance ? trace_balanced(kept, time, observer)
-                                             : trace_given(kept, time, observer);
+  std::vector<TracedBranch> traced = request.problem.harmonics_tolerance
+                                         ? trace_balanced(kept, time, observer)
+                                         : trace_given(kept, time, observer);
+  const auto is_left = [](const TracedBranch& one) { return is_unfinished(one.branch.stop); };
+  const bool goes_on = request.switching && request.problem.stability &&
+                       !request.problem.response->has_own_frequency() &&
+                       std::none_of(traced.begin(), traced.end(), is_left);
+  if (!goes_on) return traced;
+  for (TracedBranch& one : trace_departures(traced, time, observer)) traced.push_back(std::move(one));
+  return traced;
 }
 
 }  // namespace arcslip
