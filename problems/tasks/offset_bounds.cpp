@@ -188,7 +188,7 @@ std::optional<OffsetBounds> offset_bounds(const SystemParameters& parameters, co
     HarmonicSystem system = problem.system_at(at.parameters, varied);
     if (all_odd(orders)) {
       SystemParameters with_mean = parameters;
-      with_mean.harmonics = all_up_to(highest_order(orders));
+      with_mean.harmonics = orders_up_to(highest_order(orders), parameters.periods(), false);
       system = build_harmonic_system(with_mean);
       if (system.varied) system = at_value(system, at.parameters(HarmonicResponse::further));
     }

@@ -256,4 +256,10 @@ void PressedArcs::add(double begin, double width) {
   arcs_.back().width = width;
 }
 
+double fraction_of(std::span<const PressedArcs::Arc> arcs, PressedArcs::Phase phase) {
+  double sum = 0;
+  for (const PressedArcs::Arc& arc : arcs) sum += arc.phase == phase ? arc.width : 0;
+  return sum / two_pi;
+}
+
 }  // namespace arcslip

@@ -52,8 +52,8 @@ class PressedIntegrals {
     out.tangential = settings_.tangential_stiffness * stuck_ + settings_.friction * slipped_;
     for (const auto& [arc, constant] : held_) out.tangential -= arc.offset * constant;
     out.normal = touch_.harmonics(press_, orders_);
-    out.slip_fraction = fraction(Phase::slip);
-    out.apart_fraction = fraction(Phase::apart);
+    out.slip_fraction = fraction_of(arcs_, Phase::slip);
+    out.apart_fraction = fraction_of(arcs_, Phase::apart);
     normal_range(out);
   }
 
@@ -113,13 +113,6 @@ class PressedIntegrals {
       rate += settings_.tangential_stiffness * (ramps_[i] - held_[i].arc.anchor * held_[i].constant);
     out.tangential_by_sliding.linear.col(mean) -= Complex(0, 0.5) * rate;
     out.tangential_by_sliding.conjugate.col(mean) += Complex(0, 0.5) * rate;
-  }
-
-  /// Of the period in this phase.
-  double fraction(Phase phase) const {
-    double sum = 0;
-    for (const PressedArcs::Arc& arc : arcs_) sum += arc.phase == phase ? arc.width : 0;
-    return sum / two_pi;
   }
 
   void normal_range(PressedForce& out) const {

@@ -26,8 +26,8 @@ class PressedReader {
         press_rate_(course_.press().derivative()) {}
 
   PressedReadings read() const {
-    PressedReadings all{greatest(), zero(course_.fraction(Phase::slip)),
-                        zero(course_.fraction(Phase::apart))};
+    PressedReadings all{greatest(), zero(fraction_of(course_.arcs(), Phase::slip)),
+                        zero(fraction_of(course_.arcs(), Phase::apart))};
     const std::vector<Arc>& arcs = course_.arcs();
     if (arcs.size() == 1) return all;
     for (const Arc& arc : arcs) {

@@ -19,6 +19,7 @@
 // rest without friction, which is A nearest to zero.
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "arcslip/motion/periodic_motion.hpp"
@@ -68,6 +69,9 @@ class PressedArcs {
 
   /// Those of a period, one behind the other.
   const std::vector<Arc>& arcs() const { return arcs_; }
+
+  /// n, that is N where it is not negative.
+  const PeriodicMotion& press() const { return press_; }
 
   /// Whether it sticks all the time.
   bool is_stuck() const { return arcs_.size() == 1 && arcs_.front().phase == Phase::stick; }
@@ -132,5 +136,8 @@ class PressedArcs {
   Arc now_{0, 0, Phase::stick};
   bool records_ = false;
 };
+
+/// The part of a period that arcs of it are in a phase.
+double fraction_of(std::span<const PressedArcs::Arc> arcs, PressedArcs::Phase phase);
 
 }  // namespace arcslip
