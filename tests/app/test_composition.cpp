@@ -318,7 +318,6 @@ const std::map<std::string, std::string> reasons = {{"a", "certify"},
                                                     {"b", "grows without bound"},
                                                     {"c", "structural"},
                                                     {"d", "\"reduced\""},
-                                                    {"e", "repeat themselves with the load"},
                                                     {"f", "own velocity"}};
 
 void check_kind(const std::string& name) {
@@ -375,9 +374,6 @@ TEST_CASE("All tasks compose with a load of five harmonics", "[composition][numb
   check_kind("`[excitation]`, five harmonics");
 }
 TEST_CASE("All tasks compose with masses on springs", "[composition]") { check_kind("masses on springs"); }
-TEST_CASE("All tasks compose with a response over two periods", "[composition][numbers]") {
-  check_kind("two periods of the load, cubic");
-}
 TEST_CASE("All tasks compose with a sector", "[composition]") { check_kind("sector"); }
 TEST_CASE("All tasks compose with a sector of three contacts", "[composition][numbers]") {
   check_kind("three contacts");

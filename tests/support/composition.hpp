@@ -100,10 +100,6 @@ inline const std::string masses =
     "base = { mass = [3.0, 2.0], stiffness = [5.0, 4.0] }\ndamper = { mass = [1.0], stiffness = [0.5] }\n"
     "damping_kind = \"viscous\"\ncontact_stiffness = 2.0\nforce = 1.0\npreload = 0.3\n";
 
-/// Of a response to which half of the load's frequency belongs.
-inline const std::string two_periods =
-    "harmonics = 3\nperiods = 2\n[[element]]\nkind = \"cubic\"\nat = \"base\"\ncoefficient = 0.5\n";
-
 /// Three masses in a row without symmetry, which rub between the first two and to ground.
 inline const std::string no_symmetry =
     "[system]\nmodel = \"sector\"\ncontact_stiffness = 2.0\nforce = 1.0\npreload = 0.3\n"
@@ -125,7 +121,6 @@ inline std::vector<Kind> kinds() {
           {"cubic, five harmonics", rods("cubic_stiffness = 0.5\nharmonics = 9"), 0.5, 5, 1.6, -5e-2},
           {"`[excitation]`, five harmonics", rods("harmonics = 9\n" + arcs), 0.5, 5, 1.6, -5e-2},
           {"masses on springs", masses, 0.3, 4, 0.9, -5e-2},
-          {"two periods of the load, cubic", masses + two_periods, 0.3, 4, 0.9, -5e-2},
           {"sector", sector("[1]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts", sector("[1, 2, 3]", ""), 0.1, 0.6, 0.25, -5e-2},
           {"three contacts, five harmonics", sector("[1, 2, 3]", "harmonics = 9"), 0.1, 0.6, 0.25, -5e-2},
