@@ -21,6 +21,7 @@ class PressedReader {
         orders_(orders),
         slides_(sliding),
         closes_(closing),
+        drifts_(course == PressedArcs::Course::drifts),
         course_(settings, sliding, closing, course),
         slide_rate_(sliding.derivative()),
         press_rate_(course_.press().derivative()) {}
@@ -59,7 +60,8 @@ class PressedReader {
       const int h = orders_[static_cast<std::size_t>(a)];
       const Complex turn = std::polar(1.0, -h * theta);
       sum.by_sliding(a) += part * k * (is_slope ? Complex(0, -h) * turn : turn);
-      if (h == 0) sum.by_sliding(a) += Complex(0, part * k * (is_slope ? 1 : theta));  // of a drift
+      if (h == 0 && drifts_)
+        sum.by_sliding(a) += Complex(0, part * k * (is_slope ? 1 : theta));  // of a drift
     }
     const PeriodicMotion::Local here = slides_.at(theta);
     sum.by[PressedForce::tangential_stiffness] += part * (is_slope ? here.first : here.value);
@@ -196,6 +198,7 @@ class PressedReader {
   std::span<const int> orders_;
   const PeriodicMotion& slides_;
   const PeriodicMotion& closes_;
+  bool drifts_;
   PressedArcs course_;
   PeriodicMotion slide_rate_;
   PeriodicMotion press_rate_;
