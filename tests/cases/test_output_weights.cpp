@@ -191,6 +191,7 @@ TEST_CASE("A greatest value that is met twice in a period has the mean of both d
         const double middle = 0.5 * (low + high);
         (std::abs(std::remainder(first(middle).second - from, two_pi)) < 0.25 ? low : high) = middle;
       }
+      if (std::abs(std::remainder(first(low).second - first(high).second, two_pi)) < 0.5) continue;
       const auto gradient_at = [&](double angle) {
         const std::string weights =
             fmt::format("weights = {{ w = {{ dof = [1, 2], value = [{:.17g}, {:.17g}] }} }}\n",
