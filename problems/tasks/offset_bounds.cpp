@@ -66,21 +66,23 @@ class OffsetPath {
     constexpr int steps = 8;
     constexpr int most_rounds = 100;
     constexpr double settled = 1e-10;
+    constexpr double largest = 20;  // share
     Guess guess = start_;
     Vector forces = forces_;
     for (int step = 1; step <= steps; ++step) {
       bool is_settled = false;
-      double last = std::numeric_limits<double>::infinity();
-      double share = 1;  // of the way to what is wanted, less where bounds move more than the forces
+      Vector last;       // difference of the round before
+      double share = 1;  // of it that forces change by, as two differences tell [Aitken]
       for (int round = 0; round < most_rounds && !is_settled; ++round) {
         double range = 0;
         const Vector wanted = wanted_forces(guess, corner, static_cast<double>(step) / steps, range);
-        const double change = (wanted - forces).lpNorm<Eigen::Infinity>();
-        is_settled = round > 0 && change <= settled * range;
+        const Vector difference = wanted - forces;
+        is_settled = round > 0 && difference.lpNorm<Eigen::Infinity>() <= settled * range;
         if (is_settled) break;
-        if (round > 1 && change > 0.7 * last) share *= 0.5;
-        last = change;
-        forces += share * (wanted - forces);
+        if (round > 0) share *= -last.dot(difference - last) / (difference - last).squaredNorm();
+        share = std::isfinite(share) ? std::clamp(share, -largest, largest) : 1;
+        last = difference;
+        forces += share * difference;
         HarmonicSystem system = problem_.system();
         for (Index i = 0; i < forces.size(); ++i)
           system.held[elements_[static_cast<std::size_t>(i)]] = forces(i);
