@@ -6,6 +6,7 @@
 #include <string>
 
 #include "arcslip/continuation/problem/derivative_check.hpp"
+#include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "case_runs.hpp"
 #include "case_texts.hpp"
@@ -151,66 +152,29 @@ TEST_CASE("Peaks of an output in time are where a branch close by is lower on bo
   CHECK(found == highest);
 }
 
-namespace {
-
-/// Places and values of the positive maxima of a motion, the greatest first.
-std::vector<std::pair<double, double>> maxima_of(const std::vector<int>& orders, const HarmonicVector& x) {
-  const PeriodicMotion motion(orders, x, highest_order(orders));
-  std::vector<std::pair<double, double>> all;
-  for (const double angle : motion.derivative().zeros()) all.emplace_back(motion.value(angle), angle);
-  std::sort(all.rbegin(), all.rend());
-  return all;
-}
-
-}  // namespace
-
 TEST_CASE("A greatest value that is met twice in a period has the mean of both derivatives") {
-  RandomSystems draw(77);
-  const TemporaryFolder folder;
-  const SmallStructure s = chain_of(draw);
-  write_matrices(s, folder);
-  const TracedBranch traced = traced_of(folder.write("case.toml", chain_text(s, "5", "")));
-  const auto& problem = dynamic_cast<const HarmonicResponse&>(traced.problem());
-  int found = 0;
-  for (std::size_t k = 5; k < traced.branch.points.size() && found < 2; k += 10) {
-    const BranchPoint& point = traced.branch.points[k];
-    const auto mixed = [&](double angle) {
-      return HarmonicVector(std::cos(angle) * problem.motion(point.unknowns, 0) +
-                            std::sin(angle) * problem.motion(point.unknowns, 1));
-    };
-    const auto first = [&](double angle) { return maxima_of(problem.system().orders, mixed(angle)).front(); };
-    for (int i = 0; i < 200 && found < 2; ++i) {
-      double low = two_pi * i / 200;
-      double high = two_pi * (i + 1) / 200;
-      const double way = std::abs(std::remainder(first(low).second - first(high).second, two_pi));
-      const HarmonicVector x = mixed(low);
-      const auto all = maxima_of(problem.system().orders, x);
-      if (way < 0.5 || all.front().first < 1.05 * std::abs(all.back().first)) continue;
-      const double from = first(low).second;
-      for (int halving = 0; halving < 60; ++halving) {
-        const double middle = 0.5 * (low + high);
-        (std::abs(std::remainder(first(middle).second - from, two_pi)) < 0.25 ? low : high) = middle;
-      }
-      if (std::abs(std::remainder(first(low).second - first(high).second, two_pi)) < 0.5) continue;
-      const auto gradient_at = [&](double angle) {
-        const std::string weights =
-            fmt::format("weights = {{ w = {{ dof = [1, 2], value = [{:.17g}, {:.17g}] }} }}\n",
-                        -std::cos(angle), -std::sin(angle));
-        const TracedBranch other = traced_of(folder.write("w.toml", chain_text(s, "5", weights)));
-        const Index which =
-            continuation::index_of(continuation::observable_names(other.problem()), "Y_w_peak");
-        continuation::Gradient gradient{Vector(point.unknowns.size()), Vector(point.parameters.size())};
-        other.problem().observe(point.unknowns, point.parameters, point.regime, which, gradient);
-        return gradient.unknowns;
-      };
-      const Vector below = gradient_at(low - 1e-7);
-      const Vector above = gradient_at(high + 1e-7);
-      REQUIRE((below - above).norm() > 0.1 * below.norm());
-      CHECK((gradient_at(low) - 0.5 * (below + above)).norm() < 1e-5 * below.norm());
-      ++found;
-    }
+  // 1/2 + cos 2 theta, greatest at 0 and pi to the same side; a part of the first harmonic lifts one of them
+  const std::vector<int> orders{1, 0, 2};
+  const auto at = [&](Complex first) {
+    HarmonicVector x(3);
+    x << first, 0.5, 1.0;
+    return farthest_of(orders, x);
+  };
+  CHECK(at(0).value == 1.5);
+  CHECK(std::abs(at(0).by(0)) < 1e-14);
+  CHECK(std::abs(at(0).by(1) - 1.0) < 1e-14);
+  CHECK(std::abs(at(0).by(2) - 1.0) < 1e-14);
+  for (const double side : {1.0, -1.0}) {
+    const Farthest beside = at(1e-6 * side);
+    CHECK_THAT(beside.value, WithinAbs(1.5 + 1e-6, 1e-12));
+    CHECK(std::abs(beside.by(0) - side) < 1e-5);
   }
-  CHECK(found > 0);
+  // as far to both sides
+  HarmonicVector odd(2);
+  odd << 1.0, 0.1;
+  const Farthest both = farthest_of(std::vector{1, 3}, odd);
+  CHECK_THAT(both.value, WithinAbs(1.1, 1e-14));
+  CHECK(std::abs(both.by(0) - 1.0) + std::abs(both.by(1) - 1.0) < 1e-14);
 }
 
 TEST_CASE("Wrong weights are refused by one line") {
