@@ -35,6 +35,10 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
   const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
   if (problem.model != nullptr) return;
+  if (branch.curve && branch.curve->type == continuation::PointType::regime_switch && system.periods() > 1)
+    branch_section.fail("curve",
+                        "not of switches of responses over several periods: where all periods are "
+                        "alike slip begins in all of them at once");
   if (all_odd(system.harmonics)) return;
   for (const PlacedElement& one : system.others) {
     if (!one.kind->takes_any_orders)

@@ -7,8 +7,8 @@
 
 namespace arcslip {
 
-/// Refuses in [system] what is not made for harmonics that are not odd, and in [branch] curves of folds and
-/// extrema of what lifts off.
+/// Refuses in [system] what is not made for harmonics that are not odd, and in [branch] curves of switches of
+/// responses over several periods.
 void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch);
 
 /// Refuses in [branch] stability of what has no exponents.

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
 #include "case_runs.hpp"
@@ -256,11 +255,16 @@ TEST_CASE("A ring's response over two periods is refused where it does not trave
              ContainsSubstring("system.subharmonic_wave: only beside periods > 1"));
   CHECK_THAT(error(6, 2, "periods = 13\n"),
              ContainsSubstring("system.periods: expected an integer >= 1 and <= 12, got 13"));
+  const std::string over_two = duffing("periods = 2", 6, 7, "");
+  CHECK_THAT(case_texts::error_of(over_two.substr(0, over_two.find("[branch]")) +
+                                  "[branch]\ncurve = \"switch\"\nparameters = [\"eta\", \"P\"]\n"
+                                  "window = [0.3, 4.0]\nfrom = 1e6\nto = 2e6\n"),
+             ContainsSubstring("branch.curve: not of switches of responses over several periods"));
 }
 
 namespace {
 
-/// Of a problem's derivatives, contacts in slip, at some motion.
+/// Of the derivatives of F, contacts in slip, at some motion.
 double derivative_error(const Case& input, const Vector& parameters, const std::vector<int>& orders) {
   const Built built = build(input.branches.front().problem);
   const auto& problem = dynamic_cast<const HarmonicResponse&>(*built.problem);
@@ -268,7 +272,26 @@ double derivative_error(const Case& input, const Vector& parameters, const std::
   Vector u(problem.size());
   for (Index i = 0; i < u.size(); ++i)
     u(i) = std::sin(1.7 * static_cast<double>(i)) / (1 + 0.2 * static_cast<double>(i));
-  return continuation::check_derivatives(problem, u, parameters, continuation::Regime(1)).worst;
+  Matrix exact(problem.size(), problem.size());
+  Matrix by_parameters(problem.size(), parameters.size());
+  REQUIRE(problem.evaluate(u, parameters, 1, {nullptr, &exact, &by_parameters}));
+  exact.conservativeResize(Eigen::NoChange, u.size() + parameters.size());
+  exact.rightCols(parameters.size()) = by_parameters;
+  double worst = 0;
+  for (Index k = 0; k < exact.cols(); ++k) {
+    constexpr double step = 1e-5;
+    Vector difference = Vector::Zero(problem.size());
+    for (const double way : {1.0, -1.0}) {
+      Vector moved(exact.cols());
+      moved << u, parameters;
+      moved(k) += way * step;
+      Vector residual(problem.size());
+      REQUIRE(problem.evaluate(moved.head(u.size()), moved.tail(parameters.size()), 1, {&residual}));
+      difference += way / (2 * step) * residual;
+    }
+    worst = std::max(worst, (difference - exact.col(k)).lpNorm<Eigen::Infinity>());
+  }
+  return worst;
 }
 
 }  // namespace
