@@ -14,14 +14,50 @@ struct FreeVibration::Order {
   ContactMatrix compliance_eta;
   ContactMatrix compliance_damping;
   ContactMatrix compliance_varied;
-  double norm = 1;  // 1 + |C_B K|^2 + |C_D K|^2, of the terms that may cancel in C_h K
+  Matrix drifts = {};  // onto those that go on, of the mean
+  double norm = 1;     // 1 + |C_B K|^2 + |C_D K|^2, of the terms that may cancel in C_h K
   double norm_eta = 0;
   double norm_damping = 0;
   double norm_varied = 0;
 };
 
 FreeVibration::FreeVibration(HarmonicSystem system, Layout layout)
-    : HarmonicProblem(std::move(system), layout), is_odd_(all_odd(system_.orders)) {}
+    : HarmonicProblem(std::move(system), layout), is_odd_(all_odd(system_.orders)) {
+  if (rigid_.count() == 0) return;
+  double stiffest = 0;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    const Element& element = coordinates_.element(coordinates_.element_of(j));
+    stiffest = std::max(stiffest, element.reference_stiffness(coordinates_[j].part));
+  }
+  const ContactMatrix moved = rigid_.moves() * rigid_.parts();
+  still_ = ContactMatrix::Identity(coordinates_.size(), coordinates_.size()) - moved;
+  held_ = moved / stiffest;
+  const auto mean = static_cast<std::size_t>(rigid_.order());
+  for (const Loss& loss : {system_.base[mean].loss(), system_.damper[mean].loss(), system_.base_loss_per_zeta,
+                           system_.base_loss_fixed})
+    damps_masses_ = damps_masses_ || loss.mass != 0;
+}
+
+/// What a row has of the motion itself.
+Complex FreeVibration::own(const Order& order, Index coordinate, const Vector& u, const Vector& p) const {
+  if (!is_moved(order.which)) return motion(u, p, coordinate)(order.which);
+  Complex sum = 0;
+  for (Index j = 0; j < coordinates_.size(); ++j) {
+    const auto [real, imaginary] = own_rates(order, coordinate, j);
+    const Complex x = motion(u, p, j)(order.which);
+    sum += real * x.real() + imaginary * x.imag();
+  }
+  return sum;
+}
+
+/// How that changes with Re and Im of the motion of a coordinate. The mean's imaginary parts are drifts that
+/// go on, and of these the mean is 0.
+std::array<Complex, 2> FreeVibration::own_rates(const Order& order, Index coordinate, Index by) const {
+  const double same = coordinate == by ? 1 : 0;
+  if (!is_moved(order.which)) return {same, Complex(0, same)};
+  const double goes_on = order.drifts(coordinate, by);
+  return {Complex(still_(coordinate, by).real(), goes_on), Complex(0, same - goes_on)};
+}
 
 /// The unknowns that are no motion stand in front.
 double FreeVibration::length(const Vector& u, const Vector& p) const {
@@ -70,6 +106,12 @@ FreeVibration::Order FreeVibration::order(Index which, const Vector& u, const Ve
   };
   add(system_.base[at(which)], true);
   add(system_.damper[at(which)], false);
+  if (!is_moved(which)) return order;
+  order.drifts = onto_drifts(regime);
+  order.compliance = still_ * order.compliance + held_;
+  order.compliance_eta = still_ * order.compliance_eta;
+  order.compliance_damping = still_ * order.compliance_damping;
+  order.compliance_varied = still_ * order.compliance_varied;
   return order;
 }
 
@@ -82,7 +124,9 @@ bool FreeVibration::evaluate(const Vector& u, const Vector& p, const continuatio
     if (slips(regime, e) && element_motion(u, p, e).isZero(0)) return false;
   }
   const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
+  if (damps_masses_ && drifts(regime)) return false;
   const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
+  if (derivatives && rigid_.count() > 0 && !holds_mean(changes_by_mean(elements, regime, u, p))) return false;
   for (Index a = 0; a < harmonics(); ++a) {
     const Order at_order = order(a, u, p, regime);
     for (Index i = 0; i < coordinates_.size(); ++i) fill_row(at_order, i, elements, u, p, out);
@@ -119,7 +163,7 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
   };
   const double size = length(u, p);
   const double weight = 1 / (std::sqrt(order.norm) * size);
-  Complex residual = motion(u, p, coordinate)(order.which);
+  Complex residual = own(order, coordinate, u, p);
   for (Index j = 0; j < coordinates_.size(); ++j)
     residual += order.compliance(coordinate, j) *
                 elements[at(coordinates_.element_of(j))].harmonics(place(j, order.which));
@@ -156,13 +200,16 @@ void FreeVibration::fill_row(const Order& order, Index coordinate, const std::ve
     const Index of = coordinates_.element_of(column / (2 * n));
     const Index by = place(column / (2 * n), column / 2 % n);
     const Index first = coordinates_.first(of);
-    Complex linear = row == column ? 1 : 0;
+    Complex linear = 0;
     Complex conjugate = 0;
     for (Index j = first; j < first + coordinates_.element(of).coordinates(); ++j) {
       linear += order.compliance(coordinate, j) * elements[at(of)].linear(place(j, order.which), by);
       conjugate += order.compliance(coordinate, j) * elements[at(of)].conjugate(place(j, order.which), by);
     }
-    return std::array{linear + conjugate, Complex(0, 1) * (linear - conjugate)};
+    std::array<Complex, 2> rates{linear + conjugate, Complex(0, 1) * (linear - conjugate)};
+    if (column / 2 % n != order.which) return rates;
+    const auto [real, imaginary] = own_rates(order, coordinate, column / (2 * n));
+    return std::array<Complex, 2>{real + rates[0], imaginary + rates[1]};
   };
   store_at(layout_.real, by_motion(0)[0] - shrink * amplitude(u, p));
   for (Index column = 2; column < u.size() && out.jacobian != nullptr; column += 2) {

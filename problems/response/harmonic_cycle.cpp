@@ -34,6 +34,7 @@ HarmonicCycle::HarmonicCycle(HarmonicSystem system)
   add_further_contacts();
   add_further_elements();
   add_other_harmonics();
+  add_drifts();
   // A static load's k c_B/(2 pi) is the fold of one mode on a held damper.
   for (const ContactMode& mode : system_.base[0].modes()) {
     if (!(mode.frequency > 0)) continue;
@@ -58,7 +59,7 @@ void HarmonicCycle::scale(const Vector& u, const Vector& p, Vector& unknowns, Ve
 std::optional<continuation::Regime> HarmonicCycle::regime_beyond(const continuation::Regime& regime,
                                                                  int border) const {
   const auto beyond = HarmonicProblem::regime_beyond(regime, border);
-  return all_stick(*beyond) ? std::nullopt : beyond;
+  return beyond && all_stick(*beyond) ? std::nullopt : beyond;
 }
 
 struct HarmonicCycle::Found {
@@ -135,8 +136,9 @@ Guess HarmonicCycle::guess(double zeta_value, double preload_value,
     if (std::any_of(found.begin(), found.end(), [](const Found& one) { return !one.is_large; })) break;
   }
   if (found.empty())
-    throw std::invalid_argument(fmt::format(
-        "HarmonicCycle: no limit cycle was found at zeta_B = {:g}, P = {:g}", zeta_value, preload_value));
+    throw std::invalid_argument(
+        fmt::format("HarmonicCycle: no limit cycle was found at zeta_B = {:g}, P = {:g}{}{}", zeta_value,
+                    preload_value, reason_of_end().empty() ? "" : "; ", reason_of_end()));
   return std::min_element(found.begin(), found.end(),
                           [](const Found& a, const Found& b) { return a.order() < b.order(); })
       ->at;

@@ -79,6 +79,45 @@ ContactVector HarmonicProblem::moved_at_rest(const Rest& rest, const std::vector
   return moved + rest.joint.compliance * force;
 }
 
+ComplexMatrix HarmonicProblem::drift_ways(const continuation::Regime& regime) const {
+  const auto drifting = this->drifting(regime);
+  if (drifting.empty()) return ComplexMatrix::Zero(coordinates_.size(), rigid_.count());
+  ComplexMatrix ways(coordinates_.size(), std::ssize(drifting));
+  ComplexMatrix motions(rigid_.count(), ways.cols());
+  for (Index d = 0; d < ways.cols(); ++d) {
+    ways.col(d) = drifting[at(d)]->ways.cast<Complex>();
+    motions.col(d) = drifting[at(d)]->motion;
+  }
+  return ways * motions.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+ComplexMatrix HarmonicProblem::changes_by_mean(const std::vector<ElementForce>& elements,
+                                               const continuation::Regime& regime, const Vector& u,
+                                               const Vector& p) const {
+  const Index n = harmonics();
+  const Index m = coordinates_.size();
+  const ComplexMatrix ways = drift_ways(regime);
+  ComplexMatrix changes = ComplexMatrix::Zero(2 * n * m, rigid_.count());
+  for (Index from = 0; from < m; ++from) {
+    const Index of = coordinates_.element_of(from);
+    const Index by = place(from, rigid_.order());
+    const ElementForce& element = elements[at(of)];
+    const double stiffness = reference_stiffness(from, u, p);
+    const ComplexVector by_mean = (element.linear.col(by) + element.conjugate.col(by)) / stiffness;
+    const ComplexVector by_drift = (element.linear.col(by) - element.conjugate.col(by)) / stiffness;
+    const Index first = n * coordinates_.first(of);
+    changes.middleRows(first, by_mean.size()) += by_mean * rigid_.moves().row(from);
+    changes.middleRows(n * m + first, by_drift.size()) += by_drift * ways.row(from);
+  }
+  return changes;
+}
+
+bool HarmonicProblem::holds_mean(const ComplexMatrix& changes) const {
+  constexpr double rounding = 1e-12;
+  const Eigen::ColPivHouseholderQR<ComplexMatrix> factors(changes);
+  return factors.matrixR().diagonal().cwiseAbs().minCoeff() > rounding * rigid_.moves().norm();
+}
+
 /// (h, -alpha) of h = (1 + C_0 K)^{-1} (x_0 - f_0 - x0_0 - S alpha), S^H K h = -l, is one linear equation.
 void HarmonicResponse::border_by_rigid(Order& order, const Vector& p) const {
   const Index m = coordinates_.size();
@@ -114,34 +153,11 @@ void HarmonicResponse::border_by_rigid(Order& order, const Vector& p) const {
 /// anywhere, or nowhere.
 bool HarmonicResponse::remembers_mean(const std::vector<ElementForce>& elements, const Vector& p,
                                       const continuation::Regime& regime) const {
-  constexpr double rounding = 1e-12;
   if (rigid_.count() == 0) return true;
-  const Index n = harmonics();
-  const Index m = coordinates_.size();
-  const auto drifting = this->drifting(regime);
-  ComplexMatrix ways = ComplexMatrix::Zero(m, std::ssize(drifting));  // of drifts, and the motions they are
-  ComplexMatrix motions(rigid_.count(), ways.cols());
-  for (Index d = 0; d < ways.cols(); ++d) {
-    ways.col(d) = drifting[at(d)]->ways.cast<Complex>();
-    motions.col(d) = drifting[at(d)]->motion;
-  }
-  if (ways.cols() > 0) ways *= motions.completeOrthogonalDecomposition().pseudoInverse();
-  if (ways.cols() == 0) ways.setZero(m, rigid_.count());
-  ComplexMatrix changes = ComplexMatrix::Zero(2 * n * m + rigid_.count(), rigid_.count());
-  changes.bottomRows(rigid_.count()) = drag(p) * ways;
-  for (Index from = 0; from < m; ++from) {
-    const Index of = coordinates_.element_of(from);
-    const Index by = place(from, rigid_.order());
-    const ElementForce& element = elements[at(of)];
-    const double stiffness = reference_stiffness(from, {}, p);
-    const ComplexVector by_mean = (element.linear.col(by) + element.conjugate.col(by)) / stiffness;
-    const ComplexVector by_drift = (element.linear.col(by) - element.conjugate.col(by)) / stiffness;
-    const Index first = n * coordinates_.first(of);
-    changes.middleRows(first, by_mean.size()) += by_mean * rigid_.moves().row(from);
-    changes.middleRows(n * m + first, by_drift.size()) += by_drift * ways.row(from);
-  }
-  const Eigen::ColPivHouseholderQR<ComplexMatrix> factors(changes);
-  return factors.matrixR().diagonal().cwiseAbs().minCoeff() > rounding * rigid_.moves().norm();
+  ComplexMatrix changes = changes_by_mean(elements, regime, {}, p);
+  changes.conservativeResize(changes.rows() + rigid_.count(), Eigen::NoChange);
+  changes.bottomRows(rigid_.count()) = drag(p) * drift_ways(regime);
+  return holds_mean(changes);
 }
 
 /// Puts drifts, which the imaginary parts of means are, into the balance of rigid motions.
@@ -181,8 +197,7 @@ void HarmonicResponse::set_drifts(const Vector& u, Rows& rows, Matrix* jacobian)
   }
 }
 
-/// Onto drifts that go on in a regime; of size 0 where nothing is free to move.
-Matrix HarmonicResponse::onto_drifts(const continuation::Regime& regime) const {
+Matrix HarmonicProblem::onto_drifts(const continuation::Regime& regime) const {
   if (rigid_.count() == 0) return {};
   const auto drifting = this->drifting(regime);
   if (drifting.empty()) return Matrix::Zero(coordinates_.size(), coordinates_.size());

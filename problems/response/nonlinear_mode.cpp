@@ -26,6 +26,7 @@ NonlinearMode::NonlinearMode(HarmonicSystem system)
   add_further_contacts();
   add_further_elements();
   add_other_harmonics();
+  add_drifts();
 }
 
 void NonlinearMode::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {

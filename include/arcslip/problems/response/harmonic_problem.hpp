@@ -282,6 +282,19 @@ class HarmonicProblem : public continuation::Problem {
   /// Those that go on in a regime.
   std::vector<const Drift*> drifting(const continuation::Regime& regime) const;
 
+  /// Onto these in the coordinates; of size 0 where nothing is free to move.
+  Matrix onto_drifts(const continuation::Regime& regime) const;
+
+  /// How coordinates drift in the place of rigid motions, coordinates x their number.
+  ComplexMatrix drift_ways(const continuation::Regime& regime) const;
+
+  /// How forces over stiffness change with rigid motions of the mean and, below, with drifts in their place,
+  /// in all harmonics.
+  ComplexMatrix changes_by_mean(const std::vector<ElementForce>& elements, const continuation::Regime& regime,
+                                const Vector& u, const Vector& p) const;
+  /// Whether with every rigid motion something of these changes: else the mean is anywhere, or nowhere.
+  bool holds_mean(const ComplexMatrix& changes) const;
+
   HarmonicSystem system_;             ///< as it was given
   Coordinates coordinates_;           ///< of the system
   RigidMotions rigid_;                ///< of both

@@ -120,7 +120,6 @@ class HarmonicResponse : public HarmonicProblem {
   void border_by_rigid(Order& order, const Vector& p) const;
   [[nodiscard]] bool remembers_mean(const std::vector<ElementForce>& elements, const Vector& p,
                                     const continuation::Regime& regime) const;
-  Matrix onto_drifts(const continuation::Regime& regime) const;
   ComplexMatrix drag(const Vector& p) const;
   /// Work space of a thread: F and what its derivatives by the unknowns consist of.
   struct Rows {
