@@ -17,7 +17,7 @@ using namespace arcslip::testing;
 
 namespace {
 
-/// Of the second period of a march.
+/// Of the last period of a march.
 struct MarchedPeriod {
   double traction = 0;
   double slip = 0;
@@ -27,10 +27,11 @@ struct MarchedPeriod {
 /// Sliding displacements (2 x samples) and normal forces.
 MarchedPeriod marched_period(const Matrix& slid, const Vector& closing, double stiffness, double friction) {
   constexpr double rounding = 1e-12;
+  constexpr Index periods = 30;  // in a plane it settles by and by
   const Index samples = slid.cols();
   MarchedPeriod found;
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
-  for (Index i = 0; i < 2 * samples; ++i) {
+  for (Index i = 0; i < periods * samples; ++i) {
     const Index here = i % samples;
     const Index last = (here + samples - 1) % samples;
     const double press = std::max(0.0, closing(here));
@@ -38,7 +39,7 @@ MarchedPeriod marched_period(const Matrix& slid, const Vector& closing, double s
     force += stiffness * part * (slid.col(here) - slid.col(last));
     const bool slips = force.norm() > friction * press * (1 - rounding);
     if (slips) force *= force.norm() > 0 ? friction * press / force.norm() : 0;
-    if (i < samples) continue;
+    if (i < (periods - 1) * samples) continue;
     found.traction = std::max(found.traction, force.norm());
     found.slip += slips && press > 0 ? 1 / double(samples) : 0;
     found.apart += press > 0 ? 0 : 1 / double(samples);
@@ -133,7 +134,7 @@ TEST_CASE("Contacts under a normal force that varies tell what a march in time d
     }
   }
   CHECK(slipping > 24);
-  CHECK(apart > 8);
+  CHECK(apart > 4);
   CHECK(near < derived / 4);
 }
 
