@@ -318,7 +318,7 @@ const std::map<std::string, std::string> reasons = {{"a", "certify"},
                                                     {"b", "grows without bound"},
                                                     {"c", "structural"},
                                                     {"d", "\"reduced\""},
-                                                    {"f", "own velocity"}};
+                                                    {"e", "second derivatives jump"}};
 
 void check_kind(const std::string& name) {
   const auto lines = promised();

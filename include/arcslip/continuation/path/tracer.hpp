@@ -3,6 +3,7 @@
 // The loop that traces a branch: steps, events, targets, limits.
 
 #include <chrono>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,6 +62,7 @@ class Tracer {
   bool find_events();
   bool leaves_range() const;
   void take();
+  bool turns_nowhere();
   void take_events(const Signs& before);
   void take_targets_around(bool turns);
   void take_target(const Target& target);
@@ -94,6 +96,7 @@ class Tracer {
   double first_distance_ = 0;
   std::vector<double> first_taken_;
   std::optional<double> closing_;
+  double turned_at_ = -std::numeric_limits<double>::infinity();  ///< arclength of the last fold
   std::vector<Event> events_;
   Signs signs_before_;                    // the step last taken
   std::map<Regime, int> seen_in_regime_;  // regular points so far
