@@ -1,7 +1,5 @@
 // What a branch takes from the events that a step ends at.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "arcslip/continuation/path/tracer.hpp"
@@ -16,23 +14,12 @@ void Tracer::take_events(const Signs& before) {
     if (event.kind->ends_regime || !event.told) continue;
     store(event.type, event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index))
                                                      : std::string());
-    if (event.type == PointType::fold && turns_nowhere()) return;
   }
   const auto end = std::find_if(events_.begin(), events_.end(),
                                 [](const Event& event) { return event.kind->ends_regime; });
   if (end != events_.end()) cross(static_cast<int>(end->index), on_several_borders());
   if (stopped_) return;
   if (state_.arclength > 0) take_targets_around(before.parameter * state_.signs.parameter < 0);
-}
-
-/// Whether two folds come so close that nothing but a corner that no border tells lies between them, at which
-/// tangents of both sides lead back.
-bool Tracer::turns_nowhere() {
-  constexpr double nowhere = 1e-9;  // in the scale
-  const bool turns = state_.arclength - turned_at_ < nowhere;
-  turned_at_ = state_.arclength;
-  if (turns) stop(Stop::min_step, fmt::format("the branch turns back and forth at a corner at {}", place()));
-  return turns;
 }
 
 }  // namespace arcslip::continuation

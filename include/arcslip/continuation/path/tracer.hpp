@@ -3,7 +3,6 @@
 // The loop that traces a branch: steps, events, targets, limits.
 
 #include <chrono>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -62,7 +61,6 @@ class Tracer {
   bool find_events();
   bool leaves_range() const;
   void take();
-  bool turns_nowhere();
   void take_events(const Signs& before);
   void take_targets_around(bool turns);
   void take_target(const Target& target);
@@ -96,7 +94,6 @@ class Tracer {
   double first_distance_ = 0;
   std::vector<double> first_taken_;
   std::optional<double> closing_;
-  double turned_at_ = -std::numeric_limits<double>::infinity();  ///< arclength of the last fold
   std::vector<Event> events_;
   Signs signs_before_;                    // the step last taken
   std::map<Regime, int> seen_in_regime_;  // regular points so far
