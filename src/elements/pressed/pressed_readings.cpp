@@ -71,7 +71,7 @@ class PressedReader {
   void add_press(double theta, double part, bool is_slope, PressedNumber& sum) const {
     for (Index a = 0; a < sum.by_closing.size(); ++a) {
       const int h = orders_[static_cast<std::size_t>(a)];
-      const Complex turn = std::polar(part * settings_.normal_stiffness, -h * theta);
+      const Complex turn = part * settings_.normal_stiffness * std::polar(1.0, -h * theta);
       sum.by_closing(a) += is_slope ? Complex(0, -h) * turn : turn;
     }
     const PeriodicMotion::Local here = closes_.at(theta);
