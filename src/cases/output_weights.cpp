@@ -15,7 +15,7 @@ namespace arcslip {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 std::string_view trimmed(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -42,8 +42,10 @@ std::optional<double> as_number(std::string_view text) {
 
 /// Letters, digits and _, and no name of a harmonic, a greatest value or a contact.
 bool is_allowed(const std::string& name) {
-  if (name.empty() || std::string_view(letters).find(name.front()) == std::string_view::npos) return false;
-  if (name.find_first_not_of(std::string(letters) + "0123456789_") != name.npos) return false;
+  const auto is_letter = [](char c) { return letters.find(c) != letters.npos; };
+  const auto is_allowed_inside = [=](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  if (name.empty() || !is_letter(name.front())) return false;
+  if (!std::all_of(name.begin(), name.end(), is_allowed_inside)) return false;
   const std::size_t last = name.find_last_not_of("0123456789");
   const bool is_order = last != name.npos && name[last] == 'h' && last + 1 < name.size() &&
                         (last == 0 || name[last - 1] == '_');
