@@ -25,7 +25,7 @@ struct MarchedPeriod {
 };
 
 /// Sliding displacements (2 x samples) and normal forces.
-MarchedPeriod marched_period(const Matrix& slid, const Vector& closing, double stiffness, double friction) {
+MarchedPeriod marched_period(const Matrix& slid, const Vector& closing, double k_t, double friction) {
   constexpr double rounding = 1e-12;
   constexpr Index periods = 30;  // in a plane it settles by and by
   const Index samples = slid.cols();
@@ -36,7 +36,7 @@ MarchedPeriod marched_period(const Matrix& slid, const Vector& closing, double s
     const Index last = (here + samples - 1) % samples;
     const double press = std::max(0.0, closing(here));
     const double part = closing(last) < 0 && press > 0 ? closing(here) / (closing(here) - closing(last)) : 1;
-    force += stiffness * part * (slid.col(here) - slid.col(last));
+    force += k_t * part * (slid.col(here) - slid.col(last));
     const bool slips = force.norm() > friction * press * (1 - rounding);
     if (slips) force *= force.norm() > 0 ? friction * press / force.norm() : 0;
     if (i < (periods - 1) * samples) continue;
