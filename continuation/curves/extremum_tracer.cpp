@@ -260,7 +260,7 @@ bool ExtremumTracer::came_back() {
     BranchPoint& point = curve_.points[i];
     if (point.regime != start.regime ||
         !(steps(way(start, point), start).norm() < options_.tolerances.same_point) ||
-        !((point.arrival.size() > 0 ? point.arrival : point.tangent).dot(start.tangent) > 0))
+        !(point.arriving().dot(start.tangent) > 0))
       continue;
     point.type = PointType::end;
     curve_.points.resize(i + 1);

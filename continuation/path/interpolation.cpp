@@ -105,8 +105,7 @@ Vector InterpolatedBranch::position(std::size_t point) const {
 const Vector& InterpolatedBranch::leaving(std::size_t piece) const { return branch_.points[piece].tangent; }
 
 const Vector& InterpolatedBranch::arriving(std::size_t piece) const {
-  const BranchPoint& point = branch_.points[piece + 1];
-  return point.arrival.size() > 0 ? point.arrival : point.tangent;
+  return branch_.points[piece + 1].arriving();
 }
 
 double InterpolatedBranch::distance(std::size_t from, std::size_t to) const {

@@ -48,9 +48,8 @@ class Map {
 
   /// Both ways through a special point, forward and back.
   void pass(const BranchPoint& point) {
-    const Vector& arrival = point.arrival.size() > 0 ? point.arrival : point.tangent;
     go(way(point.unknowns, point.parameters, point.tangent));
-    go(way(point.unknowns, point.parameters, -arrival));
+    go(way(point.unknowns, point.parameters, -point.arriving()));
   }
 
  private:

@@ -69,6 +69,7 @@ class OffsetPath {
     constexpr double largest = 20;  // share
     Guess guess = start_;
     Vector forces = forces_;
+    std::unique_ptr<HeldResponse> held;  // not assignable itself
     for (int step = 1; step <= steps; ++step) {
       bool is_settled = false;
       Vector last;       // difference of the round before
@@ -86,16 +87,16 @@ class OffsetPath {
         HarmonicSystem system = problem_.system();
         for (Index i = 0; i < forces.size(); ++i)
           system.held[elements_[static_cast<std::size_t>(i)]] = forces(i);
-        held_ = std::make_unique<HeldResponse>(HeldResponse{HarmonicResponse(std::move(system)), guess});
-        const continuation::Solution found = continuation::solve(held_->problem, guess);
+        held = std::make_unique<HeldResponse>(HeldResponse{HarmonicResponse(std::move(system)), guess});
+        const continuation::Solution found = continuation::solve(held->problem, guess);
         if (found.outcome != continuation::Correction::converged) return "Newton's method finds none there";
         guess.unknowns = found.unknowns;
-        held_->at = guess;
-        if (held_->problem.crossed_border(guess) >= 0)
+        held->at = guess;
+        if (held->problem.crossed_border(guess) >= 0)
           return "another contact begins to slip, or ceases to, on the way there";
       }
       if (!is_settled) return "the bounds of their forces do not settle";
-      take(*held_, step == steps);
+      take(*held, step == steps);
     }
     return "";
   }
@@ -118,7 +119,6 @@ class OffsetPath {
   const Guess& start_;
   const std::vector<Index>& elements_;
   Vector forces_;
-  mutable std::unique_ptr<HeldResponse> held_;
 };
 
 /// Whether a column is a motion's.

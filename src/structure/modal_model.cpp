@@ -39,6 +39,14 @@ class PreciseModes {
 
   PreciseReal eigenvalue(Index k) const { return between(k, structure_.stiffness, k).real(); }
 
+  /// sqrt(lambda_k)/(2 pi), rounded; 0 of what rounding leaves below.
+  double frequency(Index k) const {
+    const PreciseReal value = eigenvalue(k);
+    return value > 0
+               ? static_cast<double>(PreciseReal(sqrt(value) / boost::math::constants::two_pi<PreciseReal>()))
+               : 0;
+  }
+
   const PreciseComplex& at(Index dof, Index k) const { return shapes_(dof, k); }
 
   /// v_k^H F
@@ -112,9 +120,7 @@ std::vector<SeenMode> seen_modes(const ReducedStructure& structure, const Precis
   const PreciseReal& turn = boost::math::constants::two_pi<PreciseReal>();
   std::vector<SeenMode> all;
   for (const Index k : modes.ascending()) {
-    const PreciseReal eigenvalue = modes.eigenvalue(k);
-    const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / turn) : PreciseReal(0);
-    SeenMode mode{static_cast<double>(frequency), ComplexVector(rows.rows()),
+    SeenMode mode{modes.frequency(k), ComplexVector(rows.rows()),
                   rounded(modes.by_load(k) / PreciseComplex(turn))};
     for (Index i = 0; i < rows.rows(); ++i) {
       PreciseComplex sum = 0;
@@ -132,10 +138,8 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, con
   for (const Index k : modes.ascending()) {
     const PreciseComplex at_contact = modes.at(contact_dof, k) / PreciseComplex(turn);
     const PreciseComplex by_load = modes.by_load(k) / PreciseComplex(turn);
-    const PreciseReal eigenvalue = modes.eigenvalue(k);
-    const PreciseReal frequency = eigenvalue > 0 ? PreciseReal(sqrt(eigenvalue) / turn) : PreciseReal(0);
-    modes_.push_back({static_cast<double>(frequency), static_cast<double>(squared(at_contact)),
-                      rounded(at_contact * by_load)});
+    modes_.push_back(
+        {modes.frequency(k), static_cast<double>(squared(at_contact)), rounded(at_contact * by_load)});
   }
 }
 

@@ -9,7 +9,6 @@
 
 #include "arcslip/assembly/reduced_pair.hpp"
 #include "arcslip/assembly/structures.hpp"
-#include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "case_runs.hpp"
 #include "case_texts.hpp"
@@ -105,12 +104,8 @@ TEST_CASE("Outputs of masses are sums of their displacements") {
     CHECK_THAT(told("Y_spring"), WithinRel(of_base(Eigen::Vector3cd(0, -1, 1)), 1e-8));
     CHECK_THAT(told("U_hang"), WithinRel(of_damper(Eigen::Vector2cd(-1, 1)), 1e-8));
     CHECK_THAT(told("U_w2"), WithinRel(of_damper(Eigen::Vector2cd(0.5, 0.25)), 1e-8));
-    if (point.type != PointType::regular) continue;
-    const auto report =
-        continuation::check_derivatives(traced.problem(), point.unknowns, point.parameters, point.regime);
-    INFO(report.where);
-    CHECK(report.worst < 1e-7);
   }
+  check_derivatives_along(traced, 0, 5);
 }
 
 TEST_CASE("Outputs of rods and beams are sums of the dofs of an element") {
@@ -164,19 +159,14 @@ TEST_CASE("Outputs of rods follow every harmonic, their greatest value in time a
   std::string text = rings_text("rods", weights, "harmonics = 3\n");
   const TracedBranch traced =
       traced_few(folder.write("case.toml", text + "extrema_of = [\"Y_strain_peak\"]\n"));
-  const auto& problem = dynamic_cast<const HarmonicResponse&>(traced.problem());
   const double a = two_pi * 2 / 12;
   for (std::size_t k = 3; k < traced.branch.points.size(); k += 12) {
     const BranchPoint& point = traced.branch.points[k];
     const auto told = [&](const char* name) { return value(traced, point, name); };
     CHECK_THAT(told("Y_strain_h3"),
                WithinRel(2 * std::sin(1.5 * a) * told("Y_h3"), 1e-9) || WithinAbs(0, 1e-12));
-    if (point.type != PointType::regular) continue;
-    const auto report =
-        continuation::check_derivatives(problem, point.unknowns, point.parameters, point.regime);
-    INFO(report.where);
-    CHECK(report.worst < 1e-7);
   }
+  check_derivatives_along(traced, 3, 12);
   CHECK(count(traced, PointType::peak) > 0);
   // over a ratio that changes the structure the outputs are those of the system built there
   text = replaced(text, "parameter = \"eta\"\nfrom = 1.0\nto = 9.0",

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
-#include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "case_runs.hpp"
@@ -45,6 +45,17 @@ const std::string three_weights =
 /// The first branch of a case.
 TracedBranch traced_of(const std::string& path) {
   return std::move(trace(read_case(path).branches[0]).front());
+}
+
+/// The chain of a seed in three harmonics, by modes and on the full path.
+std::pair<TracedBranch, TracedBranch> on_both_paths(std::uint64_t seed, const std::string& branch) {
+  RandomSystems draw(seed);
+  const TemporaryFolder folder;
+  const SmallStructure s = chain_of(draw);
+  write_matrices(s, folder);
+  const std::string text = chain_text(s, "3", three_weights, branch);
+  const std::string full = replaced(text, "model = \"sector\"\n", "model = \"sector\"\npath = \"full\"\n");
+  return {traced_of(folder.write("reduced.toml", text)), traced_of(folder.write("full.toml", full))};
 }
 
 }  // namespace
@@ -91,14 +102,7 @@ TEST_CASE("Outputs by weights have exact gradients") {
         folder.write("case.toml", chain_text(s, harmonics,
                                              "weights = { strain = { dof = [1, 2, 3], value = [0.7, "
                                              "-1.3, 2.1] } }\n")));
-    for (std::size_t k = 7; k < traced.branch.points.size(); k += 40) {
-      const BranchPoint& point = traced.branch.points[k];
-      if (point.type != PointType::regular) continue;
-      const auto report =
-          continuation::check_derivatives(traced.problem(), point.unknowns, point.parameters, point.regime);
-      INFO(report.where);
-      CHECK(report.worst < 1e-7);
-    }
+    check_derivatives_along(traced, 7, 40);
   }
 }
 
@@ -208,22 +212,8 @@ TEST_CASE("Wrong weights are refused by one line") {
 }
 
 TEST_CASE("Outputs of the full path have exact gradients, and peaks by them") {
-  RandomSystems draw(78);
-  const TemporaryFolder folder;
-  const SmallStructure s = chain_of(draw);
-  write_matrices(s, folder);
-  const std::string text = chain_text(s, "3", three_weights, "extrema_of = [\"Y_strain_peak\", \"Y_2\"]\n");
-  const std::string full = replaced(text, "model = \"sector\"\n", "model = \"sector\"\npath = \"full\"\n");
-  const TracedBranch one = traced_of(folder.write("reduced.toml", text));
-  const TracedBranch other = traced_of(folder.write("full.toml", full));
-  for (std::size_t k = 7; k < other.branch.points.size(); k += 60) {
-    const BranchPoint& point = other.branch.points[k];
-    if (point.type != PointType::regular) continue;
-    const auto report =
-        continuation::check_derivatives(other.problem(), point.unknowns, point.parameters, point.regime);
-    INFO(report.where);
-    CHECK(report.worst < 1e-7);
-  }
+  const auto [one, other] = on_both_paths(78, "extrema_of = [\"Y_strain_peak\", \"Y_2\"]\n");
+  check_derivatives_along(other, 7, 60);
   const std::vector<BranchPoint> peaks = points(one, PointType::peak);
   const std::vector<BranchPoint> same = points(other, PointType::peak);
   REQUIRE(!peaks.empty());
@@ -233,14 +223,7 @@ TEST_CASE("Outputs of the full path have exact gradients, and peaks by them") {
 }
 
 TEST_CASE("Weights act alike on the reduced and the full path") {
-  RandomSystems draw(76);
-  const TemporaryFolder folder;
-  const SmallStructure s = chain_of(draw);
-  write_matrices(s, folder);
-  const std::string text = chain_text(s, "3", three_weights, "\n[continuation]\nstop_at = [0.2]\n");
-  const std::string full = replaced(text, "model = \"sector\"\n", "model = \"sector\"\npath = \"full\"\n");
-  const TracedBranch one = traced_of(folder.write("reduced.toml", text));
-  const TracedBranch other = traced_of(folder.write("full.toml", full));
+  const auto [one, other] = on_both_paths(76, "\n[continuation]\nstop_at = [0.2]\n");
   for (const char* name : {"Y_strain", "Y_strain_h3", "Y_strain_peak", "Y_one_peak"})
     CHECK_THAT(value(one, points(one, PointType::user).front(), name),
                WithinRel(value(other, points(other, PointType::user).front(), name), 1e-8));

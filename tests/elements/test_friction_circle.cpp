@@ -124,7 +124,10 @@ TEST_CASE("Motion along a line of the plane meets friction in one direction", "[
       CHECK_THAT(plane.energy, WithinAbs(line.energy, 1e-12));
       CHECK_THAT(plane.slip_fraction, WithinAbs(line.slip_fraction, 1e-10));
       CHECK_THAT(plane.apart_fraction, WithinAbs(line.apart_fraction, 1e-12));
-      CHECK_THAT(plane.least_normal, WithinAbs(line.least_normal, 1e-12));
+      ComplexVector both(2 * n);
+      both << r, g;
+      CHECK_THAT(extreme_press(s, from_zero_to(highest), along_line(r, angle, g), 2, false),
+                 WithinAbs(extreme_press(s, from_zero_to(highest), both, 1, false), 1e-12));
       const ComplexVector dr = random_course(draw, highest, 1);
       const ComplexVector dg = random_course(draw, highest, 1);
       const std::vector<double> ds{0.3, -0.2, 0.5, 0.4};

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "arcslip/elements/jenkins.hpp"
-#include "arcslip/elements/pressed/pressed_element.hpp"
 #include "catch.hpp"
 #include "pressed_motions.hpp"
 
@@ -71,7 +70,8 @@ TEST_CASE("Friction under varying normal load has the harmonics of published loo
     ComplexVector g = ComplexVector::Zero(4);
     r(1) = row.X;
     g(1) = std::polar(row.n1, -row.phi);
-    const PressedForce force = pressed_force({.75, 2, 2.5, 2.5 * row.n0}, from_zero_to(3), r, g, false);
+    const PressedSettings settings{.75, 2, 2.5, 2.5 * row.n0};
+    const PressedForce force = pressed_force(settings, from_zero_to(3), r, g, false);
     CHECK(std::abs(force.tangential(0) - row.f[0]) < 1e-7);
     for (int h = 1; h <= 3; ++h) {
       const auto at = static_cast<std::size_t>(2 * h);
@@ -79,8 +79,12 @@ TEST_CASE("Friction under varying normal load has the harmonics of published loo
     }
     CHECK_THAT(force.energy, WithinAbs(-pi * row.X * row.f[2], 1e-5));
     CHECK((force.apart_fraction > 0) == (row.n1 > row.n0));
-    CHECK_THAT(force.least_normal, WithinAbs(2.5 * std::max(0.0, row.n0 - row.n1), 1e-12));
-    CHECK_THAT(force.greatest_normal, WithinAbs(2.5 * (row.n0 + row.n1), 1e-12));
+    ComplexVector both(8);
+    both << r, g;
+    CHECK_THAT(extreme_press(settings, from_zero_to(3), both, 1, false),
+               WithinAbs(2.5 * std::max(0.0, row.n0 - row.n1), 1e-12));
+    CHECK_THAT(extreme_press(settings, from_zero_to(3), both, 1, true),
+               WithinAbs(2.5 * (row.n0 + row.n1), 1e-12));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arcslip/cases/runs.hpp"
+#include "arcslip/continuation/problem/derivative_check.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "places.hpp"
@@ -41,6 +42,18 @@ inline std::vector<BranchPoint> points(const TracedBranch& traced, PointType typ
 }
 
 inline std::size_t count(const TracedBranch& traced, PointType type) { return points(traced, type).size(); }
+
+/// Derivatives at regular points of a branch, every so many from one of them on, are those of differences.
+inline void check_derivatives_along(const TracedBranch& traced, std::size_t from, std::size_t every) {
+  for (std::size_t k = from; k < traced.branch.points.size(); k += every) {
+    const BranchPoint& point = traced.branch.points[k];
+    if (point.type != PointType::regular) continue;
+    const auto report =
+        continuation::check_derivatives(traced.problem(), point.unknowns, point.parameters, point.regime);
+    INFO(report.where);
+    CHECK(report.worst < 1e-7);
+  }
+}
 
 /// A parameter or an observable by the name that its column has.
 inline double value(const TracedBranch& traced, const BranchPoint& point, const std::string& name) {

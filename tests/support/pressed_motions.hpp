@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "arcslip/elements/pressed/pressed_contact.hpp"
+#include "arcslip/elements/pressed/pressed_element.hpp"
 #include "random_systems.hpp"
 
 namespace arcslip::testing {
@@ -24,6 +24,14 @@ inline ComplexVector random_course(RandomSystems& draw, int highest, double mean
 
 inline PressedSettings random_pressed(RandomSystems& draw) {
   return {draw.uniform(0.1, 1), draw.uniform(0.5, 2), draw.uniform(0, 2), draw.uniform(-1, 3)};
+}
+
+/// The least or greatest normal force under a motion of which the closing displacement is this coordinate.
+inline double extreme_press(const PressedSettings& s, const std::vector<int>& orders, const ComplexVector& x,
+                            Index closing, bool greatest) {
+  const PressedElement::Settings settings{s.friction, s.tangential_stiffness, s.normal_stiffness,
+                                          s.normal_force, 0};
+  return PressedElement::extreme_press(settings, orders, x, 1, closing, greatest).value;
 }
 
 /// Harmonics f0 c1 s1 c2 s2 c3 s3 of friction with k_t = 2, k_n = 2.5, mu = 0.75 under r = X cos

@@ -197,16 +197,16 @@ void CircleColumns::add_settings(double theta, const Share& share, Eigen::Ref<Ro
   row(first + PressedForce::normal_force) += s.friction * share.radius;
 }
 
-CircleColumns::Rates CircleColumns::rates(const Row& row) const {
+ContactNumber CircleColumns::number(double value, const Row& row) const {
   const Index n = harmonics();
-  Rates rates{ComplexVector(3 * n), {}};
+  ContactNumber number{value, ComplexVector(3 * n), {}};
   for (Index c = 0; c < 3; ++c) {
     for (Index a = 0; a < n; ++a)
-      rates.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
+      number.by_motion(c * n + a) = Complex(row(2 * c * n + a), row((2 * c + 1) * n + a));
   }
   for (Index s = 0; s < PressedForce::settings; ++s)
-    rates.by[static_cast<std::size_t>(s)] = row(settings() + s);
-  return rates;
+    number.by[static_cast<std::size_t>(s)] = row(settings() + s);
+  return number;
 }
 
 Matrix start_of(const CircleChanges& changes) {

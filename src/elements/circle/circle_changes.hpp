@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "arcslip/elements/pressed/pressed_contact.hpp"
+#include "arcslip/elements/pressed/contact_readings.hpp"
 #include "elements/circle/circle_course.hpp"
 
 namespace arcslip {
@@ -37,12 +37,8 @@ class CircleColumns {
   /// Adds what each column has of it at theta.
   void add(double theta, const Share& share, Eigen::Ref<Eigen::RowVectorXd> row) const;
 
-  /// A row as derivatives by motion, Re and Im of x_h as real and imaginary part, and settings.
-  struct Rates {
-    ComplexVector by_motion;
-    std::array<double, PressedForce::settings> by;
-  };
-  Rates rates(const Eigen::RowVectorXd& row) const;
+  /// A number of which a row has the derivatives.
+  ContactNumber number(double value, const Eigen::RowVectorXd& row) const;
 
  private:
   void add_settings(double theta, const Share& share, Eigen::Ref<Eigen::RowVectorXd> row) const;

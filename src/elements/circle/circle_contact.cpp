@@ -96,9 +96,6 @@ class CircleIntegrals {
     out_.harmonics.head(n()) += k * stick_.harmonics(motion_.x(), orders_);
     out_.harmonics.segment(n(), n()) += k * stick_.harmonics(motion_.y(), orders_);
     out_.harmonics.tail(n()) = touch_.harmonics(motion_.press(), orders_);
-    const Swing swing = Swing::at(motion_.press(), motion_.press().derivative().zeros());
-    out_.least_normal = std::max(0.0, swing.least.value);
-    out_.greatest_normal = std::max(0.0, swing.greatest.value);
   }
 
   /// In stick places are told relative to the mean of k_t r.
@@ -179,8 +176,8 @@ CircleRoom room_of(const CircleMotion& moves, std::span<const int> orders, const
     columns.add(touch.angle, {.centre = is_one ? 0 : touch.weight / far * pull, .radius = -touch.weight},
                 row);
   }
-  const CircleColumns::Rates rates = columns.rates(row);
-  return {point.excess, rates.by_motion, rates.by};
+  const ContactNumber excess = columns.number(point.excess, row);
+  return {excess.value, excess.by_motion, excess.by};
 }
 
 /// Where the excess is hardly anything, or on the other side of the border: between what the force is at the
@@ -290,7 +287,7 @@ DisturbedLaw circle_law(const PressedSettings& settings, std::span<const int> or
     return DisturbedLaw::constant(stiffness.asDiagonal());
   }
   const CommonPoint point = least_excess(moves, clearly_slips * moves.size());
-  const CircleMotion beyond = moves.tightened(std::max(0.0, hardly_slips * moves.size() - point.excess));
+  const CircleMotion beyond = slipping_motion(moves, point);
   const CircleCourse course(beyond, point.offset, point.roomiest);
   if (course.arcs().empty()) throw std::domain_error("friction in a plane does not settle");
   return circle_law(beyond, course, closes, turn);

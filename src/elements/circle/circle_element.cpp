@@ -107,17 +107,8 @@ MotionNumber CircleElement::border(std::span<const int> orders, const HarmonicVe
 
 std::vector<MotionNumber> CircleElement::read(std::span<const int> orders, const HarmonicVector& x,
                                               double load, bool beyond, bool derivatives) const {
-  const CircleReadings found = circle_readings(settings(load), orders, x, beyond, derivatives);
-  const auto told = [&](const CircleNumber& number) {
-    MotionNumber all{number.value, number.by_motion.head(x.size()),
-                     settings_.by_log_load(load, 0) * number.by[PressedForce::normal_force], 0};
-    const auto rates = settings_.rates(load);
-    for (std::size_t s = 0; s < rates.size(); ++s) all.by_setting += rates[s] * number.by[s];
-    return all;
-  };
-  return {told(found.greatest_traction), PressedElement::extreme_press(settings_, orders, x, load, 2, false),
-          PressedElement::extreme_press(settings_, orders, x, load, 2, true), told(found.slip_fraction),
-          told(found.apart_fraction)};
+  return PressedElement::told(settings_, circle_readings(settings(load), orders, x, beyond, derivatives),
+                              orders, x, load, 2);
 }
 
 void CircleElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

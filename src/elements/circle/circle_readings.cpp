@@ -22,13 +22,13 @@ class CircleReader {
   CircleReader(const CircleMotion& motion, std::span<const int> orders, bool derivatives)
       : motion_(motion), columns_(motion, orders), derivatives_(derivatives), centre_(only_centre(motion)) {}
 
-  CircleReadings stuck(const RestingPlace& place) {
+  ContactReadings stuck(const RestingPlace& place) {
     arcs_ = {{Phase::stick, 0, two_pi, place.offset, {}}};
     if (derivatives_) changes_.arcs = {{changes_of(motion_, place, columns_), {}}};
     return read();
   }
 
-  CircleReadings moved(const CircleCourse& course, std::span<const int> orders) {
+  ContactReadings moved(const CircleCourse& course, std::span<const int> orders) {
     arcs_ = course.arcs();
     if (derivatives_) changes_ = changes_of(motion_, course, columns_, orders);
     const bool comes_back = !course.begins_apart() && arcs_.front().phase != Phase::apart;
@@ -43,7 +43,7 @@ class CircleReader {
     return {settings, motion.x(), motion.y(), motion.closing()};
   }
 
-  CircleReadings read() const {
+  ContactReadings read() const {
     Row slip = Row::Zero(columns_.size());
     Row apart = slip;
     double slips = 0;
@@ -61,11 +61,10 @@ class CircleReader {
   }
 
   /// A changes along with what brings it back after the period.
-  CircleNumber number(double value, const Row& row) const {
+  ContactNumber number(double value, const Row& row) const {
     Row all = row;
     if (start_.size() > 0) all.head(start_.cols()) += row.tail<2>() * start_;
-    const CircleColumns::Rates rates = columns_.rates(all);
-    return {value, rates.by_motion, rates.by};
+    return columns_.number(value, all);
   }
 
   Row of(double theta, const Share& share) const {
@@ -195,16 +194,16 @@ class CircleReader {
 
 }  // namespace
 
-CircleReadings circle_readings(const PressedSettings& settings, std::span<const int> orders,
-                               const ComplexVector& motion, bool slips, bool derivatives) {
+ContactReadings circle_readings(const PressedSettings& settings, std::span<const int> orders,
+                                const ComplexVector& motion, bool slips, bool derivatives) {
   const CircleMotion moves = CircleMotion::of(settings, orders, motion);
   if (!slips) return CircleReader(moves, orders, derivatives).stuck(RestingPlace(moves));
   const CommonPoint point = least_excess(moves, clearly_slips * moves.size());
-  const CircleMotion beyond = moves.tightened(std::max(0.0, hardly_slips * moves.size() - point.excess));
+  const CircleMotion beyond = slipping_motion(moves, point);
   const CircleCourse course(beyond, point.offset, point.roomiest);
   if (!course.arcs().empty()) return CircleReader(beyond, orders, derivatives).moved(course, orders);
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const CircleNumber none{unknown, ComplexVector::Constant(3 * std::ssize(orders), unknown), {}};
+  const ContactNumber none{unknown, ComplexVector::Constant(3 * std::ssize(orders), unknown), {}};
   return {none, none, none};
 }
 

@@ -252,4 +252,8 @@ TouchConditions::TouchConditions(const CircleMotion& motion, const CommonPoint& 
   }
 }
 
+CircleMotion slipping_motion(const CircleMotion& motion, const CommonPoint& least) {
+  return motion.tightened(std::max(0.0, hardly_slips * motion.size() - least.excess));
+}
+
 }  // namespace arcslip

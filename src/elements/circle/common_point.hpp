@@ -42,6 +42,9 @@ inline constexpr double clearly_slips = 1e-3;
 /// The search ends where the excess is above `enough`.
 CommonPoint least_excess(const CircleMotion& motion, double enough);
 
+/// The motion as it slips, with the least excess found: on the border or before it so tight that it does.
+CircleMotion slipping_motion(const CircleMotion& motion, const CommonPoint& least);
+
 /// Where a slider rests that sticks for ever: on the straight way from the most central place to that in
 /// which nothing has moved it, as far as all discs let it; if there is no common place at its begin.
 struct RestingPlace {

@@ -4,97 +4,24 @@
 #include <cmath>
 #include <utility>
 
+#include "elements/pressed/arc_ends.hpp"
+
 namespace arcslip {
 namespace {
 
 using Arc = PressedArcs::Arc;
 using Phase = PressedArcs::Phase;
-using Local = PeriodicMotion::Local;
 
-/// Of an event where a function of theta and of steps is zero: how fast theta goes. One that does not cross
-/// zero stays.
-double pace_of_zero(double by_step, double by_angle) { return by_angle != 0 ? -by_step / by_angle : 0; }
+/// How fast a number goes along a change; one that is not told, as of an event that only touches, stays.
+double along(const ContactNumber& number, const PressedChange& change) {
+  const Index n = change.sliding.size();
+  double rate = number.by_motion.head(n).dot(change.sliding).real();
+  rate += number.by_motion.tail(n).dot(change.closing).real();
+  for (std::size_t s = 0; s < change.by.size(); ++s) rate += number.by[s] * change.by[s];
+  return std::isfinite(rate) ? rate : 0;
+}
 
 }  // namespace
-
-/// Values and rates at one theta, and what follows for arcs.
-class MovingArcs::Rates {
- public:
-  explicit Rates(const MovingArcs& of)
-      : k_(of.settings_.tangential_stiffness),
-        mu_(of.settings_.friction),
-        dk_(of.change_.by[PressedForce::tangential_stiffness]),
-        dmu_(of.change_.by[PressedForce::friction]),
-        sliding_(sliding_motion(of.orders_, of.sliding_, of.course_)),
-        slides_(sliding_motion(of.orders_, of.change_.sliding, of.course_)),
-        press_(pressing_motion(of.settings_, PeriodicMotion(of.orders_, of.closing_, sliding_.highest()))),
-        presses_(pressing_rate(of)) {}
-
-  /// Of a stick arc, what begins with its anchor.
-  void hold(const Arc& arc, Rate& rate) const {
-    const Values at(*this, arc.anchor);
-    if (!arc.was_apart) {  // A = k_t r + c n, where this stands still
-      const double c = arc.by_press;
-      const double dc = std::copysign(1.0, c) * dmu_;
-      rate.anchor = pace_of_zero(k_ * at.dr1 + dk_ * at.r1 + c * at.dn1 + dc * at.n1, k_ * at.r2 + c * at.n2);
-      rate.offset = k_ * at.dr + dk_ * at.r + c * at.dn + dc * at.n;
-      rate.by_press = dc;
-      return;
-    }
-    rate.anchor = pace_of_zero(at.dn, at.n1);  // A = k_t r, where n = 0
-    rate.offset = k_ * at.dr + dk_ * at.r + k_ * at.r1 * rate.anchor;
-    if (arc.by_press == 0 || at.n1 == 0) return;
-    const double ratio = at.r1 / at.n1;
-    const double dr1 = at.dr1 + at.r2 * rate.anchor;
-    const double dn1 = at.dn1 + at.n2 * rate.anchor;
-    rate.by_press = -dk_ * ratio - k_ * (dr1 - ratio * dn1) / at.n1;
-  }
-
-  /// Of an arc that begins behind another one.
-  double begin(const Arc& arc, const Rate& own, const Arc& before, const Rate& of_before) const {
-    if (arc.phase == Phase::stick) return own.anchor;
-    const Values at(*this, before.begin + before.width);
-    if (arc.phase == Phase::apart || before.phase == Phase::apart) return pace_of_zero(at.dn, at.n1);
-    if (before.phase != Phase::stick) return 0;
-    const double c = -arc.direction * mu_;  // slip begins where k_t r + c n = A
-    const double dc = -arc.direction * dmu_;
-    const double bound = k_ * at.dr + dk_ * at.r + c * at.dn + dc * at.n;
-    return pace_of_zero(bound - of_before.offset, k_ * at.r1 + c * at.n1);
-  }
-
- private:
-  struct Values {
-    Values(const Rates& of, double theta) {
-      const Local slid = of.sliding_.at(theta);
-      const Local pressed = of.press_.at(theta);
-      const Local slides = of.slides_.at(theta);
-      const Local presses = of.presses_.at(theta);
-      r = slid.value, r1 = slid.first, r2 = of.sliding_.derivative().at(theta).first;
-      n = pressed.value, n1 = pressed.first, n2 = of.press_.derivative().at(theta).first;
-      dr = slides.value, dr1 = slides.first;
-      dn = presses.value, dn1 = presses.first;
-    }
-    double r, r1, r2;  // and derivatives by theta
-    double n, n1, n2;
-    double dr, dr1;  // by steps
-    double dn, dn1;
-  };
-
-  static PeriodicMotion pressing_rate(const MovingArcs& of) {
-    const auto& by = of.change_.by;
-    const int highest = highest_order(of.orders_);
-    ComplexVector rate = of.settings_.normal_stiffness *
-                         PeriodicMotion(of.orders_, of.change_.closing, highest).coefficients();
-    rate +=
-        by[PressedForce::normal_stiffness] * PeriodicMotion(of.orders_, of.closing_, highest).coefficients();
-    rate(0) += by[PressedForce::normal_force];
-    return PeriodicMotion(std::move(rate));
-  }
-
-  double k_, mu_, dk_, dmu_;
-  PeriodicMotion sliding_, slides_;
-  PeriodicMotion press_, presses_;
-};
 
 MovingArcs::MovingArcs(const PressedSettings& settings, std::span<const int> orders,
                        const ComplexVector& sliding, const ComplexVector& closing, PressedArcs::Course course,
@@ -104,18 +31,37 @@ MovingArcs::MovingArcs(const PressedSettings& settings, std::span<const int> ord
       sliding_(sliding),
       closing_(closing),
       course_(course),
-      change_(std::move(change)),
-      arcs_(PressedArcs(settings, sliding_motion(orders, sliding, course),
-                        PeriodicMotion(orders, closing, highest_order(orders)), course)
-                .arcs()),
-      rates_(arcs_.size()) {
-  const Rates rates(*this);
+      change_(std::move(change)) {
+  const PeriodicMotion slides = sliding_motion(orders, sliding, course);
+  const PeriodicMotion closes(orders, closing, highest_order(orders));
+  arcs_ = PressedArcs(settings, slides, closes, course).arcs();
+  rates_.resize(arcs_.size());
+  const ArcEnds ends(settings_, orders, slides, closes, course == PressedArcs::Course::drifts);
+  const auto rate = [&](const auto& add) {
+    ContactNumber number = ends.zero(0);
+    add(number);
+    return along(number, change_);
+  };
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
-    if (arcs_[i].is_set) rates.hold(arcs_[i], rates_[i]);
+    const Arc& arc = arcs_[i];
+    if (!arc.is_set) continue;
+    rates_[i].anchor = rate([&](ContactNumber& sum) { ends.add_anchor(arc, 1, sum); });
+    rates_[i].offset = rate([&](ContactNumber& sum) { ends.add_offset(arc, 1, sum); });
+    rates_[i].by_press = rate([&](ContactNumber& sum) { ends.add_by_press(arc, 1, sum); });
   }
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
-    const std::size_t before = (i > 0 ? i : arcs_.size()) - 1;
-    rates_[i].begin = rates_[before].end = rates.begin(arcs_[i], rates_[i], arcs_[before], rates_[before]);
+    const std::size_t last = (i > 0 ? i : arcs_.size()) - 1;
+    const Arc& arc = arcs_[i];
+    const Arc& before = arcs_[last];
+    const bool touches = arc.phase == Phase::apart || before.phase == Phase::apart;
+    double begin = 0;  // of a phase that lasts
+    if (arc.phase == Phase::stick)
+      begin = rates_[i].anchor;
+    else if (touches && last != i)
+      begin = rate([&](ContactNumber& sum) { ends.add_touch(arc.begin, 1, sum); });
+    else if (before.phase == Phase::stick)
+      begin = rate([&](ContactNumber& sum) { ends.add_onset(arc, before, 1, sum); });
+    rates_[i].begin = rates_[last].end = begin;
   }
 }
 

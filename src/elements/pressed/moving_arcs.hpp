@@ -46,7 +46,6 @@ class MovingArcs {
     double offset = 0;
     double by_press = 0;
   };
-  class Rates;
   double pace() const;
   PressedSettings settings_at(double steps) const;
 

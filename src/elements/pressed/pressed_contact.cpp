@@ -54,7 +54,6 @@ class PressedIntegrals {
     out.normal = touch_.harmonics(press_, orders_);
     out.slip_fraction = fraction_of(arcs_, Phase::slip);
     out.apart_fraction = fraction_of(arcs_, Phase::apart);
-    normal_range(out);
   }
 
   void by_motions(PressedForce& out) const {
@@ -113,12 +112,6 @@ class PressedIntegrals {
       rate += settings_.tangential_stiffness * (ramps_[i] - held_[i].arc.anchor * held_[i].constant);
     out.tangential_by_sliding.linear.col(mean) -= Complex(0, 0.5) * rate;
     out.tangential_by_sliding.conjugate.col(mean) += Complex(0, 0.5) * rate;
-  }
-
-  void normal_range(PressedForce& out) const {
-    const Swing swing = Swing::at(press_, press_.derivative().zeros());
-    out.least_normal = std::max(0.0, swing.least.value);
-    out.greatest_normal = std::max(0.0, swing.greatest.value);
   }
 
   const PressedSettings& settings_;

@@ -195,19 +195,23 @@ std::optional<RestingForce> PressedElement::resting_force(std::span<const int> o
 std::vector<MotionNumber> PressedElement::read(std::span<const int> orders, const HarmonicVector& x,
                                                double load, bool beyond, bool /*derivatives*/) const {
   const Index n = std::ssize(orders);
-  const PressedReadings found =
-      pressed_readings(settings(load), orders, x.head(n), x.tail(n), course(beyond));
-  const auto told = [&](const PressedNumber& number) {
-    MotionNumber all{number.value, HarmonicVector(2 * n),
-                     settings_.by_log_load(load, 0) * number.by[PressedForce::normal_force], 0};
-    all.by_motion << number.by_sliding, number.by_closing;
-    const auto rates = settings_.rates(load);
-    for (std::size_t s = 0; s < rates.size(); ++s) all.by_setting += rates[s] * number.by[s];
+  return told(settings_, pressed_readings(settings(load), orders, x.head(n), x.tail(n), course(beyond)),
+              orders, x, load, 1);
+}
+
+std::vector<MotionNumber> PressedElement::told(const Settings& settings, const ContactReadings& found,
+                                               std::span<const int> orders, const HarmonicVector& x,
+                                               double load, Index closing) {
+  const auto rates = settings.rates(load);
+  const auto number = [&](const ContactNumber& one) {
+    MotionNumber all{one.value, one.by_motion.head(x.size()),
+                     settings.by_log_load(load, 0) * one.by[PressedForce::normal_force], 0};
+    for (std::size_t s = 0; s < rates.size(); ++s) all.by_setting += rates[s] * one.by[s];
     return all;
   };
-  return {told(found.greatest_traction), extreme_press(settings_, orders, x, load, 1, false),
-          extreme_press(settings_, orders, x, load, 1, true), told(found.slip_fraction),
-          told(found.apart_fraction)};
+  return {number(found.greatest_traction), extreme_press(settings, orders, x, load, closing, false),
+          extreme_press(settings, orders, x, load, closing, true), number(found.slip_fraction),
+          number(found.apart_fraction)};
 }
 
 void PressedElement::second(const ElementForce& /*at*/, std::span<const int> orders, const HarmonicVector& x,

@@ -29,6 +29,9 @@ struct BranchPoint {
   int unstable = -1;  ///< how many of them have a positive real part; -1 where there are none
   std::string label;  ///< the name of a user's event
 
+  /// The tangent of the piece that arrives.
+  const Vector& arriving() const { return arrival.size() > 0 ? arrival : tangent; }
+
   /// What it is called: an event by its own name, others by their type.
   std::string_view type_name() const { return label.empty() ? to_string(type) : std::string_view(label); }
 };

@@ -29,11 +29,9 @@ struct CircleForce {
   ComplexMatrix conjugate;                               ///< the same
   std::array<ComplexVector, PressedForce::settings> by;  ///< of the harmonics by each setting
 
-  double energy = 0;           ///< lost per cycle, in both directions
-  double slip_fraction = 0;    ///< of the period
-  double apart_fraction = 0;   ///< of the period
-  double least_normal = 0;     ///< min N
-  double greatest_normal = 0;  ///< max N
+  double energy = 0;          ///< lost per cycle, in both directions
+  double slip_fraction = 0;   ///< of the period
+  double apart_fraction = 0;  ///< of the period
 };
 
 /// The settled forces under the motion with these `orders` (h >= 0, different ones): x, y and g one behind

@@ -22,9 +22,7 @@ class CircleElement final : public Element {
   double reference_stiffness(Index coordinate = 0) const override;
   bool is_odd() const override { return !closes_; }
   bool may_rest() const override { return true; }
-  std::vector<Reading> readings() const override {
-    return {{"T_max", true}, {"N_min", true}, {"N_max", true}, {"slip"}, {"apart"}};
-  }
+  std::vector<Reading> readings() const override { return PressedElement::names_of_readings(); }
   std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
                                  bool beyond, bool derivatives) const override;
   bool dissipates() const override { return true; }

@@ -43,11 +43,9 @@ struct PressedForce {
   std::array<ComplexVector, settings> tangential_by;  ///< of f_h by each setting
   std::array<ComplexVector, settings> normal_by;      ///< of N_h by each setting
 
-  double energy = 0;           ///< lost per cycle
-  double slip_fraction = 0;    ///< of the period
-  double apart_fraction = 0;   ///< of the period
-  double least_normal = 0;     ///< min N
-  double greatest_normal = 0;  ///< max N
+  double energy = 0;          ///< lost per cycle
+  double slip_fraction = 0;   ///< of the period
+  double apart_fraction = 0;  ///< of the period
 };
 
 /// The sliding motion of these coefficients, in the course that drifts with its drift.

@@ -9,7 +9,7 @@
 
 #include "arcslip/elements/element.hpp"
 #include "arcslip/elements/jet.hpp"
-#include "arcslip/elements/pressed/pressed_contact.hpp"
+#include "arcslip/elements/pressed/contact_readings.hpp"
 
 namespace arcslip {
 
@@ -47,9 +47,7 @@ class PressedElement final : public Element {
   bool may_rest() const override { return true; }
   std::optional<RestingForce> resting_force(std::span<const int> orders, const HarmonicVector& x,
                                             double load) const override;
-  std::vector<Reading> readings() const override {
-    return {{"T_max", true}, {"N_min", true}, {"N_max", true}, {"slip"}, {"apart"}};
-  }
+  std::vector<Reading> readings() const override { return names_of_readings(); }
   std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
                                  bool beyond, bool derivatives) const override;
   bool dissipates() const override { return true; }
@@ -82,6 +80,14 @@ class PressedElement final : public Element {
   /// The least or greatest of max(0, N_0 + k_n g) over a motion of which g is this coordinate, or none.
   static MotionNumber extreme_press(const Settings& settings, std::span<const int> orders,
                                     const HarmonicVector& x, double load, Index closing, bool greatest);
+
+  /// What a contact with such settings tells whose closing displacement is this coordinate, or none.
+  static std::vector<Reading> names_of_readings() {
+    return {{"T_max", true}, {"N_min", true}, {"N_max", true}, {"slip"}, {"apart"}};
+  }
+  static std::vector<MotionNumber> told(const Settings& settings, const ContactReadings& found,
+                                        std::span<const int> orders, const HarmonicVector& x, double load,
+                                        Index closing);
 
   /// Its numbers under a load.
   PressedSettings settings(double load) const { return settings_.at(load, 0); }
