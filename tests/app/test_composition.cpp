@@ -361,9 +361,13 @@ TEST_CASE("All tasks compose with one contact in one harmonic", "[composition]")
 TEST_CASE("All tasks compose with five harmonics", "[composition]") { check_kind("five harmonics"); }
 TEST_CASE("All tasks compose with cubic springs", "[composition]") { check_kind("cubic springs"); }
 TEST_CASE("All tasks compose with a contact to ground", "[composition]") { check_kind("contact to ground"); }
-TEST_CASE("All tasks compose with negative damping", "[composition]") { check_kind("negative damping"); }
+TEST_CASE("All tasks compose with negative damping", "[composition][numbers]") {
+  check_kind("negative damping");
+}
 TEST_CASE("All tasks compose with structural damping", "[composition]") { check_kind("structural damping"); }
-TEST_CASE("All tasks compose with a growing preload", "[composition]") { check_kind("growing preload"); }
+TEST_CASE("All tasks compose with a growing preload", "[composition][numbers]") {
+  check_kind("growing preload");
+}
 TEST_CASE("All tasks compose with stops in five harmonics", "[composition][numbers]") {
   check_kind("stops of `[[element]]`, five harmonics");
 }

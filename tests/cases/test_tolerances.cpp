@@ -81,7 +81,7 @@ void check_case(const std::string& name, const Settings& settings = {}) {
 
 }  // namespace
 
-TEST_CASE("Ten times more or less of any tolerance gives the same rows", "[tolerances]") {
+TEST_CASE("Ten times more or less of any tolerance gives the same rows", "[tolerances][numbers]") {
   SECTION("folds") { check_case("freudenstein_roth"); }
   SECTION("folds and Hopf points") { check_case("ab"); }
   SECTION("branch points that are switched at") { check_case("pp2"); }

@@ -156,7 +156,7 @@ TEST_CASE("The cubic term is projected without aliasing", "[library]") {
 }
 
 TEST_CASE("Without damping and next to no force the oscillator's frequency is that of its elliptic integral",
-          "[library]") {
+          "[library][numbers]") {
   // Section C2: w(A) = pi sqrt(1 + g A^2)/(2 K(m)), m = g A^2/(2 (1 + g A^2)), here g = 1; A is the sum of
   // the cosines, which are in phase at the turning point. A small force fixes the phase; its two signs have
   // the free vibration as their mean, to second order.

@@ -142,7 +142,7 @@ TEST_CASE("A drift begins where friction that holds alone begins to slip on one 
   }
 }
 
-TEST_CASE("A free mass on a stop moves as it does in time, with its mean", "[free]") {
+TEST_CASE("A free mass on a stop moves as it does in time, with its mean", "[free][numbers]") {
   // m = 1, c = 0.1, a stop k = 1 with the gap -0.8, cos(0.4 pi t); figures of an integration in time
   HarmonicSystem system;
   system.orders = up_to(16);
@@ -160,7 +160,7 @@ TEST_CASE("A free mass on a stop moves as it does in time, with its mean", "[fre
   CHECK(worst_derivative(problem, at) < 1e-6);
 }
 
-TEST_CASE("What is free to move is the limit of weak springs to ground", "[free]") {
+TEST_CASE("What is free to move is the limit of weak springs to ground", "[free][numbers]") {
   const HarmonicResponse free(pair(5, 0, 0.9));
   for (const double eta : {0.12, 0.2}) {
     const Guess at = free.guess(eta, 1);

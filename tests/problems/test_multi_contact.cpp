@@ -151,7 +151,7 @@ TEST_CASE("Two sliders in parallel slip one after the other, as the sum of their
   CHECK(std::count(seen.begin(), seen.end(), "slip 2") == 0);  // the stronger slider never slips alone
 }
 
-TEST_CASE("A contact cut into thirty equal ones, which slip at once, is the same", "[contacts]") {
+TEST_CASE("A contact cut into thirty equal ones, which slip at once, is the same", "[contacts][numbers]") {
   constexpr Index count = 30;
   const FrictionSystem system = build_system(figure_8(1));
   std::vector<Index> all(static_cast<std::size_t>(count));
