@@ -1,9 +1,12 @@
 // What is left, and said, where the program is ended before its work is done.
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "background.hpp"
 #include "catch.hpp"
+#include "draws.hpp"
 #include "plotting.hpp"
 #include "study_text.hpp"
 
@@ -196,18 +199,19 @@ void check_resumed(const std::string& path, const std::vector<std::string>& sett
 }  // namespace
 
 TEST_CASE("An interrupted run goes on to the tables of one that was not", "[interrupt]") {
+  // Steps so short that there is time to interrupt: under the sanitizers each takes ten times as long.
+  const auto step = [](double longest) {
+    return fmt::format("continuation.max_step={:g}", sanitized ? 10 * longest : longest);
+  };
   SECTION("several branches") {
-    check_resumed(figure_8_case,
-                  {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", "continuation.max_step=0.002"},
+    check_resumed(figure_8_case, {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", step(0.002)},
                   true);
   }
   SECTION("branches that are switched to") {
     check_resumed(figure_8_case, {"branch.for_each.preload=[5.0]", "branch.switching=true",
-                                  "system.harmonics=15", "continuation.max_step=0.003"});
+                                  "system.harmonics=15", step(0.003)});
   }
-  SECTION("a curve in two parameters") {
-    check_resumed(case_named("lorenz84_hopf_curve"), {"continuation.max_step=1e-4"});
-  }
+  SECTION("a curve in two parameters") { check_resumed(case_named("lorenz84_hopf_curve"), {step(1e-4)}); }
 }
 
 TEST_CASE("A run whose branches had no time to be whole goes on to the tables of one that had",

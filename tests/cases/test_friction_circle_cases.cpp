@@ -13,6 +13,7 @@
 #include "arcslip/problems/response/power_balance.hpp"
 #include "case_runs.hpp"
 #include "case_texts.hpp"
+#include "draws.hpp"
 #include "small_structures.hpp"
 
 using namespace arcslip;
@@ -260,7 +261,8 @@ TEST_CASE("The case of a mass that goes round on a rough plane is the balance of
 
 TEST_CASE("Random masses that slide in a plane balance at every point of their branches", "[plane]") {
   int slips = 0;
-  for (int i = 0; i < 5; ++i) {
+  constexpr int next = sanitized ? 3 : 1;  // one that closes after one that does not
+  for (int i = 0; i < 5; i += next) {
     RandomSystems draw(static_cast<unsigned>(200 + i));
     const bool closes = i >= 3;
     const SmallStructure s = two_masses(draw, closes);
@@ -284,7 +286,7 @@ TEST_CASE("Random masses that slide in a plane balance at every point of their b
       CHECK(sampled_error(s, contact, run.problem(), point, 1 << 11) < 1e-5);
     }
   }
-  CHECK(slips > 10);
+  CHECK(slips > 10 / next);
 }
 
 TEST_CASE("Friction in a plane of which one direction never moves is friction in one", "[plane]") {

@@ -7,6 +7,7 @@
 #include "arcslip/elements/circle/circle_contact.hpp"
 #include "arcslip/elements/element_kind.hpp"
 #include "catch.hpp"
+#include "draws.hpp"
 #include "plane_motions.hpp"
 
 using namespace arcslip;
@@ -129,7 +130,7 @@ TEST_CASE("The element of the friction circle has exact derivatives by load and 
   for (const bool closes : {true, false}) {
     const std::vector<int> orders = closes ? std::vector{1, 0, 2, 3} : std::vector{1, 3, 5};
     const auto size = static_cast<Index>(orders.size()) * (closes ? 3 : 2);
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < draws(8); ++i) {
       CAPTURE(closes, i);
       const std::vector<double> values{draw.uniform(0.5, 2), closes ? draw.uniform(0.2, 1) : 0,
                                        draw.uniform(0.1, 0.5), draw.uniform(0, 0.3), draw.uniform(0.5, 1)};

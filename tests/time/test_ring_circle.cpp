@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "arcslip/problems/response/floquet_response.hpp"
+#include "draws.hpp"
 #include "timed_cases.hpp"
 
 using namespace arcslip;
@@ -110,11 +111,15 @@ TEST_CASE("Disturbances of friction circles grow as those of all nodes in time",
     double eta;
     double as_near;
   };
-  // It sticks, sticks and slips, comes apart just so and clearly; waves with and without a common factor.
-  const auto p = GENERATE(
-      Point{[] { return plane(13); }, 0.05, 1e-9}, Point{[] { return plane(13); }, 0.12, 1e-4},
-      Point{[] { return plane(13); }, 0.1553, 1e-3}, Point{[] { return plane(13); }, 0.158, 1e-3},
-      Point{[] { return ring(1, 5, 13); }, 0.236, 1e-4}, Point{[] { return ring(2, 6, 13); }, 0.285, 1e-4});
+  // It sticks, comes apart clearly; waves with and without a common factor; sticks and slips, comes apart
+  // just so.
+  constexpr std::size_t points = sanitized ? 3 : 6;
+  const auto p = GENERATE(take(points, values<Point>({{[] { return plane(13); }, 0.05, 1e-9},
+                                                      {[] { return plane(13); }, 0.158, 1e-3},
+                                                      {[] { return ring(2, 6, 13); }, 0.285, 1e-4},
+                                                      {[] { return ring(1, 5, 13); }, 0.236, 1e-4},
+                                                      {[] { return plane(13); }, 0.12, 1e-4},
+                                                      {[] { return plane(13); }, 0.1553, 1e-3}})));
   CAPTURE(p.eta);
   Timed timed(p.input(), p.eta);
   const SettledMotion found = shoot(timed.motion, timed.start, 1e-10);

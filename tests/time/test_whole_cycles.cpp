@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "draws.hpp"
 #include "monodromy.hpp"
 #include "temporary_folder.hpp"
 #include "timed_cases.hpp"
@@ -91,32 +92,35 @@ TEST_CASE(
     double as_near;
   };
   // Waves with and without a common factor; odd and not.
-  const auto row = GENERATE(values<std::function<Row()>>({
-      [] {
-        return Row{"lift-off and a stop", case_of(sectors(2, 6, 9, lift_off + one_stop)), -6e-3, 2e-4};
-      },
-      [] {
-        return Row{"lift-off", case_of(sectors(2, 4, 9, lift_off)), -6e-3, 1e-4};
-      },
-      [] {
-        return Row{"a stop", case_of(sectors(1, 4, 9, one_stop)), -2e-3, 3e-4};
-      },
-      [] {
-        return Row{"a plane", case_of(sectors(1, 4, 5, circle)), -2e-3, 1e-4};
-      },
-      [] {
-        return Row{"free rods", joined_rods(9), -2.22e-2, 5e-4};
-      },
-      [] {
-        return Row{"a plane, g = 2", case_of(sectors(2, 6, 5, circle)), -6e-3, 6e-4};
-      },
-  }))();
+  constexpr std::size_t rows = sanitized ? 3 : 6;
+  const auto row = GENERATE(take(
+      rows,
+      values<std::function<Row()>>({
+          [] {
+            return Row{"a stop", case_of(sectors(1, 4, 9, one_stop)), -2e-3, 3e-4};
+          },
+          [] {
+            return Row{"a plane", case_of(sectors(1, 4, 5, circle)), -2e-3, 1e-4};
+          },
+          [] {
+            return Row{"free rods", joined_rods(9), -2.22e-2, 5e-4};
+          },
+          [] {
+            return Row{"lift-off", case_of(sectors(2, 4, 9, lift_off)), -6e-3, 1e-4};
+          },
+          [] {
+            return Row{"lift-off and a stop", case_of(sectors(2, 6, 9, lift_off + one_stop)), -6e-3, 2e-4};
+          },
+          [] {
+            return Row{"a plane, g = 2", case_of(sectors(2, 6, 5, circle)), -6e-3, 6e-4};
+          },
+      })))();
   CAPTURE(row.name);
   CHECK(cycle_error({row.input, row.zeta}) < row.as_near);
 }
 
 TEST_CASE("They tend to these as H^-3, and not as the velocity of the cycle alone does",
-          "[stability][cycle][whole]") {
+          "[stability][cycle][whole][numbers]") {
   const double few = cycle_error({that_lifts_off(7), -2e-2});
   const double many = cycle_error({that_lifts_off(15), -2e-2});
   CAPTURE(few, many);
