@@ -251,6 +251,14 @@ void FloquetOf<Motion>::observe(const Vector& u, const Vector& p, const continua
   values.tail<4>() << found.growth, error, static_cast<double>(found.wave), stable;
 }
 
+template <class Motion>
+void FloquetOf<Motion>::observe_quickly(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                        Vector& values) const {
+  Motion::observe(u, p, regime, values);
+  values.conservativeResize(values.size() + 4);
+  values.tail<4>().setConstant(none);
+}
+
 /// What is left out falls as h^-3, though not from each harmonic to the next: twice what that gives.
 template <class Motion>
 double FloquetOf<Motion>::growth_error(const Vector& u, const Vector& p, const continuation::Regime& regime,

@@ -8,6 +8,8 @@
 
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/motion/swing.hpp"
+#include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/problems/response/modulated_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 
 namespace arcslip {
@@ -106,6 +108,69 @@ std::vector<TracedBranch> departures_in(const Balance& balance, const std::vecto
   return traced;
 }
 
+/// What the modulated waves that leave a response are.
+const ResponseKind& modulated_kind() {
+  static const ResponseKind kind{.name = "modulated",
+                                 .title = "modulated responses",
+                                 .parameters = {"eta", "P"},
+                                 .frequency = ResponseKind::Frequency::own,
+                                 .extremum = "",
+                                 .not_disturbed = "",
+                                 .not_proven = "of two frequencies",
+                                 .remark = "modulated response",
+                                 .build = {}};
+  return kind;
+}
+
+/// The modulated waves that leave a branch, each once though it may begin and end on it.
+std::vector<TracedBranch> modulated_from(const TracedBranch& traced, const continuation::TimeBudget& time,
+                                         const continuation::Observer& observer) {
+  constexpr double near = 0.01;  // in the parameter, relative to it
+  std::vector<TracedBranch> all;
+  if (traced.base.disturbed == nullptr) return all;
+  CaseBranch request = *traced.request;
+  request.problem.response = &modulated_kind();
+  request.options.extrema_of.clear();
+  request.options.events.clear();
+  request.options.stop_after.clear();
+  const auto kept = std::make_shared<const CaseBranch>(request);
+  SystemParameters system = request.problem.system;
+  system.harmonics = traced.base.harmonics;
+  const auto& response = dynamic_cast<const HarmonicProblem&>(*traced.base.problem);
+  const Index parameter = continuation::index_of(response.parameter_names(), request.options.parameter);
+  const auto is_known = [&](const BranchPoint& point) {
+    return std::any_of(all.begin(), all.end(), [&](const TracedBranch& one) {
+      return !one.branch.points.empty() &&
+             std::abs(one.branch.points.back().parameters(parameter) / point.parameters(parameter) - 1) <
+                 near;
+    });
+  };
+  for (const BranchPoint& point : traced.branch.points) {
+    if (point.type != PointType::neimark_sacker || !time.goes_on() || is_known(point)) continue;
+    const auto begun = std::chrono::steady_clock::now();
+    TracedBranch one{kept, {traced.base.problem, {}, traced.base.harmonics}, nullptr, {}, 0};
+    try {
+      const std::optional<problems::ModulatedStart> start = problems::modulated_response(
+          system, response, {point.unknowns, point.parameters, point.regime, {}}, parameter);
+      if (!start)
+        throw std::invalid_argument(fmt::format("none was found at {} = {:.10g}", request.options.parameter,
+                                                point.parameters(parameter)));
+      one.base.problem = start->problem;
+      TraceOptions options = time.rest();
+      options.extrema_of.clear();
+      options.events.clear();
+      options.stop_after.clear();
+      options.journal = nullptr;
+      one.branch = trace(*start->problem, start->guess, options, observer);
+    } catch (const std::invalid_argument& error) {
+      one.branch.explanation = fmt::format("the modulated response is not followed: {}", error.what());
+    }
+    one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<TracedBranch> trace_departures(const std::vector<TracedBranch>& traced,
@@ -139,6 +204,13 @@ std::vector<TracedBranch> trace_departures(const std::vector<TracedBranch>& trac
     all.insert(all.end(), next.begin(), next.end());
     level = std::move(next);
   }
+  std::vector<TracedBranch> modulated;
+  for (const std::vector<TracedBranch>* branches : {&traced, &std::as_const(all)}) {
+    for (const TracedBranch& one : *branches) {
+      for (TracedBranch& more : modulated_from(one, time, observer)) modulated.push_back(std::move(more));
+    }
+  }
+  all.insert(all.end(), modulated.begin(), modulated.end());
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include "arcslip/elements/hysteresis_loop.hpp"
 #include "arcslip/elements/pressed/pressed_law.hpp"
 #include "arcslip/elements/pressed/pressed_readings.hpp"
+#include "arcslip/elements/two_phases.hpp"
 #include "elements/pressed/moving_arcs.hpp"
 
 namespace arcslip {
@@ -52,6 +53,12 @@ void Jenkins::set_derivatives(const PressedForce& found, double limit, ElementFo
   out.linear = found.tangential_by_sliding.linear;
   out.conjugate = found.tangential_by_sliding.conjugate;
   out.by_log_load = limit * found.tangential_by[PressedForce::normal_force];
+}
+
+bool Jenkins::in_two_phases(const TwoPhases& phases, double load, const ComplexVector& x, double ratio,
+                            bool derivatives, LineForce& out) const {
+  phases.slide(stiffness_, threshold(load), x, ratio, derivatives, out);
+  return true;
 }
 
 DisturbedLaw Jenkins::disturbed(std::span<const int> orders, const HarmonicVector& x, double load,

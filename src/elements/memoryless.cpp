@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "arcslip/elements/two_phases.hpp"
 #include "arcslip/motion/periodic_motion.hpp"
 #include "elements/harmonic_turn.hpp"
 #include "motion/bracketed_newton.hpp"
@@ -138,6 +139,14 @@ void MemorylessElement::force(std::span<const int> orders, const HarmonicVector&
     turn.add_slope(share * law_.slope(here, zone), out.linear, out.conjugate);
     if (law_.is_varied()) turn.add_force(share * law_.by_setting(here, zone), out.by_setting);
   });
+}
+
+bool MemorylessElement::in_two_phases(const TwoPhases& phases, double /*load*/, const ComplexVector& x,
+                                      double /*ratio*/, bool derivatives, LineForce& out) const {
+  if (law_.pieces().size() > 1) return false;
+  phases.act([this](double at) { return std::pair(law_.value(at, 0), law_.slope(at, 0)); }, x, derivatives,
+             out);
+  return true;
 }
 
 DisturbedLaw MemorylessElement::disturbed(std::span<const int> orders, const HarmonicVector& x,

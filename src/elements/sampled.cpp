@@ -137,6 +137,17 @@ void SampledElement::force(std::span<const int> orders, const HarmonicVector& x,
   means.add_slope(orders, out.linear, out.conjugate);
 }
 
+bool SampledElement::in_two_phases(const TwoPhases& phases, double /*load*/, const ComplexVector& x,
+                                   double /*ratio*/, bool derivatives, LineForce& out) const {
+  LawSamples here;
+  const auto law = [&](double at) {
+    law_->at(Vector::Constant(1, at), 1, here);
+    return std::pair(here.force(0), here.slope(0));
+  };
+  phases.act(law, x, derivatives, out);
+  return true;
+}
+
 VaryingStiffness SampledElement::stiffness_in_time(std::span<const int> orders,
                                                    const HarmonicVector& x) const {
   constexpr double negligible = 1e-14;

@@ -1,15 +1,16 @@
 #include "results/branch_columns.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 namespace arcslip {
 
 Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
-    : problem_(traced.problem()), request_(*traced.request), points_(traced.branch.points) {
+    : problem_(traced.problem()),
+      is_drawn_(detail == BranchTable::Detail::drawn),
+      request_(*traced.request),
+      points_(traced.branch.points) {
   if (detail == BranchTable::Detail::full) told_ = traced.told.get();
-  if (detail == BranchTable::Detail::drawn && !traced.curve) without_verdict_ = traced.base.disturbed.get();
   names_ = problem_.parameter_names();
   parameters_ = static_cast<Index>(names_.size());
   if (traced.curve) moved_ = traced.curve->active();
@@ -20,12 +21,8 @@ Columns::Columns(const TracedBranch& traced, BranchTable::Detail detail)
 }
 
 void Columns::observe(const continuation::BranchPoint& point) {
-  if (without_verdict_ == nullptr)
-    return problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
-  without_verdict_->observe_motion(point.unknowns, point.parameters, point.regime, observed_);
-  const Index known = observed_.size();
-  observed_.conservativeResize(static_cast<Index>(names_.size()) - parameters_);
-  observed_.tail(observed_.size() - known).setConstant(std::nan(""));
+  if (is_drawn_) return problem_.observe_quickly(point.unknowns, point.parameters, point.regime, observed_);
+  problem_.observe(point.unknowns, point.parameters, point.regime, observed_);
 }
 
 bool Columns::is_told(const continuation::BranchPoint& point) const {
@@ -91,6 +88,7 @@ PhysicalColumns::PhysicalColumns(const TracedBranch& traced) {
     names_.push_back(name);
   };
   add("eta", "frequency_Hz", Unit::frequency);
+  add("frequency_2", "frequency_2_Hz", Unit::frequency);
   add("P", std::string("preload_") + scale_->preload_unit(), Unit::preload);
   for (const char* name : {"R", "S", "Y", "U"}) add(name, std::string(name) + "_m", Unit::length);
   if (threshold_ >= 0) add("dissipated", "dissipated_J", Unit::energy);

@@ -35,7 +35,7 @@ class Columns {
   bool is_constant(const std::string& name) const;
 
   const continuation::Problem& problem_;
-  const problems::Floquet* without_verdict_ = nullptr;
+  bool is_drawn_;
   const CaseBranch& request_;
   const std::vector<continuation::BranchPoint>& points_;
   const Matrix* told_ = nullptr;

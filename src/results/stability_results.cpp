@@ -50,14 +50,11 @@ std::string describe_stability(const TracedBranch& traced) {
       "{} points where stability changes: with harmonics up to {} they move by at most {:.2g} in {}", changes,
       problem->finer_highest() / traced.base.harmonics.front(), most, traced.request->options.parameter);
   if (lost > 0) text += fmt::format("; {} of them are not found again", lost);
-  const auto leads_away = [](const BranchPoint& point) {
-    return point.type == PointType::symmetry_breaking || point.type == PointType::period_doubling;
-  };
-  const std::vector<BranchPoint>& points = traced.branch.points;
   const bool may_follow =
       !traced.request->switching && !traced.request->problem.response->has_own_frequency();
-  if (may_follow && std::any_of(points.begin(), points.end(), leads_away))
-    text += "\nswitching = true follows what leaves where half periods come to differ or the period doubles";
+  if (may_follow)
+    text +=
+        "\nswitching = true follows what leaves where half periods differ, periods double or a pair crosses";
   return text + "\n";
 }
 

@@ -69,7 +69,7 @@ std::string why_not_verifiable(const CaseBranch& branch) {
 
 VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options) {
   VerifiedBranch verified{number, &traced, {}, 0};
-  if (traced.branch.points.empty()) return verified;
+  if (traced.branch.points.empty() || !why_not_verifiable(*traced.request).empty()) return verified;
   const auto progress = std::move(options.progress);
   options.progress = [&](std::size_t point, std::size_t chosen) {
     verified.chosen = chosen;

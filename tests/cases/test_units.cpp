@@ -6,6 +6,7 @@
 #include "arcslip/cases/runs.hpp"
 #include "case_texts.hpp"
 #include "cases/case_warnings.hpp"
+#include "cases/design_study.hpp"
 #include "catch.hpp"
 #include "places.hpp"
 

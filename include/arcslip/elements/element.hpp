@@ -21,6 +21,9 @@
 
 namespace arcslip {
 
+struct LineForce;
+class TwoPhases;
+
 /// The force of an element, with its derivatives: df_h = sum_l linear(h, l) dx_l + conjugate(h, l)
 /// conj(dx_l), of which for l = 0 each is half of the derivative.
 struct ElementForce {
@@ -143,6 +146,14 @@ class Element {
   /// where the sizes are those of before.
   virtual void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
                      bool derivatives, ElementForce& out) const = 0;
+
+  /// Gives the force under a motion with two frequencies of the ratio s/w, of one coordinate, if they are
+  /// wanted with its derivatives; false of an element that cannot.
+  [[nodiscard]] virtual bool in_two_phases(const TwoPhases& /*phases*/, double /*load*/,
+                                           const ComplexVector& /*x*/, double /*ratio*/, bool /*derivatives*/,
+                                           LineForce& /*out*/) const {
+    return false;
+  }
 
   /// c of a force c dx/dt that acts beside the one that `force` gives, of one coordinate.
   virtual Jet damping() const { return 0; }

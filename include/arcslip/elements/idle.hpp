@@ -3,6 +3,7 @@
 // A contact of stiffness 0: no force, in a coordinate that other elements may act in.
 
 #include "arcslip/elements/element.hpp"
+#include "arcslip/elements/two_phases.hpp"
 
 namespace arcslip {
 
@@ -36,6 +37,11 @@ class Idle final : public Element {
   DisturbedLaw disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
                          bool /*slips*/) const override {
     return DisturbedLaw::constant(Matrix::Zero(1, 1));
+  }
+  bool in_two_phases(const TwoPhases& phases, double /*load*/, const ComplexVector& /*x*/, double /*ratio*/,
+                     bool /*derivatives*/, LineForce& out) const override {
+    phases.rest(out);
+    return true;
   }
   double threshold(double load) const override { return never_slips * load; }
   double threshold_by_log_load() const override { return 1; }

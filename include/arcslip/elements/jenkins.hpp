@@ -40,6 +40,8 @@ class Jenkins final : public Element {
 
   DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
                          bool slips) const override;
+  bool in_two_phases(const TwoPhases& phases, double load, const ComplexVector& x, double ratio,
+                     bool derivatives, LineForce& out) const override;
   double threshold(double load) const override { return slip_per_load_ * load; }
   double threshold_by_log_load() const override { return 1; }
 

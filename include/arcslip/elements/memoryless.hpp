@@ -26,6 +26,9 @@ class MemorylessElement final : public Element {
   DisturbedLaw disturbed(std::span<const int> orders, const HarmonicVector& x, double load,
                          bool beyond) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
+  /// Where the law has one piece.
+  bool in_two_phases(const TwoPhases& phases, double load, const ComplexVector& x, double ratio,
+                     bool derivatives, LineForce& out) const override;
   double threshold(double /*load*/) const override { return law_.pieces().front().end.value; }
   double log_threshold_by_setting() const override {
     return law_.pieces().front().end.first / law_.pieces().front().end.value;

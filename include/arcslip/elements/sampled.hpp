@@ -39,6 +39,8 @@ class SampledElement final : public Element {
   bool takes_any_orders() const override { return false; }
   void force(std::span<const int> orders, const HarmonicVector& x, double load, bool beyond, bool derivatives,
              ElementForce& out) const override;
+  bool in_two_phases(const TwoPhases& phases, double load, const ComplexVector& x, double ratio,
+                     bool derivatives, LineForce& out) const override;
   VaryingStiffness stiffness_in_time(std::span<const int> orders, const HarmonicVector& x) const override;
 
  private:

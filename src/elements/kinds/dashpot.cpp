@@ -1,6 +1,7 @@
 // f = c dx/dt, in the time of the structure's masses.
 
 #include "arcslip/elements/element_kind.hpp"
+#include "arcslip/elements/two_phases.hpp"
 
 namespace arcslip {
 namespace {
@@ -17,6 +18,11 @@ class Dashpot final : public Element {
   bool dissipates() const override { return true; }
   bool holds_mean(Index /*coordinate*/, bool /*beyond*/) const override { return false; }
   Jet damping() const override { return damping_; }
+  bool in_two_phases(const TwoPhases& phases, double /*load*/, const ComplexVector& /*x*/, double /*ratio*/,
+                     bool /*derivatives*/, LineForce& out) const override {
+    phases.rest(out);
+    return true;
+  }
   bool is_told_by_law() const override { return true; }
   DisturbedLaw disturbed(std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
                          bool /*beyond*/) const override {

@@ -137,6 +137,11 @@ class Problem {
   /// All of them, in the order of `observables()`.
   virtual void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const;
 
+  /// The same for pictures, with NaN for what takes long.
+  virtual void observe_quickly(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+    observe(u, p, regime, values);
+  }
+
   /// The value of one with has_gradient, and its gradient on the branch.
   virtual double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                          Gradient& gradient) const;

@@ -50,10 +50,6 @@ class Floquet {
 
   /// The highest of those harmonics; 0 without them.
   virtual int finer_highest() const = 0;
-
-  /// All observables of the motion, but not what is told of its stability.
-  virtual void observe_motion(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                              Vector& values) const = 0;
 };
 
 /// What disturbances of a motion run through: the same at every point of a forced response, and with the
@@ -113,10 +109,9 @@ class FloquetOf : public Motion, public Floquet {
   Worst worst(const Vector& u, const Vector& p, const continuation::Regime& regime) const override;
   std::optional<double> moved_by(const continuation::Guess& at, Index parameter) const override;
   int finer_highest() const override { return finer_ ? highest_order(finer_->system().orders) : 0; }
-  void observe_motion(const Vector& u, const Vector& p, const continuation::Regime& regime,
-                      Vector& values) const override {
-    Motion::observe(u, p, regime, values);
-  }
+  /// Without what is told of stability.
+  void observe_quickly(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                       Vector& values) const override;
 
  private:
   static constexpr bool is_cycle = std::is_base_of_v<FreeVibration, Motion>;
