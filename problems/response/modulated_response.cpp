@@ -33,7 +33,7 @@ std::vector<Line> lines_up_to(bool odd, int k_most, int l_most) {
 
 void check_followed(const HarmonicSystem& system, const Coordinates& coordinates) {
   const auto refuse = [](const std::string& reason) {
-    throw std::invalid_argument("a modulated response is not followed " + reason);
+    throw std::invalid_argument("it is not followed " + reason);
   };
   if (system.periods() > 1) refuse("of a response over several periods of the load");
   if (system.varied) refuse("beside a further parameter of the system");
@@ -41,16 +41,16 @@ void check_followed(const HarmonicSystem& system, const Coordinates& coordinates
   if (RigidMotions(system, coordinates).count() > 0) refuse("of parts that elements alone hold");
   for (const std::vector<ContactModes>* structures : {&system.base, &system.damper}) {
     for (const ContactModes& one : *structures) {
-      if (one.is_solved() || one.loss().structural != 0) refuse("but of modes with viscous or modal damping");
+      if (one.is_solved() || one.loss().structural != 0)
+        refuse("with damping that is neither viscous nor modal");
     }
   }
   const TwoPhases one({{1, 0}}, 1);
   LineForce force;
   for (Index e = 0; e < coordinates.elements(); ++e) {
     if (!coordinates.element(e).in_two_phases(one, 1, ComplexVector::Zero(1), 0, false, force))
-      refuse(
-          fmt::format("beside the element \"{}\", but beside contacts, springs that are smooth and dashpots",
-                      coordinates[coordinates.first(e)].name));
+      refuse(fmt::format("beside the element \"{}\", only beside contacts, smooth springs and dashpots",
+                         coordinates[coordinates.first(e)].name));
   }
 }
 

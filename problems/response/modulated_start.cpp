@@ -30,35 +30,31 @@ Vector ModulatedResponse::unmodulated(const ComplexMatrix& motion, double nu) co
   return u;
 }
 
-ModulatedResponse::Disturbance ModulatedResponse::disturbance(const ComplexMatrix& motion, const Vector& p,
-                                                              double nu) const {
-  const Vector u = unmodulated(motion, nu);
+Vector ModulatedResponse::disturbance(const ComplexMatrix& motion, const Vector& p, double nu) const {
+  Vector found = Vector::Zero(size());
   Matrix jacobian(size(), size());
   Evaluation out;
   out.jacobian = &jacobian;
-  if (!evaluate(u, p, {}, out)) return {u, std::numeric_limits<double>::infinity()};
+  if (!evaluate(unmodulated(motion, nu), p, {}, out)) return found;
   std::vector<Index> rows;
   for (Index i = 0; i < size() - 1; ++i) {
     if (std::abs(lines()[static_cast<std::size_t>(i / 2 % count())].l) == 1) rows.push_back(i);
   }
   const Eigen::BDCSVD<Matrix> parts(Matrix(jacobian(rows, rows)), Eigen::ComputeFullV);
-  Disturbance found{Vector::Zero(size()), parts.singularValues().tail<1>().value() * size_};
   for (std::size_t i = 0; i < rows.size(); ++i)
-    found.unknowns(rows[i]) = parts.matrixV()(static_cast<Index>(i), std::ssize(rows) - 1);
-  found.unknowns(size() - 1) = nu;
+    found(rows[i]) = parts.matrixV()(static_cast<Index>(i), std::ssize(rows) - 1);
   return found;
 }
 
 void ModulatedResponse::set_reference(const Vector& modulated, double size) {
   reference_ = modulated;
-  reference_(reference_.size() - 1) = 0;
-  reference_ /= reference_.norm();
   size_ = size;
 }
 
 std::optional<Guess> ModulatedResponse::modulated(const Guess& near, Index parameter, double share) const {
   constexpr int most = 40;
-  constexpr double furthest = 0.02;  // relative to eta, of eta and nu at once
+  constexpr double furthest = 0.02;  // of the parameter, relative to it, and nu, relative to eta, at once
+  constexpr double astray = 0.1;     // of the parameter, in all
   const Index n = size();
   Guess at = near;
   Vector residual(n);
@@ -77,7 +73,7 @@ std::optional<Guess> ModulatedResponse::modulated(const Guess& near, Index param
     const double part = std::min(1.0, furthest / far);
     at.unknowns -= part * step.head(n);
     at.parameters(parameter) -= part * step(n);
-    if (!(at.parameters(parameter) > 0)) return {};
+    if (!(std::abs(at.parameters(parameter) / near.parameters(parameter) - 1) < astray)) return {};
     if (part == 1 && step.head(n - 1).norm() < 1e-9 * size_ && far < 1e-9) {
       at.direction = Vector::Zero(n + 1);
       at.direction.head(n) = reference_;
@@ -111,33 +107,32 @@ std::optional<ModulatedStart> modulated_response(const SystemParameters& paramet
   for (Index i = 0; i < motion.cols(); ++i) motion.col(i) = response.motion(at.unknowns, at.parameters, i);
   const Vector p = at.parameters.head(2);
   // With nu goes nu + m eta on m n more waves: the least is taken. Of an odd response disturbances have odd
-  // harmonics, between which m is even, or even ones, which are odd for odd m.
+  // harmonics, between which m is even, or even ones, which are odd for odd m: that is meant whose modulated
+  // response is nearer.
   std::optional<ModulatedStart> found;
-  double least = std::numeric_limits<double>::infinity();
+  double nearest_start = std::numeric_limits<double>::infinity();
   const bool odd = all_odd(system.orders);
   const double first = nearest->exponent.imag() / p(ModulatedResponse::eta);
-  for (const int parity : {0, 1}) {
+  for (int parity = 0; parity < (odd ? 2 : 1); ++parity) {
     const auto more =
         static_cast<int>(odd ? parity - 2 * std::round((first + parity) / 2) : -std::round(first));
     const double nu = (first + more) * p(ModulatedResponse::eta);
     const Index wave = waves.within(nearest->wave + more * waves.wave_number());
-    ModulatedResponse problem(system, waves, wave, highest);
-    const auto disturbance = problem.disturbance(motion, p, nu);
-    if (!(disturbance.residual < least)) continue;
-    least = disturbance.residual;
-    const Vector plain = problem.unmodulated(motion, nu);
+    auto problem = std::make_shared<ModulatedResponse>(system, waves, wave, highest);
+    const Vector disturbance = problem->disturbance(motion, p, nu);
+    const Vector plain = problem->unmodulated(motion, nu);
     const double size = plain.head(plain.size() - 1).norm();
-    problem.set_reference(disturbance.unknowns, size);
-    found.reset();
+    problem->set_reference(disturbance, size);
     for (const double share : {0.02, 0.05, 0.1, 0.2}) {
       Guess near{plain, p, {}, {}};
-      near.unknowns.head(plain.size() - 1) += share * size * disturbance.unknowns.head(plain.size() - 1);
-      if (auto start = problem.modulated(near, parameter, share)) {
-        found = {std::make_shared<const ModulatedResponse>(problem), std::move(*start)};
-        break;
-      }
+      near.unknowns.head(plain.size() - 1) += share * size * disturbance.head(plain.size() - 1);
+      std::optional<Guess> start = problem->modulated(near, parameter, share);
+      if (!start) continue;
+      const double distance = std::abs(start->parameters(parameter) / p(parameter) - 1);
+      if (distance < nearest_start) found = {problem, std::move(*start)};
+      nearest_start = std::min(nearest_start, distance);
+      break;
     }
-    if (!odd) break;
   }
   return found;
 }

@@ -163,8 +163,12 @@ std::vector<TracedBranch> modulated_from(const TracedBranch& traced, const conti
       options.journal = nullptr;
       one.branch = trace(*start->problem, start->guess, options, observer);
     } catch (const std::invalid_argument& error) {
-      one.branch.explanation = fmt::format("the modulated response is not followed: {}", error.what());
+      one.branch.explanation = fmt::format("of the modulated response: {}", error.what());
     }
+    const auto is_same = [&](const TracedBranch& other) {
+      return one.branch.points.empty() && other.branch.explanation == one.branch.explanation;
+    };
+    if (std::any_of(all.begin(), all.end(), is_same)) continue;  // said already
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     all.push_back(std::move(one));
   }

@@ -10,6 +10,7 @@
 
 #include "arcslip/problems/response/modulated_response.hpp"
 #include "case_runs.hpp"
+#include "case_texts.hpp"
 #include "temporary_folder.hpp"
 
 namespace arcslip::testing::modulated {
@@ -169,6 +170,33 @@ TEST_CASE("Modulated waves leave where pairs of exponents cross, and are those o
     CHECK(most > 0.5);
     check_derivatives_along(modulated, 3, 7);
   }
+}
+
+TEST_CASE("A modulated wave begins at each pair's crossing, over the preload as well", "[modulated]") {
+  const std::string text =
+      replaced(rods("3", "from = 0.45\nto = 0.35\neta = 3.57"), "parameter = \"eta\"", "parameter = \"P\"");
+  const std::vector<TracedBranch> all = traced_case(replaced(text, "preload = 0.3\n", ""));
+  const std::vector<BranchPoint> crossings = points(all[0], PointType::neimark_sacker);
+  REQUIRE(crossings.size() == 2);
+  REQUIRE(all.size() == 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    INFO(all[1 + i].branch.explanation);
+    REQUIRE(all[1 + i].branch.points.size() > 3);
+    CHECK_THAT(all[1 + i].branch.points.front().parameters(1), WithinRel(crossings[i].parameters(1), 0.02));
+    check_derivatives_along(all[1 + i], 2, 9);
+  }
+}
+
+TEST_CASE("Where a modulated wave is not followed, its branch says why, once", "[modulated]") {
+  const std::vector<TracedBranch> all =
+      traced_case(rods("3",
+                       "from = 3.5\nto = 3.57\n[[element]]\nkind = \"iwan\"\nat = \"base\"\nstiffness = 0.1\n"
+                       "first_limit = 0.01\nspread = 0.02"));
+  REQUIRE(count(all[0], PointType::neimark_sacker) == 2);
+  REQUIRE(all.size() == 2);
+  CHECK(all[1].branch.points.empty());
+  CHECK(all[1].branch.stop == Stop::no_start);
+  CHECK(all[1].branch.explanation.find("beside the element \"iwan\"") != std::string::npos);
 }
 
 }  // namespace arcslip::testing::modulated

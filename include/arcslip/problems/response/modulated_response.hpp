@@ -75,22 +75,18 @@ class ModulatedResponse : public continuation::Problem {
   const std::vector<Line>& lines() const { return balance_.phases.lines(); }
   ComplexMatrix first_contact(const Vector& u, const Vector& p) const;
 
-  /// How the smallest disturbance of a response, whose motions x_h in its orders are the lines (h, 0), looks
-  /// at this nu: of norm 1, and how small it leaves the balance.
-  struct Disturbance {
-    Vector unknowns;  ///< with nu
-    double residual;
-  };
-  Disturbance disturbance(const ComplexMatrix& motion, const Vector& p, double nu) const;
+  /// The disturbance of a response, whose motions x_h in its orders are the lines (h, 0), that leaves least
+  /// of the balance at this nu: of norm 1, 0 where there is no balance.
+  Vector disturbance(const ComplexMatrix& motion, const Vector& p, double nu) const;
 
   /// The lines of such a motion.
   Vector unmodulated(const ComplexMatrix& motion, double nu) const;
 
-  /// Fixes the phase of theta_2 by that of these unknowns, and the size of motions.
+  /// Fixes the phase of theta_2 by that of such a disturbance, and the size of motions.
   void set_reference(const Vector& modulated, double size);
 
-  /// A solution whose modulation along the reference is this share of `size`, and where the parameter has to
-  /// lie for it; none if Newton's method finds none.
+  /// A solution whose modulation along the disturbance is this share of `size`, and where the parameter has
+  /// to lie for it; none if Newton's method finds none nearby.
   std::optional<continuation::Guess> modulated(const continuation::Guess& near, Index parameter,
                                                double share) const;
 
