@@ -28,7 +28,7 @@ function runModel(run) {
   const slips = input.branch.curve !== "switch" && regime.some((name) => name.startsWith("slip"));
   const part = regime.map((name) => (slips && !name.startsWith("slip") ? "stick" : "slip"));
   return { table, input, system: input.system, branches: namedBranches(run), part, hasStick: slips && part.includes("stick"),
-    unstable: unstable ? unstable.map((count) => count > 0) : null,
+    stability: unstable ? unstable.map((count) => (count > 0 ? "unstable" : count < 0 ? "untold" : "stable")) : null,
     isFriction: input.system.model in frictionModels };
 }
 
@@ -82,12 +82,12 @@ function runPanel(model, x, name, state) {
   const mark = commonRows(model, xs, ys);
   const hover = hoverOf(y, x);
   const styleOf = (row) => mark[row] === "left out" ? null
-    : [model.part[row], model.unstable && model.unstable[row] ? "unstable" : "stable", mark[row] ? "common" : ""].join(" ");
+    : [model.part[row], model.stability ? model.stability[row] : "stable", mark[row] ? "common" : ""].join(" ");
   const lines = model.branches.flatMap((branch, i) => styledTraces(branch.rows, xs, ys, styleOf, (style) => {
     const [part, stability, common] = style.split(" ");
     return { keys: [common || `branch ${i}`, part, stability],
       line: { color: (common ? commonLook : branch.look).colour, width: part === "stick" ? 1.3 : 2.6,
-        dash: stability === "unstable" ? "6px,4px" : "solid" },
+        dash: { unstable: "6px,4px", untold: "2px,3px" }[stability] || "solid" },
       hovertemplate: `<b>${common ? "stuck alike" : branch.label}</b><br>${hover}<extra></extra>` };
   }));
   const several = model.branches.length > 1 ? model.branches : [];
@@ -107,10 +107,12 @@ function runKey(model, panels) {
     branches.push({ key: "common", label: "stuck alike, whatever the branch", sample: { ...commonLook, width: 1.3 } });
   const parts = model.hasStick ? [{ key: "slip", label: "slip", sample: { width: 2.8 } },
     { key: "stick", label: "stick", sample: { width: 1.3 } }] : [];
-  if (model.unstable && model.unstable.some(Boolean)) {
+  const told = model.stability || [];
+  if (told.some((one) => one !== "stable")) {
     parts.push({ key: "stable", label: "stable", sample: { width: 2 } },
       { key: "unstable", label: "unstable", sample: { width: 2, dash: "6 4" } });
   }
+  if (told.includes("untold")) parts.push({ key: "untold", label: "stability not told", sample: { width: 2, dash: "2 3" } });
   return [["Branches", branches], ["Lines", parts], ["Points", specialKey(model.table)]];
 }
 

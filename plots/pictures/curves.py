@@ -108,8 +108,8 @@ def draw_curves(ax, curves, mode, common=(), is_marked=None):
     ax : matplotlib.axes.Axes
     curves : list of Curve
     mode : str
-        "regimes": thin in stick and thick in slip; "stability": dashed where unstable; "envelope": only what is told;
-        "plain".
+        "regimes": thin in stick and thick in slip; "stability": dashed where unstable, dotted where nothing tells;
+        "envelope": only what is told; "plain".
     common : list of (x, y)
         What is drawn once for the curves that have it in common.
     is_marked : callable, optional

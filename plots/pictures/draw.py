@@ -51,7 +51,9 @@ class Sheet:
     def _told(self, quantities):
         mode = quantities[0].mode
         curves = [curve for quantity in quantities for curve in quantity.curves]
-        has = [any((curve.told[:-1] == told).any() for curve in curves) for told in (False, True)]
+        known = [curve for curve in curves if curve.style.get("linestyle") != style.UNTOLD]
+        has = [any((curve.told[:-1] == told).any() for curve in known) for told in (False, True)]
+        is_untold = len(known) < len(curves)
         entries = []
         if mode == "regimes":
             members = [curve for curve in quantities[0].curves if curve.is_common]
@@ -69,9 +71,10 @@ class Sheet:
         elif mode == "peaks":
             entries += [line_entry(text, style.GREY, width) for text, width, there in
                         [("other peaks", style.THIN, has[0]), ("highest peak", style.THICK, has[1])] if there]
-        elif mode == "stability" and has[1]:
+        elif mode == "stability" and (has[1] or is_untold):
             entries += [line_entry("stable", style.GREY, style.MEDIUM)] * has[0]
-            entries.append(line_entry("unstable", style.GREY, style.MEDIUM, style.UNSTABLE))
+            entries += [line_entry("unstable", style.GREY, style.MEDIUM, style.UNSTABLE)] * has[1]
+            entries += [line_entry("stability not told", style.GREY, style.MEDIUM, style.UNTOLD)] * is_untold
         elif self.lines_title:
             entries.append(line_entry(self.lines_title, style.GREY, style.MEDIUM))
         present = {kind for curve in curves for kind in curve.special}

@@ -93,9 +93,15 @@ class RunData:
             special = {kind: np.flatnonzero(self.types[part] == kind) for kind in marked}
             special = {kind: rows for kind, rows in special.items() if len(rows)}
             i = min(number, len(self.looks) - 1)
+            look = {"linestyle": style.UNTOLD} if mode == "stability" and self.is_untold(part) else {}
             all_curves.append(Curve(xs[part], function(*[column[part] for column in columns]), told[part], special,
-                                    self.looks[i], self.names[i]))
+                                    self.looks[i], self.names[i], style=look))
         return all_curves
+
+    def is_untold(self, part):
+        """Whether nothing tells of the stability of a branch."""
+        (counts,) = self.columns("unstable")
+        return (counts[part].astype(float) < 0).all()
 
     def ends(self, x):
         """The range of x where branches start and end."""

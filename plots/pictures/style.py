@@ -34,6 +34,7 @@ SHADE = "#EAEAEA"
 SOLID = (0, ())
 DASHES = [SOLID, (0, (6, 1.6)), (0, (1.6, 1.4)), (0, (6, 1.4, 1.6, 1.4)), (0, (10, 2)), (0, (4, 1.2, 1.2, 1.2, 1.2, 1.2))]
 UNSTABLE = (0, (3.2, 2.2))
+UNTOLD = (0, (1.4, 2.0))  # where nothing tells of stability
 LINE_MARKS = ["o", "s", "D", "p", "X", "h", "*"]  # hollow, spread along curves whose dashes tell of stability
 
 
