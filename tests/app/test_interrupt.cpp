@@ -199,9 +199,9 @@ void check_resumed(const std::string& path, const std::vector<std::string>& sett
 }  // namespace
 
 TEST_CASE("An interrupted run goes on to the tables of one that was not", "[interrupt]") {
-  // Steps so short that there is time to interrupt: under the sanitizers each takes ten times as long.
+  // Steps so short that there is time to interrupt: under the sanitizers each takes several times as long.
   const auto step = [](double longest) {
-    return fmt::format("continuation.max_step={:g}", sanitized ? 10 * longest : longest);
+    return fmt::format("continuation.max_step={:g}", sanitized ? 3 * longest : longest);
   };
   SECTION("several branches") {
     check_resumed(figure_8_case, {"branch.for_each.preload=[0.5,5.0]", "system.harmonics=9", step(0.002)},
