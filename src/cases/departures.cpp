@@ -55,6 +55,15 @@ struct Special {
   std::size_t last;
 };
 
+/// Without what is asked of the problem that a special point is on, and of its branches.
+TraceOptions unwatched(TraceOptions options) {
+  options.extrema_of.clear();
+  options.events.clear();
+  options.stop_after.clear();
+  options.journal = nullptr;
+  return options;
+}
+
 /// The branch point that a special point is in a wider balance: the first on the way from some points before,
 /// for other harmonics have it at another place.
 std::optional<BranchPoint> branch_point_at(const Special& special, const HarmonicProblem& wider) {
@@ -69,13 +78,10 @@ std::optional<BranchPoint> branch_point_at(const Special& special, const Harmoni
   start.direction
       << carried(from, {before.tangent.head(n), before.parameters, before.regime, {}}, wider).unknowns,
       before.tangent(n);
-  TraceOptions options = special.of->request->options;
-  options.extrema_of.clear();
+  TraceOptions options = unwatched(special.of->request->options);
   options.stop_at.clear();
-  options.events.clear();
   options.stop_after = {{PointType::branch_point, 1, ""}};
   options.max_points = 20;
-  options.journal = nullptr;
   const continuation::Branch way = trace(wider, start, options);
   if (way.points.empty() || way.points.back().type != PointType::branch_point) return std::nullopt;
   return way.points.back();
@@ -130,9 +136,7 @@ std::vector<TracedBranch> modulated_from(const TracedBranch& traced, const conti
   if (traced.base.disturbed == nullptr) return all;
   CaseBranch request = *traced.request;
   request.problem.response = &modulated_kind();
-  request.options.extrema_of.clear();
-  request.options.events.clear();
-  request.options.stop_after.clear();
+  request.options = unwatched(request.options);
   const auto kept = std::make_shared<const CaseBranch>(request);
   SystemParameters system = request.problem.system;
   system.harmonics = traced.base.harmonics;
@@ -156,12 +160,7 @@ std::vector<TracedBranch> modulated_from(const TracedBranch& traced, const conti
         throw std::invalid_argument(fmt::format("none was found at {} = {:.10g}", request.options.parameter,
                                                 point.parameters(parameter)));
       one.base.problem = start->problem;
-      TraceOptions options = time.rest();
-      options.extrema_of.clear();
-      options.events.clear();
-      options.stop_after.clear();
-      options.journal = nullptr;
-      one.branch = trace(*start->problem, start->guess, options, observer);
+      one.branch = trace(*start->problem, start->guess, unwatched(time.rest()), observer);
     } catch (const std::invalid_argument& error) {
       one.branch.explanation = fmt::format("of the modulated response: {}", error.what());
     }

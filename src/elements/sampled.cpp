@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/elements/two_phases.hpp"
+
 namespace arcslip {
 namespace {
 

@@ -36,9 +36,9 @@ class Along {
  public:
   /// What is zero does not count.
   Along(const Vector& q, const ComplexVector& y) {
-    for (Index a = 0; a < q.size(); ++a) count_ += y(a) != 0.0 ? 1 : 0;
-    q_.resize(count_);
-    y_.resize(count_);
+    const Index count = (y.array() != 0.0).count();
+    q_.resize(count);
+    y_.resize(count);
     for (Index a = 0, k = 0; a < q.size(); ++a) {
       if (y(a) == 0.0) continue;
       q_(k) = q(a);
@@ -63,7 +63,7 @@ class Along {
 
   /// Where it turns back between a and b.
   std::vector<double> turns(double a, double b) const {
-    if (count_ == 0) return {};
+    if (q_.size() == 0) return {};
     const double fastest = q_.cwiseAbs().maxCoeff();
     const auto steps = static_cast<Index>(std::ceil((b - a) / two_pi * fastest * samples));
     const double step = (b - a) / static_cast<double>(steps);
@@ -96,7 +96,6 @@ class Along {
  private:
   static constexpr double samples = 12;  // in a period of the fastest
 
-  Index count_ = 0;
   Vector q_;
   ComplexVector y_;
 };
