@@ -223,9 +223,8 @@ bool ModulatedResponse::evaluate(const Vector& u, const Vector& p, const Regime&
   if (out.jacobian) out.jacobian->setZero();
   if (out.parameter_jacobian) out.parameter_jacobian->setZero();
   for (Index row = 0; row < rows.residual.size(); ++row) {
-    const Line& line = lines()[static_cast<std::size_t>(row % n)];
     const double weight = rows.weight(row % n) / size_;
-    const bool is_mean = line.k == 0 && line.l == 0;
+    const bool is_mean = line(row) == Line{0, 0};
     const auto put = [&](const auto& values, auto&& real, auto&& imaginary) {
       real = weight * values.real();
       imaginary = weight * values.imag();
@@ -250,7 +249,7 @@ bool ModulatedResponse::evaluate(const Vector& u, const Vector& p, const Regime&
   }
   Vector phase = Vector::Zero(last);  // sum l Im(conj(reference) x)
   for (Index i = 0; i < last / 2; ++i) {
-    const int l = lines()[static_cast<std::size_t>(i % n)].l;
+    const int l = line(i).l;
     phase(2 * i) = -l * reference_(2 * i + 1) / size_;
     phase(2 * i + 1) = l * reference_(2 * i) / size_;
   }
@@ -271,7 +270,7 @@ double ModulatedResponse::border(const Vector& u, const Vector& p, const Regime&
   modulated(u.size() - 1) = 0;
   const double all = modulated.squaredNorm();
   for (Index i = 0; i < u.size() / 2; ++i) {
-    if (lines()[static_cast<std::size_t>(i % count())].l == 0) modulated.segment<2>(2 * i).setZero();
+    if (line(i).l == 0) modulated.segment<2>(2 * i).setZero();
   }
   const double part = modulated.squaredNorm() / all;
   if (gradient) {

@@ -19,9 +19,9 @@ using continuation::Guess;
 Vector ModulatedResponse::unmodulated(const ComplexMatrix& motion, double nu) const {
   Vector u = Vector::Zero(size());
   for (Index i = 0; i < u.size() / 2; ++i) {
-    const Line& line = lines()[static_cast<std::size_t>(i % count())];
-    const auto order = std::find(system_.orders.begin(), system_.orders.end(), line.k);
-    if (line.l != 0 || order == system_.orders.end()) continue;
+    const auto [k, l] = line(i);
+    const auto order = std::find(system_.orders.begin(), system_.orders.end(), k);
+    if (l != 0 || order == system_.orders.end()) continue;
     const Complex value = motion(order - system_.orders.begin(), i / count());
     u(2 * i) = value.real();
     u(2 * i + 1) = value.imag();
@@ -38,7 +38,7 @@ Vector ModulatedResponse::disturbance(const ComplexMatrix& motion, const Vector&
   if (!evaluate(unmodulated(motion, nu), p, {}, out)) return found;
   std::vector<Index> rows;
   for (Index i = 0; i < size() - 1; ++i) {
-    if (std::abs(lines()[static_cast<std::size_t>(i / 2 % count())].l) == 1) rows.push_back(i);
+    if (std::abs(line(i / 2).l) == 1) rows.push_back(i);
   }
   const Eigen::BDCSVD<Matrix> parts(Matrix(jacobian(rows, rows)), Eigen::ComputeFullV);
   for (std::size_t i = 0; i < rows.size(); ++i)

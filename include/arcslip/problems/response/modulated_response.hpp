@@ -121,6 +121,11 @@ class ModulatedResponse : public continuation::Problem {
     return k * p(eta) + l * nu;
   }
   Index count() const { return std::ssize(lines()); }
+
+  /// That of a coefficient, by its place among those of all coordinates.
+  const Line& line(Index coefficient) const {
+    return lines()[static_cast<std::size_t>(coefficient % count())];
+  }
   ComplexMatrix motion(const Vector& u) const;
   double error(const Vector& u, const Vector& p) const;
   double load(const Vector& p) const { return p(preload) + system_.preload_growth * p(eta) * p(eta); }
