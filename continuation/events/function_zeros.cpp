@@ -17,21 +17,29 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
   const int before = step.signs.functions[i];
   const double after = step.at_upper(which, end);
   const bool changes = before != 0 && before != sign_of(after);
-  if (!changes && !step.watch.function_may_vanish(i, step.chord(), after)) return;
-  ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false});
-  step.note(kind, step.watch.type(i), index,
-            zeros.first(which, before, 0, step.upper(), step.tolerances.located));
+  const bool may_vanish = step.watch.function_may_vanish(i, step.chord(), after);
+  if (const std::optional<std::size_t> piece = step.watch.piece_of(i)) {
+    ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false, .left_over = 1e-5});
+    const std::size_t pieces = step.readings.function(static_cast<Index>(*piece));
+    step.note(kind, step.watch.type(i), index,
+              zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, step.upper()));
+  } else if (changes || may_vanish) {
+    ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false});
+    step.note(kind, step.watch.type(i), index,
+              zeros.first(which, before, 0, step.upper(), step.tolerances.located));
+  }
 }
 
 void search_functions(StepSearch& step, const EventKind& kind) {
   const bool of_user = &kind == &user_events;
-  for (std::size_t i = 0; i < step.functions_at_end.size() && step.solved(); ++i)
+  for (std::size_t i = 0; i < step.watch.searched() && step.solved(); ++i)
     if ((step.watch.type(i) == PointType::event) == of_user) search_function(step, kind, i);
 }
 
 void pass_zero(const Event& event, const Passage& passage) {
   const auto i = static_cast<std::size_t>(event.index);
-  passage.behind.functions[i] = -passage.before.functions[i];
+  passage.behind.functions[i] =
+      passage.watch.piece_of(i) ? sign_of(passage.watch.functions()[i]) : -passage.before.functions[i];
 }
 
 }  // namespace

@@ -9,7 +9,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double just_behind = 1e-6;  // of the step: where a function is read that has no value before
-constexpr double left_over = 0.01;    // of its values around: more is left of a function only where it jumps
 
 /// Zeros that are known, to be divided out of a function.
 struct Divisor {
@@ -90,7 +89,7 @@ Zero ZeroSearch::first_between(const Node& a, const Node& b, int sign, double to
 /// Whether the first value is what rounding leaves of a zero.
 bool ZeroSearch::is_left_over(const Node& a, const Node& b, std::size_t which) {
   const double middle = readings_.value(which, 0.5 * (a.s + b.s)).value_or(0);
-  return std::abs(a.value) <= left_over * std::max(std::abs(b.value), std::abs(middle));
+  return std::abs(a.value) <= options_.left_over * std::max(std::abs(b.value), std::abs(middle));
 }
 
 Zero ZeroSearch::by_sign(const Node& a, const Node& b, int sign, std::size_t which) {
@@ -101,6 +100,35 @@ Zero ZeroSearch::by_sign(const Node& a, const Node& b, int sign, std::size_t whi
                 [&](double s) { return readings_.value(which, s); });
 }
 
+Zero ZeroSearch::first_of_pieces(const PiecewiseFunction& of, int sign, bool two, double from, double to) {
+  const std::optional<double> a = readings_.value(of.value, from);
+  const std::optional<double> b = readings_.value(of.value, to);
+  const std::optional<double> piece = readings_.value(of.piece, from);
+  if (!a || !b || !piece) return {Zero::State::failed};
+  const bool has_jumped = sign_of(*a) == -sign && std::abs(*a) > options_.left_over * std::abs(*b);
+  const int before = sign == 0 || has_jumped ? sign_of(*a) : sign;
+  const bool changes = before * sign_of(*b) < 0;
+  const bool may_jump = readings_.value(of.piece, to) != piece;
+  if ((two || may_jump) && to - from > finest_ * stepper_.step().distance) {
+    const double middle = 0.5 * (from + to);
+    const Zero first = first_of_pieces(of, before, false, from, middle);
+    return first.state == Zero::State::absent ? first_of_pieces(of, 0, false, middle, to) : first;
+  }
+  if (!changes) return {Zero::State::absent};
+  const Zero zero = by_sign({from, *a, 0}, {to, *b, 0}, before, of.value);
+  return zero.state == Zero::State::found ? just_behind_corner(zero.s, to, before, of.value) : zero;
+}
+
+/// What lies ahead of a corner has to be begun with the derivatives there.
+Zero ZeroSearch::just_behind_corner(double s, double to, int before, std::size_t which) {
+  constexpr double least_way = 1e-9;  // relative to the step
+  for (double way = least_way * to; s + way < to; way *= 4) {
+    const std::optional<double> value = readings_.value(which, s + way);
+    if (value && sign_of(*value) == -before) return {Zero::State::found, s + way};
+  }
+  return {Zero::State::found, s};
+}
+
 Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt& at) const {
   bool solved = true;
   const auto value = [&](double s) {
@@ -108,8 +136,13 @@ Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt
     solved = there.has_value();
     return there.value_or(0);
   };
-  const double s = zero_between(value, a.s, b.s, a.value, b.value);
-  const bool jumps = std::abs(value(s)) > left_over * size;
+  constexpr int coarsely = 20;  // bits, enough to tell a jump
+  constexpr double plainly_left = 0.01;
+  double s = zero_between(value, a.s, b.s, a.value, b.value, coarsely);
+  if (!solved) return {Zero::State::failed};
+  if (!options_.jumps_count && std::abs(value(s)) > plainly_left * size) return {Zero::State::absent, s};
+  s = zero_between(value, a.s, b.s, a.value, b.value);
+  const bool jumps = std::abs(value(s)) > options_.left_over * size;
   if (!solved) return {Zero::State::failed};
   return {jumps && !options_.jumps_count ? Zero::State::absent : Zero::State::found, s};
 }

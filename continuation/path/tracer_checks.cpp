@@ -104,7 +104,10 @@ void Tracer::require_same(const Progress& progress) const {
   require_count("observables and borders",
                 stepper_.monitors().tracked_count() + problem_.border_count(here.regime),
                 std::ssize(progress.monitors));
-  require_count("tests and events", std::ssize(problem_.test_types()) + std::ssize(options_.events),
+  const auto in_pieces = std::count_if(options_.events.begin(), options_.events.end(),
+                                       [](const UserEvent& event) { return event.piece != nullptr; });
+  require_count("tests and events",
+                std::ssize(problem_.test_types()) + std::ssize(options_.events) + in_pieces,
                 std::ssize(progress.signs.functions));
   check_functions(problem_, here.unknowns, here.parameters, here.regime, stepper_.monitors().tracked());
   constexpr double nearly = 1e-6;  // far above tolerances, far below what another problem leaves

@@ -25,6 +25,9 @@ void Watch::look(const CurvePoint& point) {
   }
   for (const UserEvent& event : events_)
     functions_.push_back(event.function(point.unknowns, point.parameters, point.regime));
+  for (const UserEvent& event : events_) {
+    if (event.piece) functions_.push_back(event.piece(point.unknowns, point.parameters, point.regime));
+  }
   spectra_ += static_cast<long>(spectral_);
   const bool seen =
       spectral_ && problem_.eigenvalues(point.unknowns, point.parameters, point.regime, eigenvalues_);
@@ -92,6 +95,13 @@ PointType Watch::type(std::size_t function) const {
 
 const std::string& Watch::label(std::size_t function) const {
   return function < tests_.size() ? none_ : events_[function - tests_.size()].name;
+}
+
+std::optional<std::size_t> Watch::piece_of(std::size_t function) const {
+  if (function < tests_.size() || !events_[function - tests_.size()].piece) return std::nullopt;
+  std::size_t place = searched();
+  for (std::size_t e = 0; e < function - tests_.size(); ++e) place += events_[e].piece ? 1 : 0;
+  return place;
 }
 
 Signs signs_at_start(const Stepper& stepper, const Watch& watch) {

@@ -10,6 +10,12 @@ std::string HarmonicProblem::name_of(const std::string& quantity, Index order) c
   return fmt::format("{}_h{}", quantity, system_.name(order));
 }
 
+std::string HarmonicProblem::suffix_of(Index element) const {
+  if (element == 0) return "";
+  return element < contacts() ? fmt::format("_contact_{}", element + 1)
+                              : fmt::format("_{}", first(element).name);
+}
+
 /// What the contacts do, then what each further element does that is beyond its border, of several by number.
 std::string HarmonicProblem::describe(const continuation::Regime& regime) const {
   std::string name = slip_name(regime, contacts());
@@ -23,13 +29,13 @@ std::string HarmonicProblem::describe(const continuation::Regime& regime) const 
 
 void HarmonicProblem::add_further_contacts() {
   for (Index i = 1; i < contacts(); ++i) {
-    const auto name = [i](const char* quantity) { return fmt::format("{}_contact_{}", quantity, i + 1); };
+    const auto name = [&](const char* quantity) { return quantity + suffix_of(i); };
     quantities_.push_back({name("R"), Measure::amplitude, Body::contact, i});
     quantities_.push_back({name("R_over_S"), Measure::ratio, Body::contact, i});
     quantities_.push_back({name("Y"), Measure::amplitude, Body::base, i});
     quantities_.push_back({name("U"), Measure::amplitude, Body::damper, i});
     quantities_.push_back({name("dissipated"), Measure::dissipated, Body::contact, i});
-    add_readings(i, fmt::format("_contact_{}", i + 1));
+    add_readings(i, suffix_of(i));
     for (Index a = 0; a < harmonics(); ++a) {
       if (system_.orders[at(a)] != 0) continue;
       quantities_.push_back({name("R_h0"), Measure::mean, Body::contact, i, a});
@@ -52,10 +58,7 @@ void HarmonicProblem::add_other_harmonics() {
 void HarmonicProblem::add_drifts() {
   for (const Drift& drift : drifts_) {
     const Index e = drift.element;
-    const std::string of = e == 0           ? ""
-                           : e < contacts() ? fmt::format("_contact_{}", e + 1)
-                                            : fmt::format("_{}", first(e).name);
-    quantities_.push_back({fmt::format("drift{}", of), Measure::drift, Body::contact, coordinates_.first(e)});
+    quantities_.push_back({"drift" + suffix_of(e), Measure::drift, Body::contact, coordinates_.first(e)});
   }
 }
 
@@ -68,7 +71,7 @@ void HarmonicProblem::add_readings(Index element, const std::string& suffix) {
 
 void HarmonicProblem::add_further_elements() {
   for (Index e = contacts(); e < coordinates_.elements(); ++e) {
-    const std::string suffix = "_" + first(e).name;
+    const std::string suffix = suffix_of(e);
     if (coordinates_.element(e).dissipates())
       quantities_.push_back({"energy" + suffix, Measure::energy, Body::contact, e});
     add_readings(e, suffix);
@@ -77,15 +80,23 @@ void HarmonicProblem::add_further_elements() {
 
 std::vector<continuation::UserEvent> HarmonicProblem::events() const {
   std::vector<continuation::UserEvent> all;
-  for (Index e = contacts(); e < coordinates_.elements(); ++e) {
-    const std::vector<std::string> names = coordinates_.element(e).events();
-    for (Index i = 0; i < std::ssize(names); ++i) {
-      const auto function = [=, this](const Vector& u, const Vector& p, const continuation::Regime&) {
+  for (Index e = 0; e < coordinates_.elements(); ++e) {
+    const std::vector<ElementEvent> events = coordinates_.element(e).events(system_.orders);
+    for (Index i = 0; i < std::ssize(events); ++i) {
+      const auto function = [=, this](const Vector& u, const Vector& p, const continuation::Regime& regime) {
+        const ElementForce& there = force_of(e, u, p, regime);
         return with_element(e, u, p, [&](const Element& element) {
-          return element.event(i, system_.orders, element_motion(u, p, e), load(e, u, p));
+          return element.event(i, system_.orders, element_motion(u, p, e), load(e, u, p), slips(regime, e),
+                               there);
         });
       };
-      all.push_back({fmt::format("{}_{}", names[at(i)], first(e).name), function});
+      continuation::UserEvent event{events[at(i)].name + suffix_of(e), function};
+      if (events[at(i)].in_pieces) {
+        event.piece = [=, this](const Vector& u, const Vector& p, const continuation::Regime& regime) {
+          return slips(regime, e) ? force_of(e, u, p, regime).further_slips.piece : -1;
+        };
+      }
+      all.push_back(std::move(event));
     }
   }
   return all;

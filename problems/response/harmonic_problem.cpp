@@ -56,6 +56,7 @@ const std::vector<ElementForce>& HarmonicProblem::forces(const Vector& u, const 
                                                          const continuation::Regime& regime,
                                                          bool derivatives) const {
   Forces& last = last_forces();
+  last.of = this;
   last.orders = system_.orders;
   last.unknowns = u;
   last.parameters = p;
@@ -79,6 +80,15 @@ std::optional<ElementForce::Viscous> HarmonicProblem::viscous_of(const Element& 
   const Jet damping = element.damping();
   if (damping.value == 0 && damping.first == 0) return std::nullopt;
   return ElementForce::Viscous{damping, frequency(u, p), system_.periods(), system_.orders};
+}
+
+/// Found anew unless it was the last that was found, as at each point that a corrector ends on.
+const ElementForce& HarmonicProblem::force_of(Index element, const Vector& u, const Vector& p,
+                                              const continuation::Regime& regime) const {
+  const Forces& last = last_forces();
+  const bool is_known = last.of == this && last.unknowns.size() == u.size() && last.unknowns == u &&
+                        last.parameters == p && last.regime == regime;
+  return (is_known ? last.of_elements : forces(u, p, regime, false))[at(element)];
 }
 
 /// Known where the forces were last found, as at each point that a corrector ends on; else null.

@@ -52,19 +52,23 @@ void HysteresisLoop::march() {
     const double change = motion_.change(turn(i), longest);
     const double sign = change > 0 ? 1 : -1;
     const double room = sign * slip_threshold_ - force;
-    sticking = std::abs(change) <= std::abs(room);
+    const double way = std::abs(change) - std::abs(room);
+    sticking = way <= 0;
     if (sticking) {
       force += change;
+      if (i + 1 < found.count) further_.stick(-way);
       continue;
     }
     stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room), before, sign};
     before = sign;
-    slipped_ += std::abs(change) - std::abs(room);
+    slipped_ += way;
     ++slips_;
+    further_.slip(way);
     force = sign * slip_threshold_;
     anchor = turn(i + 1);
   }
   if (sticking) stick_[sticks_++] = {anchor, begin_ + pi - anchor, before, 0};
+  if (sticking) further_.slip(0);  // at the border itself
   mismatch_ = force + slip_threshold_;
 }
 

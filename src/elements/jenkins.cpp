@@ -27,6 +27,7 @@ void Jenkins::force(std::span<const int> orders, const HarmonicVector& x, double
   out.harmonics *= stiffness_;
   out.energy = stiffness_ * loop.energy();
   out.swing = loop.swing();
+  out.further_slips = loop.further_slips();
   out.by_setting.resize(0);
   if (!derivatives) return;
   loop.derivative(out.linear, out.conjugate);
@@ -45,6 +46,7 @@ void Jenkins::force_of_any(std::span<const int> orders, const HarmonicVector& x,
   out.harmonics = found.tangential;
   out.energy = found.energy;
   if (slips) out.swing = Swing::of(orders, x);
+  out.further_slips = found.further_slips;
   out.by_setting.resize(0);
   if (derivatives) set_derivatives(found, limit, out);
 }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/elements/hysteresis_loop.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
 #include "arcslip/results/results.hpp"
@@ -33,6 +34,33 @@ TEST_CASE("The case of three numbers of harmonics has the peaks that it says", "
   write_branches(run.traced, [&](std::string_view piece) { text += piece; });
   CHECK_THAT(text, ContainsSubstring(",Y_h9"));
   CHECK_THAT(text, ContainsSubstring("nan"));  // what one harmonic has no value for
+}
+
+TEST_CASE("Where a further slip begins is a point, whatever the steps", "[harmonics]") {
+  const Run coarse("harmonics"), fine("harmonics", {"continuation.max_step=0.02"});
+  const auto further = [](const TracedBranch& traced) {
+    const auto& problem = dynamic_cast<const problems::HarmonicProblem&>(traced.problem());
+    std::vector<double> found;
+    const std::vector<BranchPoint>& points = traced.branch.points;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      if (points[i].type_name() != "further_slip") continue;
+      found.push_back(value(traced, points[i], "eta"));
+      const auto slips = [&](const BranchPoint& beside) {
+        const double S = problem.slip_threshold(0, beside.unknowns, beside.parameters);
+        const HarmonicVector x = problem.motion(beside.unknowns, beside.parameters, 0);
+        const OddMotion motion(problem.system().orders, x);
+        return HysteresisLoop(motion, S).slips();
+      };
+      CHECK(std::abs(slips(points[i + 1]) - slips(points[i - 1])) == 1);
+    }
+    return found;
+  };
+  for (const std::size_t branch : {1, 2}) {
+    const std::vector<double> there = further(coarse.traced[branch]), same = further(fine.traced[branch]);
+    REQUIRE(there.size() == 2);
+    REQUIRE(same.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) CHECK_THAT(there[i], WithinRel(same[i], 1e-9));
+  }
 }
 
 TEST_CASE("The summary of every forced response says how far its power and motion are balanced",

@@ -16,6 +16,7 @@
 #include "arcslip/elements/disturbed_law.hpp"
 #include "arcslip/elements/jet.hpp"
 #include "arcslip/elements/piecewise_law.hpp"
+#include "arcslip/elements/slip_count.hpp"
 #include "arcslip/elements/varying_stiffness.hpp"
 #include "arcslip/motion/swing.hpp"
 
@@ -27,14 +28,15 @@ class TwoPhases;
 /// The force of an element, with its derivatives: df_h = sum_l linear(h, l) dx_l + conjugate(h, l)
 /// conj(dx_l), of which for l = 0 each is half of the derivative.
 struct ElementForce {
-  HarmonicVector harmonics;    ///< f_h, against x
-  HarmonicVector by_log_load;  ///< df_h/d ln(load)
-  HarmonicVector by_setting;   ///< df_h by a setting of the element that is continued; empty if none is
-  HarmonicVector by_eta = {};  ///< df_h/deta of what is viscous; empty if nothing is
-  ComplexMatrix linear;        ///< harmonics of all coordinates, squared
-  ComplexMatrix conjugate;     ///< the same
-  double energy = 0;           ///< lost per cycle
-  Swing swing{};               ///< of the motion of one coordinate, where the force was found from it
+  HarmonicVector harmonics;      ///< f_h, against x
+  HarmonicVector by_log_load;    ///< df_h/d ln(load)
+  HarmonicVector by_setting;     ///< df_h by a setting of the element that is continued; empty if none is
+  HarmonicVector by_eta = {};    ///< df_h/deta of what is viscous; empty if nothing is
+  ComplexMatrix linear;          ///< harmonics of all coordinates, squared
+  ComplexMatrix conjugate;       ///< the same
+  double energy = 0;             ///< lost per cycle
+  Swing swing{};                 ///< of the motion of one coordinate, where the force was found from it
+  FurtherSlips further_slips{};  ///< of what slips
 
   /// k x, whatever the load is.
   void set_linear(double stiffness, const HarmonicVector& x, bool derivatives);
@@ -123,10 +125,11 @@ class Element {
   /// Whether a cycle may take energy.
   virtual bool dissipates() const { return false; }
 
-  /// What may begin or end within a period, by name, as "lift_off": where along a branch it does, a
-  /// continuous function of the motion changes its sign.
-  virtual std::vector<std::string> events() const { return {}; }
-  virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const;
+  /// What may begin or end within a period of motions with these orders: where along a branch it does, a
+  /// function of the motion changes its sign. `there` is the force under it.
+  virtual std::vector<ElementEvent> events(std::span<const int> /*orders*/) const { return {}; }
+  virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load,
+                       bool beyond, const ElementForce& there) const;
 
   /// Whether it has a second state beyond a border, as a contact that slips; else its force is smooth.
   virtual bool has_border() const { return false; }

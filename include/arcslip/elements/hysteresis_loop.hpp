@@ -27,6 +27,7 @@
 //
 // the last term only where slip follows. It is one-sided where the number of slips changes.
 
+#include "arcslip/elements/slip_count.hpp"
 #include "arcslip/motion/swing.hpp"
 
 namespace arcslip {
@@ -56,6 +57,11 @@ class HysteresisLoop {
 
   int slips() const { return slips_; }  ///< arcs of slip in half a period
 
+  /// Told of half a period.
+  FurtherSlips further_slips() const {
+    return FurtherSlips::of({further_, SlipCount()}, slip_threshold_, further_.count() > 1);
+  }
+
   /// An arc of stick, in theta.
   struct Arc {
     double begin;       ///< theta
@@ -78,6 +84,7 @@ class HysteresisLoop {
   double mismatch_ = 0;  // f half a period later, plus S: 0 but for the continuation
   double slipped_ = 0;
   int slips_ = 0;
+  SlipCount further_;
   std::array<Arc, std::size_t{2} * most_harmonics> stick_;
   std::size_t sticks_ = 0;
 };

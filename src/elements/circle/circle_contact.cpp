@@ -73,6 +73,7 @@ class CircleIntegrals {
     if (motion_.mean() != 0.0) remove_mean();
     out_.slip_fraction = course.fraction(Phase::slip);
     out_.apart_fraction = course.fraction(Phase::apart);
+    out_.further_slips = course.further_slips();
     if (!derivatives) return std::move(out_);
     close_period(course, changes);
     add_derivatives(changes, columns);

@@ -66,12 +66,14 @@ void CircleCourse::settle(Complex guess) {
 
 void CircleCourse::pass(Complex offset) {
   arcs_.clear();
+  slips_ = {};
   moved_ = 0;
   pass_contact(begin_, begin_ + two_pi, offset);
 }
 
 /// While the parts touch, with the slider at a place or, after having been apart, at none.
 void CircleCourse::pass_contact(double begin, double end, std::optional<Complex> offset) {
+  constexpr double same = 1e-9;
   double at = begin;
   Complex rests = 0;
   std::optional<double> direction = std::nullopt;  // of slip
@@ -91,18 +93,25 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
     rests = first.centre;
   }
   while (at < end && arcs_.size() < most_arcs) {
+    SlipCount* begins = nullptr;
     if (!direction) {
       const double until = leaves(at, end, rests);
       arcs_.push_back({Phase::stick, at, until - at, rests, {}});
       if (until >= end) return;
-      direction = std::arg(motion_.at(until).centre - rests);
+      const Complex force = motion_.at(until).centre - rests;
+      direction = std::arg(force);
+      const bool goes_on = offset && at == begin && until - at < same;  // slip, but for rounding
+      begins = goes_on ? nullptr : &slips_along(force);
       at = until;
     }
     at = slip(at, end, !offset, *direction);
     const Arc& arc = arcs_.back();
     if (!arc.panels.empty()) direction = arc.panels.back().phase(panel_nodes - 1);
     const CircleMotion::Local here = motion_.at(at);
+    const Complex before = rests;
     rests = here.centre - here.radius * std::polar(1.0, *direction);
+    if (begins && !arc.panels.empty())
+      begins->slip(at < end ? std::abs(rests - before) : std::numeric_limits<double>::infinity());
     direction.reset();
   }
   if (at < end) is_endless_ = true;
@@ -110,7 +119,7 @@ void CircleCourse::pass_contact(double begin, double end, std::optional<Complex>
 
 /// Where the force reaches the circle, or the end. It falls from there at first where slip has ended.
 /// Extremes of the excess are looked for one part of the period after the other, as stick may be short.
-double CircleCourse::leaves(double begin, double end, Complex offset) const {
+double CircleCourse::leaves(double begin, double end, Complex offset) {
   constexpr double rounding = 1e-15;
   constexpr double same = 1e-9;
   constexpr double part = two_pi / 8;
@@ -143,6 +152,11 @@ double CircleCourse::leaves(double begin, double end, Complex offset) const {
       if (excess(turn).first > zero) {
         if (excess(last).first >= 0) return last;
         return bracketed_newton(excess, 0.5 * (last + turn), last, turn, true);
+      }
+      if (turn < end && slope.at(turn).first < 0) {
+        const CircleMotion::Local here = motion_.at(turn);
+        const Complex force = here.centre - offset;
+        slips_along(force).stick(std::max(0.0, here.radius - std::abs(force)));
       }
       last = turn;
     }
@@ -204,6 +218,11 @@ double CircleCourse::slip(double begin, double end, bool lifts, double phase) {
   }
   arc.width = at - begin;
   return at;
+}
+
+FurtherSlips CircleCourse::further_slips() const {
+  const bool with_ways = begins_apart_ || slips_[0].count() + slips_[1].count() > 2;
+  return FurtherSlips::of(slips_, motion_.size(), with_ways);
 }
 
 double CircleCourse::fraction(Phase phase) const {

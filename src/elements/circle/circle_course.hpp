@@ -12,6 +12,7 @@
 // that which a period brings back: periods take all A nearer to each other, and Newton's method does so fast
 // where they do so slowly.
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -44,13 +45,19 @@ class CircleCourse {
   /// Whether the first of them begins as the parts touch.
   bool begins_apart() const { return begins_apart_; }
 
+  /// Of slips whose force is at their begin on either side of a line.
+  FurtherSlips further_slips() const;
+
   /// Part of the period in this phase.
   double fraction(Phase phase) const;
 
  private:
+  static constexpr Complex across_line{0.6, 0.8};  // one that no direction of a structure is likely to have
+
   void pass(Complex offset);
   void pass_contact(double begin, double end, std::optional<Complex> offset);
-  double leaves(double begin, double end, Complex offset) const;
+  double leaves(double begin, double end, Complex offset);
+  SlipCount& slips_along(Complex force) { return slips_[dot(force, across_line) > 0 ? 0 : 1]; }
   double slip(double begin, double end, bool lifts, double phase);
   SlipPanel next(double begin, double end, bool lifts, double phase);
   SlipPanel stopped(SlipPanel::Reach reach, double phase) const;
@@ -61,6 +68,7 @@ class CircleCourse {
   double width_;  // that resolves slip where it was looked at last
   bool begins_apart_ = false;
   std::vector<Arc> arcs_;
+  std::array<SlipCount, 2> slips_;
   bool is_endless_ = false;
   Complex moved_ = 0;  // by which the last period has moved the slider
 };

@@ -39,6 +39,7 @@ void CircleElement::force_at(std::span<const int> orders, const HarmonicVector& 
   out.harmonics = found.harmonics.head(size);
   if (mean < size) out.harmonics(mean) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
+  out.further_slips = found.further_slips;
   out.by_setting.resize(0);
   if (!derivatives) return;
   out.linear = found.linear.topLeftCorner(size, size);

@@ -256,6 +256,40 @@ void PressedArcs::add(double begin, double width) {
   arcs_.back().width = width;
 }
 
+/// Between its ends, at none of which A was set.
+void PressedArcs::count_lacking(const Arc& arc, std::array<SlipCount, 2>& counts) const {
+  constexpr double same = 1e-12;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const double way = node.angle - arc.begin;
+    const bool is_inside = way - two_pi * std::floor(way / two_pi) < arc.width;
+    if (!is_inside || std::abs(std::remainder(node.angle - arc.anchor, two_pi)) < same) continue;
+    const Cell& before = cells_[(i + cells_.size() - 1) % cells_.size()];
+    const Cell& behind = cells_[i];
+    if (before.forwards && !behind.forwards) counts[0].stick(arc.offset - node.low);
+    if (before.backwards && !behind.backwards) counts[1].stick(node.high - arc.offset);
+  }
+}
+
+FurtherSlips PressedArcs::further_slips() const {
+  std::array<SlipCount, 2> counts;
+  bool comes_apart = false;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const Arc& arc = arcs_[i];
+    const Arc& before = arcs_[(i + arcs_.size() - 1) % arcs_.size()];
+    const Arc& behind = arcs_[(i + 1) % arcs_.size()];
+    comes_apart = comes_apart || arc.phase == Phase::apart;
+    if (arc.phase == Phase::stick) count_lacking(arc, counts);
+    if (arc.phase != Phase::slip || before.phase != Phase::stick) continue;
+    counts[arc.direction > 0 ? 0 : 1].slip(behind.phase == Phase::stick
+                                               ? std::abs(behind.offset - before.offset)
+                                               : std::numeric_limits<double>::infinity());
+  }
+  const bool with_ways = comes_apart || counts[0].count() + counts[1].count() > 2;
+  const double unit = std::abs(highest_high().high) + std::abs(lowest_low().low);
+  return FurtherSlips::of(counts, unit, with_ways);
+}
+
 double fraction_of(std::span<const PressedArcs::Arc> arcs, PressedArcs::Phase phase) {
   double sum = 0;
   for (const PressedArcs::Arc& arc : arcs) sum += arc.phase == phase ? arc.width : 0;

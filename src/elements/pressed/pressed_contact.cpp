@@ -162,7 +162,9 @@ PressedForce pressed_force(const PressedSettings& settings, std::span<const int>
   if (orders.empty()) throw std::invalid_argument("pressed_force: no harmonics");
   const PressedArcs found(settings, sliding_motion(orders, sliding, course),
                           PeriodicMotion(orders, closing, highest_order(orders)), course);
-  return pressed_force(settings, orders, sliding, closing, derivatives, found.arcs(), course);
+  PressedForce out = pressed_force(settings, orders, sliding, closing, derivatives, found.arcs(), course);
+  if (course != PressedArcs::Course::drifts) out.further_slips = found.further_slips();
+  return out;
 }
 
 }  // namespace arcslip

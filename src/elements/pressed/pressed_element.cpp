@@ -62,6 +62,7 @@ void PressedElement::force(std::span<const int> orders, const HarmonicVector& x,
   out.harmonics << found.tangential, found.normal;
   out.harmonics(n + place_of_mean(orders)) -= std::max(0.0, settings.normal_force);
   out.energy = found.energy;
+  out.further_slips = found.further_slips;
   out.by_setting.resize(0);
   if (derivatives) set_derivatives(found, orders, load, 0, out);
 }

@@ -25,6 +25,10 @@ struct UserEvent {
   std::string name;  ///< the label of its points
   /// must be continuous along the branch
   std::function<double(const Vector& u, const Vector& p, const Regime& regime)> function;
+  /// Which of its pieces, between which it may jump, the function is on, as a number: where these follow upon
+  /// each other zeros are looked for in each, by signs; none of one that is smooth. A zero of pieces is taken
+  /// for a corner of the branch.
+  std::function<double(const Vector& u, const Vector& p, const Regime& regime)> piece = {};
 };
 
 /// Ends the branch at the count-th special point of a type; of an `event`, of those with this label.

@@ -3,6 +3,7 @@
 // What a branch is watched by beside its monitors: functions without derivatives, eigenvalues, and the signs
 // last seen of everything.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ class Watch {
   /// Evaluates all of them at a point.
   void look(const CurvePoint& point);
 
-  const std::vector<double>& functions() const { return functions_; }  ///< tests, then events
+  const std::vector<double>& functions() const { return functions_; }  ///< tests, events, pieces of events
   const ComplexVector& eigenvalues() const { return eigenvalues_; }    ///< by descending real part, or none
   int unstable() const { return unstable_; }                           ///< -1 without eigenvalues
 
@@ -41,6 +42,12 @@ class Watch {
   /// Of the points where a function vanishes, and the user's name of it, empty for the problem's tests.
   PointType type(std::size_t function) const;
   const std::string& label(std::size_t function) const;
+
+  /// Where among the functions stands that which tells on which piece another one is, if there are several.
+  std::optional<std::size_t> piece_of(std::size_t function) const;
+
+  /// How many are tests and events, in whose zeros one is interested.
+  std::size_t searched() const { return tests_.size() + events_.size(); }
 
   /// Keeps what was seen last as that of the point that the branch has come to, which lies `chord` behind the
   /// one before; `begin` forgets those before.

@@ -29,9 +29,10 @@ struct CircleForce {
   ComplexMatrix conjugate;                               ///< the same
   std::array<ComplexVector, PressedForce::settings> by;  ///< of the harmonics by each setting
 
-  double energy = 0;          ///< lost per cycle, in both directions
-  double slip_fraction = 0;   ///< of the period
-  double apart_fraction = 0;  ///< of the period
+  double energy = 0;             ///< lost per cycle, in both directions
+  double slip_fraction = 0;      ///< of the period
+  double apart_fraction = 0;     ///< of the period
+  FurtherSlips further_slips{};  ///< begun on either side of a line
 };
 
 /// The settled forces under the motion with these `orders` (h >= 0, different ones): x, y and g one behind

@@ -19,9 +19,11 @@
 // rest without friction, which is A nearest to zero.
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
+#include "arcslip/elements/slip_count.hpp"
 #include "arcslip/motion/periodic_motion.hpp"
 
 namespace arcslip {
@@ -93,6 +95,9 @@ class PressedArcs {
   /// where it is negative.
   double room() const { return lowest_high().high - highest_low().low; }
 
+  /// Where nothing drifts.
+  FurtherSlips further_slips() const;
+
   /// k_t r_0 - A at the ends of what A may be as it sticks.
   double least_mean_force() const { return mean_of_sliding() - lowest_high().high; }
   double greatest_mean_force() const { return mean_of_sliding() - highest_low().low; }
@@ -124,6 +129,7 @@ class PressedArcs {
   void stick(const Cell& cell);
   double onset(const Cell& cell, int direction) const;
   void add(double begin, double width);
+  void count_lacking(const Arc& arc, std::array<SlipCount, 2>& counts) const;
 
   PressedSettings settings_;
   PeriodicMotion sliding_;

@@ -43,9 +43,10 @@ struct PressedForce {
   std::array<ComplexVector, settings> tangential_by;  ///< of f_h by each setting
   std::array<ComplexVector, settings> normal_by;      ///< of N_h by each setting
 
-  double energy = 0;          ///< lost per cycle
-  double slip_fraction = 0;   ///< of the period
-  double apart_fraction = 0;  ///< of the period
+  double energy = 0;             ///< lost per cycle
+  double slip_fraction = 0;      ///< of the period
+  double apart_fraction = 0;     ///< of the period
+  FurtherSlips further_slips{};  ///< where it does not drift
 };
 
 /// The sliding motion of these coefficients, in the course that drifts with its drift.

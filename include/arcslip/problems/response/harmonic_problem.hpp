@@ -45,7 +45,8 @@ class HarmonicProblem : public continuation::Problem {
   /// Whether a part that friction alone holds drifts in a regime.
   bool drifts(const continuation::Regime& regime) const { return !drifting(regime).empty(); }
 
-  /// What may begin or end within a period, of its elements: `lift_off_NAME`. They refer to the problem.
+  /// What may begin or end within a period, of its elements: `lift_off_NAME`, `further_slip`. They refer to
+  /// the problem.
   std::vector<continuation::UserEvent> events() const;
 
   /// How many contacts, coordinates and harmonics there are, and the system.
@@ -137,6 +138,9 @@ class HarmonicProblem : public continuation::Problem {
   /// What a quantity is called in a harmonic: "Y_h3", over p = 2 periods of the load "Y_h3/2" in that of h
   /// = 3.
   std::string name_of(const std::string& quantity, Index order) const;
+
+  /// What stands behind the names of what an element does: nothing of the first, "_contact_2", "_NAME".
+  std::string suffix_of(Index element) const;
 
   /// What stands there; 0 of what stands nowhere.
   double value(const Place& place, const Vector& u, const Vector& p) const {
@@ -306,6 +310,7 @@ class HarmonicProblem : public continuation::Problem {
   /// Forces of all elements with what they were found for, and what quantities are found by: work space of a
   /// thread.
   struct Forces {
+    const HarmonicProblem* of = nullptr;
     std::vector<int> orders;
     Vector unknowns;
     Vector parameters;
@@ -325,6 +330,8 @@ class HarmonicProblem : public continuation::Problem {
   /// Adds what is `value` times a change of the logarithm of an element's load.
   void add_log_load(double value, Index element, const Vector& u, const Vector& p,
                     continuation::Gradient& gradient) const;
+  const ElementForce& force_of(Index element, const Vector& u, const Vector& p,
+                               const continuation::Regime& regime) const;
   const Swing* known_swing(const Vector& u, const Vector& p, Index element) const;
   ComplexMatrix loose(const continuation::Regime& regime, Index without = -1) const;
   void find_drifts();
