@@ -30,31 +30,6 @@ void check_disturbed_waves(const TomlSection& section, const SystemParameters& s
   }
 }
 
-/// Refuses curves that get lost at corners where friction whose normal force varies or acts in a plane is not
-/// all that slips.
-void check_corners(const TomlSection& section, const CaseBranch& branch) {
-  using continuation::PointType;
-  const PointType type = branch.curve->type;
-  if (type != PointType::peak && type != PointType::trough && type != PointType::fold) return;
-  const SystemParameters& system = branch.problem.system;
-  const auto jumps = std::find_if(system.others.begin(), system.others.end(), [](const PlacedElement& one) {
-    return one.closes() || one.kind->slides > 1;
-  });
-  if (jumps == system.others.end()) return;
-  const std::vector<SectorContact> contacts = build_wave(system).contacts;
-  const auto slipping = std::count_if(contacts.begin(), contacts.end(),
-                                      [](const SectorContact& one) { return one.stiffness > 0; }) +
-                        std::count_if(system.others.begin(), system.others.end(),
-                                      [](const PlacedElement& one) { return one.kind->has_memory; });
-  if (slipping > 1)
-    section.fail(
-        "curve",
-        fmt::format("not of folds, peaks and troughs where more than element '{}' slips: their second "
-                    "derivatives jump with every event within the period; for_each lists preloads "
-                    "whose branches have them",
-                    jumps->kind->name));
-}
-
 }  // namespace
 
 void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch) {
@@ -65,7 +40,6 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
     branch_section.fail("curve",
                         "not of switches of responses over several periods: where all periods are "
                         "alike slip begins in all of them at once");
-  if (branch.curve) check_corners(branch_section, branch);
   if (all_odd(system.harmonics)) return;
   for (const PlacedElement& one : system.others) {
     if (!one.kind->takes_any_orders)
