@@ -42,6 +42,22 @@ double ResponseExtremum::slope(double way) {
   return rate(gradient_, active_, origin_.scale, tangent) / std::abs(value);
 }
 
+/// Takes a point of the branch as the origin: that next to the guess or, as Newton's method may go back and
+/// forth across a corner, one a little beside it. Returns how far.
+std::optional<double> ResponseExtremum::settle(double farthest) {
+  constexpr double nearest = 1e-9;
+  constexpr double growth = 4;
+  for (double beside = 0; beside < farthest; beside = beside == 0 ? nearest : growth * beside) {
+    for (const double way : {beside, -beside}) {
+      if (!go(way)) continue;
+      const CurvePoint solved = at_;
+      origin_ = solved;
+      return way;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint& guess, bool peak,
                                                                  double farthest) {
   constexpr double nearest = 1e-13;
@@ -50,9 +66,8 @@ std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint
   origin_.parameters = guess.parameters;
   origin_.regime = guess.regime;
   corrector_.set_scale(origin_);
-  if (!go(0)) return std::nullopt;
-  const CurvePoint solved = at_;
-  origin_ = solved;
+  const std::optional<double> beside_guess = settle(farthest);
+  if (!beside_guess) return std::nullopt;
   const double sign = peak ? 1 : -1;
   struct End {
     double way;
@@ -70,7 +85,7 @@ std::optional<ResponseExtremum::Found> ResponseExtremum::next_to(const BasePoint
     const auto jumps = [&](double side) {
       return std::abs(slope(way + 4 * side * beside)) < like * std::abs(slope(way + side * beside));
     };
-    return Found{at, way, jumps(-1) && jumps(1)};
+    return Found{at, *beside_guess + way, jumps(-1) && jumps(1)};
   };
   End low{-nearest, slope(-nearest)};
   End high{nearest, slope(nearest)};

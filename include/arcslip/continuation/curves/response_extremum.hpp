@@ -33,6 +33,7 @@ class ResponseExtremum {
 
  private:
   [[nodiscard]] bool go(double way);
+  [[nodiscard]] std::optional<double> settle(double farthest);
   double slope(double way);
 
   const Problem& base_;
