@@ -1,5 +1,6 @@
 // What a user controls: stops, events, observers, restarts.
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -59,6 +60,33 @@ TEST_CASE("User events stand beside folds and listed values in one run") {
   CHECK_THAT(events[0].unknowns(0), WithinAbs(0, 1e-12));
   CHECK(of_type(branch, PointType::fold).size() == 2);
   CHECK(of_type(branch, PointType::user).size() == 5);  // 0 on all three sheets
+}
+
+TEST_CASE("Zeros of a function in pieces are found between its jumps, in whatever steps") {
+  const auto p_of = [](const Vector& u) { return u(0); };
+  const auto piece_at = [](double p) { return p < 0.21 ? 0 : p < 0.52 ? 1 : p < 0.71 ? 2 : 3; };
+  TraceOptions options = over("p", 0, 1);
+  options.events = {{"pieces",
+                     [&](const Vector& u, const Vector&, const Regime&) {  // jumps at 0.21, 0.52 and 0.71
+                       const double p = p_of(u);
+                       const std::array values{-1.0, 0.45 - p, 1.0, 0.9 - p};
+                       return values[static_cast<std::size_t>(piece_at(p))];
+                     },
+                     [&](const Vector& u, const Vector&, const Regime&) { return piece_at(p_of(u)); }}};
+  const ScalarProblem line(
+      {"p"}, [](double u, const Vector& p) { return u - p(0); }, [](double, const Vector&) { return 1; },
+      {[](double, const Vector&) { return -1; }});
+  for (const double max_step : {0.01, 0.1, 0.3, 1.0}) {
+    CAPTURE(max_step);
+    options.max_step = max_step;
+    const Branch branch = trace(line, {vector_of({0}), vector_of({0})}, options);
+    REQUIRE(branch.complete());
+    const auto events = of_type(branch, PointType::event);
+    REQUIRE(events.size() == 2);
+    CHECK_THAT(events[0].unknowns(0), WithinAbs(0.45, 1e-8));
+    CHECK(events[0].unknowns(0) >= 0.45);  // just behind
+    CHECK_THAT(events[1].unknowns(0), WithinAbs(0.9, 1e-8));
+  }
 }
 
 TEST_CASE("Both directions from a start in between make one branch") {
