@@ -4,9 +4,29 @@
 
 #include "arcslip/continuation/curves/extremum_tracer.hpp"
 #include "arcslip/continuation/curves/half_curve.hpp"
+#include "arcslip/continuation/curves/response_extremum.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
+
+namespace {
+
+bool is_outside(const ExtendedProblem& problem, const BasePoint& at) {
+  constexpr double rounding = 1e-9;
+  return crossed_border(problem.base(), at.unknowns, at.parameters, at.regime, rounding) >= 0;
+}
+
+/// The extremum next to a point, of either kind, without second derivatives.
+std::optional<BasePoint> bracketed(const ExtendedProblem& problem, const BasePoint& point, double farthest) {
+  ResponseExtremum extrema(problem.base(), problem.active(), *problem.extremum_of());
+  if (!extrema.begin(point)) return std::nullopt;
+  for (const bool peak : {true, false}) {
+    if (const auto found = extrema.next_to(point, peak, farthest)) return found->at;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
                      const CurveWindow& window, const Observer& observer) {
@@ -21,6 +41,10 @@ Branch trace_extrema(ExtendedProblem& problem, const BasePoint& start, const Tra
     located = locate(problem, start, options.tolerance);
   }
   const long to_locate = problem.evaluations() - before;
+  if (!corner && (!located || is_outside(problem, located->point))) {
+    if (const auto found = bracketed(problem, start, options.tolerances.beside_extremum))
+      located = LocatedPoint{*found};
+  }
   if (!located) {
     Branch none;
     none.explanation = "no special point of this kind was found next to the start";

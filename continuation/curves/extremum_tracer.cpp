@@ -304,7 +304,7 @@ bool ExtremumTracer::go_on() {
     return leave({split(here), std::nullopt, here.tangent, peak_});
   }
   const bool is_stuck = near_ || curve_.stop == Stop::left_regime || curve_.stop == Stop::min_step ||
-                        curve_.stop == Stop::no_value;
+                        curve_.stop == Stop::no_value || curve_.stop == Stop::no_start;
   if (!is_stuck) return false;
   if (const auto place = meeting()) return leave(*place);
   if (told_to_end_) return false;
@@ -313,6 +313,15 @@ bool ExtremumTracer::go_on() {
   const Guess guess{last.unknowns, last.parameters, last.regime, last.tangent};
   smooth(guess, true, 1);
   return true;
+}
+
+/// Where Newton's method leads to no row beside the first one.
+bool ExtremumTracer::walk_from(const BasePoint& start, bool towards_to) {
+  BranchPoint first = row(start, PointType::start);
+  const bool up = towards_to == (options_.to > options_.from);
+  first.tangent = (up ? 1 : -1) * Vector::Unit(problem_.size() + 1, problem_.size());
+  add(std::move(first));
+  return !told_to_end_ && walk();
 }
 
 Branch ExtremumTracer::half(const BasePoint& start, bool corner, bool towards_to) {
@@ -325,6 +334,8 @@ Branch ExtremumTracer::half(const BasePoint& start, bool corner, bool towards_to
     }
   } else {
     smooth(guess_at(start), towards_to, 0);
+    const bool begins = !curve_.points.empty() || curve_.stop != Stop::no_start;
+    if (!begins && !walk_from(start, towards_to)) return std::move(curve_);
   }
   while (go_on()) curve_.checkpoint.reset();
   return std::move(curve_);

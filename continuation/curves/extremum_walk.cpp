@@ -93,12 +93,13 @@ std::optional<BasePoint> ExtremumTracer::begin_walk(ResponseExtremum& extrema, b
     return extrema.begin(at) ? extrema.next_to(at, as_peak, beside) : std::nullopt;
   };
   std::optional<ResponseExtremum::Found> found;
-  for (std::size_t back = 0; back < most_back && curve_.points.size() > 1 && !found; ++back) {
+  for (std::size_t back = 0; back < most_back && !found; ++back) {
+    if (back > 0 && curve_.points.size() < 2) break;
+    if (back > 0) curve_.points.pop_back();
     const auto as_peak = nearest(true);
     const auto as_trough = nearest(false);
     peak = as_peak && (!as_trough || std::abs(as_peak->way) <= std::abs(as_trough->way));
     found = peak ? as_peak : as_trough;
-    if (!found) curve_.points.pop_back();
   }
   if (!found || std::abs(found->way) <= same) return found ? std::optional(found->at) : std::nullopt;
   for (std::size_t i = 0; i < most_beside && curve_.points.size() > 1; ++i) {

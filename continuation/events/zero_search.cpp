@@ -138,10 +138,12 @@ Zero ZeroSearch::locate(const Node& a, const Node& b, double size, const ValueAt
   };
   constexpr int coarsely = 20;  // bits, enough to tell a jump
   constexpr double plainly_left = 0.01;
-  double s = zero_between(value, a.s, b.s, a.value, b.value, coarsely);
-  if (!solved) return {Zero::State::failed};
-  if (!options_.jumps_count && std::abs(value(s)) > plainly_left * size) return {Zero::State::absent, s};
-  s = zero_between(value, a.s, b.s, a.value, b.value);
+  if (!options_.jumps_count) {
+    const double near = zero_between(value, a.s, b.s, a.value, b.value, coarsely);
+    if (!solved) return {Zero::State::failed};
+    if (std::abs(value(near)) > plainly_left * size) return {Zero::State::absent, near};
+  }
+  const double s = zero_between(value, a.s, b.s, a.value, b.value);
   const bool jumps = std::abs(value(s)) > options_.left_over * size;
   if (!solved) return {Zero::State::failed};
   return {jumps && !options_.jumps_count ? Zero::State::absent : Zero::State::found, s};

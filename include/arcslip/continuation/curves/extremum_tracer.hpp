@@ -64,6 +64,7 @@ class ExtremumTracer {
 
   enum class Mode { smooth, ledge };
 
+  bool walk_from(const BasePoint& start, bool towards_to);
   bool go_on();
   bool leave(const Place& place);
   std::optional<Side> smooth_side(const Place& place);
