@@ -83,17 +83,19 @@ std::vector<continuation::UserEvent> HarmonicProblem::events() const {
   for (Index e = 0; e < coordinates_.elements(); ++e) {
     const std::vector<ElementEvent> events = coordinates_.element(e).events(system_.orders);
     for (Index i = 0; i < std::ssize(events); ++i) {
-      const auto function = [=, this](const Vector& u, const Vector& p, const continuation::Regime& regime) {
-        const ElementForce& there = force_of(e, u, p, regime);
-        return with_element(e, u, p, [&](const Element& element) {
-          return element.event(i, system_.orders, element_motion(u, p, e), load(e, u, p), slips(regime, e),
-                               there);
-        });
-      };
-      continuation::UserEvent event{events[at(i)].name + suffix_of(e), function};
-      if (events[at(i)].in_pieces) {
+      continuation::UserEvent event{events[at(i)].name + suffix_of(e), nullptr};
+      if (const std::optional<std::size_t> which = events[at(i)].further_slips) {
+        event.function = [=, this](const Vector& u, const Vector& p, const continuation::Regime& regime) {
+          return slips(regime, e) ? force_of(e, u, p, regime).further_slips.functions[*which] : -1;
+        };
         event.piece = [=, this](const Vector& u, const Vector& p, const continuation::Regime& regime) {
           return slips(regime, e) ? force_of(e, u, p, regime).further_slips.piece : -1;
+        };
+      } else {
+        event.function = [=, this](const Vector& u, const Vector& p, const continuation::Regime&) {
+          return with_element(e, u, p, [&](const Element& element) {
+            return element.event(i, system_.orders, element_motion(u, p, e), load(e, u, p));
+          });
         };
       }
       all.push_back(std::move(event));

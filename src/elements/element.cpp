@@ -149,7 +149,7 @@ double cycle_energy(std::span<const int> orders, const Eigen::Ref<const ComplexV
 }
 
 double Element::event(Index /*which*/, std::span<const int> /*orders*/, const HarmonicVector& /*x*/,
-                      double /*load*/, bool /*beyond*/, const ElementForce& /*there*/) const {
+                      double /*load*/) const {
   throw std::logic_error("Element: it has no events");
 }
 

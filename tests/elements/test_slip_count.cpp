@@ -52,11 +52,9 @@ struct Sliding {
   /// The functions of further slips.
   std::vector<double> told(const HarmonicVector& x) const {
     const ElementForce there = force(x);
-    const std::vector<ElementEvent> events = element->events(orders);
     std::vector<double> values;
-    for (Index i = 0; i < std::ssize(events); ++i) {
-      if (events[static_cast<std::size_t>(i)].in_pieces)
-        values.push_back(element->event(i, orders, x, load, true, there));
+    for (const ElementEvent& event : element->events(orders)) {
+      if (event.further_slips) values.push_back(there.further_slips.functions[*event.further_slips]);
     }
     return values;
   }

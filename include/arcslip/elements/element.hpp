@@ -126,10 +126,9 @@ class Element {
   virtual bool dissipates() const { return false; }
 
   /// What may begin or end within a period of motions with these orders: where along a branch it does, a
-  /// function of the motion changes its sign. `there` is the force under it.
+  /// function of the motion changes its sign, which the force beyond the border tells or else `event`.
   virtual std::vector<ElementEvent> events(std::span<const int> /*orders*/) const { return {}; }
-  virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load,
-                       bool beyond, const ElementForce& there) const;
+  virtual double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load) const;
 
   /// Whether it has a second state beyond a border, as a contact that slips; else its force is smooth.
   virtual bool has_border() const { return false; }

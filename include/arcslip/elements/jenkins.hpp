@@ -30,10 +30,6 @@ class Jenkins final : public Element {
   std::vector<ElementEvent> events(std::span<const int> orders) const override {
     return is_alone_ ? std::vector<ElementEvent>{} : further_slip_events(orders);
   }
-  double event(Index which, std::span<const int> /*orders*/, const HarmonicVector& /*x*/, double /*load*/,
-               bool slips, const ElementForce& there) const override {
-    return slips ? there.further_slips.functions[static_cast<std::size_t>(which)] : -1;
-  }
   std::vector<Reading> readings() const override { return {{"T_max", true}, {"slip"}}; }
   std::vector<MotionNumber> read(std::span<const int> orders, const HarmonicVector& x, double load,
                                  bool slips, bool derivatives) const override;

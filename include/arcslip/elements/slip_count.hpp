@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,16 +69,17 @@ struct FurtherSlips {
 
 /// What may begin or end within a period.
 struct ElementEvent {
-  std::string name;        ///< as "lift_off"
-  bool in_pieces = false;  ///< whether its function may jump where FurtherSlips::piece changes
+  std::string name;  ///< as "lift_off"
+  std::optional<std::size_t> further_slips =
+      {};  ///< which of FurtherSlips::functions tells of it, if one does
 };
 
 /// The events of further slips: forwards and backwards, of which under odd motions one tells all. In one
 /// harmonic there is none.
 inline std::vector<ElementEvent> further_slip_events(std::span<const int> orders) {
   if (orders.size() == 1) return {};
-  if (all_odd(orders)) return {{"further_slip", true}};
-  return {{"further_slip_forwards", true}, {"further_slip_backwards", true}};
+  if (all_odd(orders)) return {{"further_slip", 0}};
+  return {{"further_slip_forwards", 0}, {"further_slip_backwards", 1}};
 }
 
 }  // namespace arcslip

@@ -27,13 +27,11 @@ class CircleElement final : public Element {
                                  bool beyond, bool derivatives) const override;
   bool dissipates() const override { return true; }
   std::vector<ElementEvent> events(std::span<const int> orders) const override {
-    return PressedElement::events(further_slip_events(orders), lifts_off());
+    return PressedElement::events(further_slip_events(orders), closes_ && settings_.normal.value > 0);
   }
-  double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
-               const ElementForce& there) const override {
-    if (which == 0 && lifts_off())
-      return PressedElement::least_press(settings_.at(load, 0), orders, x.tail(std::ssize(orders)));
-    return PressedElement::further_slip(which, lifts_off(), beyond, there);
+  double event(Index /*which*/, std::span<const int> orders, const HarmonicVector& x,
+               double load) const override {
+    return PressedElement::least_press(settings_.at(load, 0), orders, x.tail(std::ssize(orders)));
   }
   bool has_border() const override { return true; }
   bool holds_mean(Index coordinate, bool beyond) const override {
@@ -61,8 +59,6 @@ class CircleElement final : public Element {
                 bool beyond, bool derivatives, ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;
-
-  bool lifts_off() const { return closes_ && settings_.normal.value > 0; }
 
   Settings settings_;
   bool closes_;

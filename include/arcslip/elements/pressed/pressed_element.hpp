@@ -52,12 +52,12 @@ class PressedElement final : public Element {
                                  bool beyond, bool derivatives) const override;
   bool dissipates() const override { return true; }
   std::vector<ElementEvent> events(std::span<const int> orders) const override {
-    return events(is_alone_ ? std::vector<ElementEvent>{} : further_slip_events(orders), lifts_off());
+    return events(is_alone_ ? std::vector<ElementEvent>{} : further_slip_events(orders),
+                  settings_.normal.value > 0);
   }
-  double event(Index which, std::span<const int> orders, const HarmonicVector& x, double load, bool beyond,
-               const ElementForce& there) const override {
-    if (which == 0 && lifts_off()) return least_press(settings(load), orders, x.tail(std::ssize(orders)));
-    return further_slip(which, lifts_off(), beyond, there);
+  double event(Index /*which*/, std::span<const int> orders, const HarmonicVector& x,
+               double load) const override {
+    return least_press(settings(load), orders, x.tail(std::ssize(orders)));
   }
   bool has_border() const override { return true; }
   std::string beyond() const override { return "slip"; }
@@ -78,13 +78,10 @@ class PressedElement final : public Element {
   static double least_press(const PressedSettings& settings, std::span<const int> orders,
                             const Eigen::Ref<const HarmonicVector>& closing);
 
-  /// The events of what may lift off, before those of further slips.
+  /// The events of further slips and of what may lift off.
   static std::vector<ElementEvent> events(std::vector<ElementEvent> further_slips, bool lifts_off) {
-    if (lifts_off) further_slips.insert(further_slips.begin(), {"lift_off"});
+    if (lifts_off) further_slips.push_back({"lift_off"});
     return further_slips;
-  }
-  static double further_slip(Index event, bool lifts_off, bool beyond, const ElementForce& there) {
-    return beyond ? there.further_slips.functions[static_cast<std::size_t>(event - (lifts_off ? 1 : 0))] : -1;
   }
 
   /// The least or greatest of max(0, N_0 + k_n g) over a motion of which g is this coordinate, or none.
@@ -107,7 +104,6 @@ class PressedElement final : public Element {
                        ElementForce& out) const;
   void second(const ElementForce& at, std::span<const int> orders, const HarmonicVector& x, double load,
               bool beyond, const Way& way, ElementForce& change) const override;
-  bool lifts_off() const { return settings_.normal.value > 0; }
   PressedArcs::Course course(bool beyond) const {
     using Course = PressedArcs::Course;
     if (is_alone_) return beyond ? Course::drifts : Course::rests;
