@@ -62,9 +62,10 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
   Vector parameters_;
 };
 
-/// The end of a branch of `path` over one of its parameters.
-Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& start, Index parameter,
-                                double to, const continuation::TraceOptions& limits) const {
+/// The end of a branch of `path` over one of its parameters; none where it comes back to its start.
+std::optional<Guess> HarmonicResponse::reached(const continuation::Problem& path, const Guess& start,
+                                               Index parameter, double to,
+                                               const continuation::TraceOptions& limits) const {
   continuation::TraceOptions options;
   options.parameter = path.parameter_names()[static_cast<std::size_t>(parameter)];
   options.from = start.parameters(parameter);
@@ -78,11 +79,12 @@ Guess HarmonicResponse::reached(const continuation::Problem& path, const Guess& 
   if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
     throw continuation::Unfinished(branch.stop,
                                    fmt::format("on the way from {}: {}", from, branch.explanation));
+  if (branch.stop == continuation::Stop::left_range) return std::nullopt;
   if (branch.stop != continuation::Stop::reached_end)
     throw std::invalid_argument(
         fmt::format("HarmonicResponse: no way from {}: {}", from, branch.explanation));
   const continuation::BranchPoint& end = branch.points.back();
-  return {end.unknowns, end.parameters, end.regime};
+  return Guess{end.unknowns, end.parameters, end.regime};
 }
 
 Guess HarmonicResponse::guess(double eta_value, double preload_value,
@@ -128,14 +130,22 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     if (holding <= 1) return guess;
     guess.parameters(preload) =
         1.5 * holding * pressing({}, parameters) - pressing({}, parameters) + preload_value;
-    return reached(*this, guess, preload, preload_value, limits);
+    if (const auto end = reached(*this, guess, preload, preload_value, limits)) return *end;
+    throw std::invalid_argument("HarmonicResponse: the way from a high preload leads back there");
   }
-  constexpr double small = 1e-3;  // of the force under which the linear response does
-  const double share = take_small(guess, small / std::max(1.0, holding));
-  guess.parameters = Vector::Constant(1, share);
-  guess = reached(LoadPath(*this, parameters), guess, 0, 1, limits);
-  guess.parameters = parameters;
-  return guess;
+  // Near a resonance of what the elements make of it a branch may fold back below its first force.
+  constexpr double least = 1e-12;
+  for (double small = 1e-3; small > least;
+       small *= 1e-3) {  // of the force under which the linear response does
+    Guess start = guess;
+    const double share = take_small(start, small / std::max(1.0, holding));
+    start.parameters = Vector::Constant(1, share);
+    std::optional<Guess> end = reached(LoadPath(*this, parameters), start, 0, 1, limits);
+    if (!end) continue;
+    end->parameters = parameters;
+    return *end;
+  }
+  throw std::invalid_argument("HarmonicResponse: the way from a small force leads back there");
 }
 
 /// Makes the stuck response that under a share of the load, at most `share`, which it returns: one under

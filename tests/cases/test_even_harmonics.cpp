@@ -358,3 +358,22 @@ TEST_CASE("What even harmonics are not made for is refused in one line", "[even]
         Edit{"closes = \"", "closes = \"x", "element[0].closes: expected"}})
     CHECK_THAT(error_of_text(from, to), ContainsSubstring(says));
 }
+
+TEST_CASE("Responses begin where over the load a branch folds back to less than a thousandth of it",
+          "[even]") {
+  const double damping = GENERATE(5e-4, 2e-3);
+  const double eta = GENERATE(1.19, 1.23);  // a stop makes the mass resonate there under a small load as well
+  CAPTURE(damping, eta);
+  const TemporaryFolder folder;
+  const Case input = read_case(folder.write(
+      "case.toml",
+      fmt::format("[system]\nmodel = \"spring_mass\"\nbase = {{ mass = [1.4846], stiffness = [2.0434], load "
+                  "= [0.5] }}\n"
+                  "contact_stiffness = 1e-6\npreload = 1.0\ndamping = {{ base = {} }}\nharmonics = 3\n"
+                  "[[element]]\nkind = \"unilateral\"\nat = \"base\"\nstiffness = 2.637\ngap = 0.02\n"
+                  "[branch]\nparameter = \"eta\"\nfrom = {}\nto = 2.0\n",
+                  damping, eta)));
+  const auto all = trace(input.branches.front());
+  REQUIRE(all.front().branch.complete());
+  CHECK(all.front().branch.points.size() > 20);
+}

@@ -94,8 +94,9 @@ class HarmonicResponse : public HarmonicProblem {
   class LoadPath;
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               double share, const continuation::Evaluation& out) const;
-  continuation::Guess reached(const continuation::Problem& path, const continuation::Guess& start,
-                              Index parameter, double to, const continuation::TraceOptions& limits) const;
+  std::optional<continuation::Guess> reached(const continuation::Problem& path,
+                                             const continuation::Guess& start, Index parameter, double to,
+                                             const continuation::TraceOptions& limits) const;
   double take_small(continuation::Guess& stuck, double share) const;
 
   /// One harmonic of F, weight (f + (1 + C_h K)^{-1} (x - f - x0)) but for |x|.
