@@ -38,6 +38,17 @@ ContactSystem build_wave(const SystemParameters& parameters) {
   return structures_of(parameters).wave(parameters);
 }
 
+ContactSystem turned(ContactSystem system, const Complex& turn) {
+  if (turn == 1.0) return system;
+  system.base = system.base.turned(turn);
+  for (ContactOutput& output : system.outputs) output.modes = output.modes.turned(turn);
+  return system;
+}
+
+ContactSystem build_order(const SystemParameters& parameters, int h) {
+  return turned(build_wave(in_order(parameters, h)), parameters.load_turn(h));
+}
+
 void check(const HarmonicSystem& system) {
   const auto refuse = [](const char* why) {
     throw std::invalid_argument(std::string("HarmonicSystem: ") + why);
@@ -107,11 +118,12 @@ HarmonicSystem at_value(const HarmonicSystem& system, double value) {
 SystemParameters in_order(const SystemParameters& parameters, int h) {
   SystemParameters wave = parameters;
   const int p = parameters.periods();
+  const Complex share = h % p == 0 ? parameters.excitation.share(h / p) : 0;
+  wave.force *= share.imag() == 0 ? share.real() : std::abs(share);
   if (h == p) return wave;
   wave.wave_number = h * parameters.first_wave() % parameters.elements;
   wave.eta_low = h * parameters.eta_low / p;
   wave.eta_high = std::max(h, 1) * parameters.eta_high / p;
-  wave.force = h % p == 0 ? parameters.force * parameters.excitation.share(h / p) : 0;
   wave.tells_lag = false;
   return wave;
 }
@@ -120,11 +132,11 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   HarmonicSystem system;
   for (const int h : parameters.harmonics) {
     if (h == parameters.periods()) {
-      system = one_harmonic(build_wave(parameters));
+      system = one_harmonic(build_order(parameters, h));
       system.orders = {h};
       continue;
     }
-    ContactSystem of_order = build_wave(in_order(parameters, h));
+    ContactSystem of_order = build_order(parameters, h);
     system.orders.push_back(h);
     system.base.push_back(std::move(of_order.base));
     system.damper.push_back(std::move(of_order.damper));

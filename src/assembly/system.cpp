@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/motion/swing.hpp"
 
@@ -74,8 +75,8 @@ int most_orders(const SystemParameters& system) {
 }
 
 bool is_odd(const SystemParameters& system) {
-  return std::all_of(system.others.begin(), system.others.end(),
-                     [](const PlacedElement& one) { return one.is_odd(); });
+  return system.excitation.is_odd() && std::all_of(system.others.begin(), system.others.end(),
+                                                   [](const PlacedElement& one) { return one.is_odd(); });
 }
 
 bool has_own_friction(const SystemParameters& system) {
@@ -106,7 +107,13 @@ double cubic_coefficient(const SystemParameters& parameters) {
 }
 
 FrictionSystem build_system(const SystemParameters& parameters) {
-  return structures_of(parameters).one_contact(parameters);
+  const int p = parameters.periods();
+  FrictionSystem system = structures_of(parameters).one_contact(in_order(parameters, p));
+  const Complex turn = parameters.excitation.turn(1);
+  if (turn == 1.0) return system;
+  system.base = system.base.turned(turn);
+  for (ContactOutput& output : system.outputs) output.modes = output.modes.turned(turn);
+  return system;
 }
 
 }  // namespace arcslip

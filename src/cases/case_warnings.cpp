@@ -103,7 +103,7 @@ bool has_limit(const SystemParameters& system) {
 std::string about_preloads(const ProblemRequest& problem, const Ranges& ranges) {
   const SystemParameters& system = problem.system;
   if (!ranges.preload || !has_limit(system)) return "";
-  const ContactSystem wave = build_wave(system);
+  const ContactSystem wave = build_order(system, system.periods());
   std::vector<double> etas = ranges.fixed_eta;
   if (ranges.eta) {
     const auto [low, high] = *ranges.eta;

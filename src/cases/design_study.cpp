@@ -59,7 +59,7 @@ void compare_to_free(const StudyCase& study, const StudyDesign& design, PreloadS
   if (study.objective != "Y" || !system.others.empty()) return;
   problems::Peak free;
   if (!structures_of(system).is_one_contact(system)) {
-    free = problems::free_peak(build_wave(system).base, design.range, study.options);
+    free = problems::free_peak(build_order(system, system.periods()).base, design.range, study.options);
   } else {
     const FrictionSystem pair = build_system(system);
     free = problems::free_peak(pair, design.range, study.options);

@@ -60,6 +60,19 @@ const StructureKind& kind_of(const TomlDocument& document) {
   return find_given(document, model) ? given_structure() : *structure_of(model);
 }
 
+/// Refuses orders of the load that no harmonic balances, unless harmonics are found.
+void check_balanced(const TomlDocument& document, const ProblemRequest& problem) {
+  const SystemParameters& system = problem.system;
+  const ExcitationKind* kind = system.excitation.kind;
+  if (kind == nullptr || !kind->needed || problem.harmonics_tolerance) return;
+  for (const int h : kind->needed(system.excitation)) {
+    if (std::count(system.harmonics.begin(), system.harmonics.end(), h * system.periods()) > 0) continue;
+    TomlSection(document, "excitation")
+        .fail(kind->lists.front().each.name,
+              fmt::format("order {} is not among the harmonics that are balanced, [system] harmonics", h));
+  }
+}
+
 void read_friction(const TomlDocument& document, const Replacements& replacements, const TomlSection& section,
                    const SystemUse& use, ProblemRequest& problem) {
   const StructureKind& kind = kind_of(document);
@@ -70,9 +83,10 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   problem.structure = &kind;
   kind.read({document, section, replacements, use}, problem);
   read_elements(document, problem.system);
-  complete_orders(section, problem.system);
-  check_waves(section, problem.system);
   problem.system.excitation = read_excitation(document, replacements);
+  complete_orders(section, problem.system);
+  check_balanced(document, problem);
+  check_waves(section, problem.system);
 }
 
 Key<LibrarySettings> key_of(const Setting& setting, std::size_t i) {

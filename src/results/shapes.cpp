@@ -182,7 +182,8 @@ std::vector<ContactSystem> RingShapes::waves_at(const std::vector<int>& orders,
           ? system_
           : with_parameter(system_, system_.varied, parameters(problems::HarmonicResponse::further));
   std::vector<ContactSystem> waves;
-  for (const int h : orders) waves.push_back(system_.structures->wave(in_order(system, h)));
+  for (const int h : orders)
+    waves.push_back(turned(system_.structures->wave(in_order(system, h)), system.load_turn(h)));
   return waves;
 }
 

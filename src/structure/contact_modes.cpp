@@ -49,6 +49,25 @@ ContactModes ContactModes::with_driven_motion() const {
   return {contacts_ + 1, std::move(driven), loss_};
 }
 
+ContactModes ContactModes::turned(const Complex& turn) const {
+  ContactModes other = *this;
+  for (ContactMode& mode : other.modes_) mode.load *= turn;
+  if (!receptance_) return other;
+  other.receptance_ = [answer = receptance_, turn](double eta, double load) {
+    ContactReceptance response = answer(eta, load);
+    response.free *= turn;
+    response.free_eta *= turn;
+    return response;
+  };
+  if (receptance_work_) {
+    other.receptance_work_ = [work = receptance_work_, turn](double eta, double load,
+                                                             const ContactVector& forces) {
+      return work(eta, load, std::conj(turn) * forces);
+    };
+  }
+  return other;
+}
+
 void invert(ContactMatrix& a) {
   const Index m = a.rows();
   if (m > few) {

@@ -143,6 +143,12 @@ ModalModel::ModalModel(const ReducedStructure& structure, Index contact_dof, con
   }
 }
 
+ModalModel ModalModel::turned(const Complex& turn) const {
+  ModalModel other = *this;
+  for (Mode& mode : other.modes_) mode.load_residue *= turn;
+  return other;
+}
+
 ModalModel ModalModel::unyielding() const {
   ModalModel model = *this;
   for (Mode& mode : model.modes_) mode.residue = 0;

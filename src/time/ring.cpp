@@ -166,7 +166,7 @@ class Builder {
     const Index forward = of_order.wave_number % nodes;
     const Index wave = std::min(forward, nodes - forward);
     const bool backward = forward != wave;
-    const ContactSystem system = build_wave(of_order);
+    const ContactSystem system = turned(build_wave(of_order), parameters_.load_turn(order));
     RingLoad load{order, ComplexVector::Zero(size_)};
     const Rows base_rows = rows_;
     for (const Group& group : groups_of(system.base, system.damper, base_rows)) {

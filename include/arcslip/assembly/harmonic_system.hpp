@@ -71,11 +71,19 @@ void check(const HarmonicSystem& system);
 /// has none of its own.
 double usual_stiffness(const HarmonicSystem& system, const Coordinate& coordinate);
 
-/// Base, damper and contacts of `parameters` under their wave. Throws SectorError.
+/// Base, damper and contacts of `parameters` under their wave, loaded by its force. Throws SectorError.
 ContactSystem build_wave(const SystemParameters& parameters);
 
-/// The system whose load acts in the harmonic h of another: its wave, load and window of eta.
+/// The system whose load acts in the harmonic h of another: its wave, window of eta, and the load's
+/// magnitude, negative where a real one is.
 SystemParameters in_order(const SystemParameters& parameters, int h);
+
+/// The same structures under a load that is turned in phase.
+ContactSystem turned(ContactSystem system, const Complex& turn);
+
+/// Base, damper and contacts of `parameters` in the harmonic h, under the load that acts in it. Throws
+/// SectorError.
+ContactSystem build_order(const SystemParameters& parameters, int h);
 
 /// A system in the first harmonic alone.
 HarmonicSystem one_harmonic(ContactSystem system);

@@ -86,7 +86,7 @@ struct SystemParameters {
   Index subharmonic_wave = 0;  ///< m, if p > 1: on how many waves the harmonic 1 travels, p m = n modulo N
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
   std::vector<WantedOutput> wanted = {};   ///< of rods and beams the dofs of an element, else the masses
-  Excitation excitation{nullptr, {}};      ///< the load's harmonics, of which the balanced ones act
+  Excitation excitation = {};              ///< the load's harmonics, of which the balanced ones act
 
   std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued
   bool tells_lag = false;   ///< whether the lag of the motion that the load does work on is wanted
@@ -103,6 +103,9 @@ struct SystemParameters {
 
   /// On how many waves the harmonic 1 travels.
   Index first_wave() const { return periods() == 1 ? wave_number : subharmonic_wave; }
+
+  /// What the load in the harmonic h of the response is turned by against a real one.
+  Complex load_turn(int h) const { return h % periods() == 0 ? excitation.turn(h / periods()) : 1; }
 
   /// Whether elements act beside the contacts.
   bool has_others() const { return has_cubic_springs() || !others.empty(); }

@@ -89,6 +89,9 @@ class ContactModes {
   /// modes alone: what is solved for has to be solved for anew.
   ContactModes with_driven_motion() const;
 
+  /// The same under a load that is turned in phase by this factor of modulus 1.
+  ContactModes turned(const Complex& turn) const;
+
   /// The same modes with another loss.
   ContactModes with(const Loss& loss) const { return {contacts_, modes_, loss}; }
 

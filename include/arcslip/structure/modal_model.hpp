@@ -123,6 +123,9 @@ class ModalModel {
   /// The same modes with another damping.
   ModalModel damped(const Loss& loss) const { return {modes_, loss}; }
 
+  /// The same under a load that is turned in phase by this factor of modulus 1.
+  ModalModel turned(const Complex& turn) const;
+
   /// The same structure where nothing but its own load moves it: c = 0.
   ModalModel unyielding() const;
 

@@ -12,8 +12,9 @@ ExcitationKind arcs_excitation() {
   return {"arcs",
           "even pressure on travelling arcs, one that pushes and one that pulls in each wavelength",
           {{"width", 0.5, 0, 0.5, false, "w of an arc, over the wavelength; 0.5 is a square wave", false}},
-          [](const std::vector<double>& settings, int h) {
-            const double angle = pi * settings[0];
+          {},
+          [](const Excitation& load, int h) -> Complex {
+            const double angle = pi * load.settings[0];
             return h % 2 == 0 ? 0 : std::sin(h * angle) / (h * std::sin(angle));
           }};
 }

@@ -5,9 +5,10 @@
 namespace arcslip {
 
 ExcitationKind travelling_excitation() {
-  return {"travelling", "a sine that travels round the ring", {}, [](const std::vector<double>&, int h) {
-            return h == 1 ? 1.0 : 0.0;
-          }};
+  return {
+      "travelling", "a sine that travels round the ring", {}, {}, [](const Excitation&, int h) -> Complex {
+        return h == 1 ? 1 : 0;
+      }};
 }
 
 }  // namespace arcslip
