@@ -315,6 +315,35 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   problem.settings = std::move(settings.values);
 }
 
+namespace {
+
+/// Puts what files held in the place of their names: of loads and of the weights of outputs.
+void resolve_files(const SystemParameters& system, ordered_json& file) {
+  const Excitation& excitation = system.excitation;
+  for (std::size_t i = 0; i < excitation.lists.size(); ++i) {
+    ordered_json& list = file["excitation"][excitation.kind->lists[i].each.name];
+    if (list.is_string()) list = excitation.lists[i];
+  }
+  for (const bool on_base : {true, false}) {
+    const auto part = file["system"].find(on_base ? "base" : "damper");
+    if (part == file["system"].end() || !part->is_object() || !part->contains("weights")) continue;
+    ordered_json rows = ordered_json::object();
+    for (const WantedOutput& output : system.wanted) {
+      if (output.on_base != on_base) continue;
+      ordered_json& row = rows[output.name];
+      for (Index i = 0; i < output.weights.size(); ++i) {
+        if (output.weights(i) == 0) continue;
+        row["dof"].push_back(i + 1);
+        row["value"].push_back(output.weights(i));
+      }
+    }
+    ordered_json& weights = (*part)["weights"];
+    if (weights.is_string() && !rows.empty()) weights = std::move(rows);
+  }
+}
+
+}  // namespace
+
 void resolve_system(const ProblemRequest& problem, ordered_json& file) {
   ordered_json& section = file["system"];
   if (problem.model != nullptr)
@@ -323,6 +352,7 @@ void resolve_system(const ProblemRequest& problem, ordered_json& file) {
   const Excitation& excitation = problem.system.excitation;
   if (excitation.kind != nullptr)
     fill(file["excitation"], excitation_keys(*excitation.kind).values(excitation));
+  resolve_files(problem.system, file);
   const std::vector<PlacedElement>& others = problem.system.others;
   for (std::size_t i = 0; i < others.size(); ++i)
     fill(file["element"][i], element_keys(*others[i].kind).values(others[i]));

@@ -156,6 +156,26 @@ TEST_CASE("The load of engine orders, a jet and a table is what they say", "[exc
   CHECK(three.share(2) == 0.0);
 }
 
+TEST_CASE("A load is read from a file as from a list, and told in the resolved case", "[excitation]") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& values) {
+    return read_case(
+        folder.write("case.toml",
+                     "[system]\nmodel = \"rods\"\nwave_number = 1\nelements = 12\nmass_ratio = "
+                     "5.0\nfrequency_ratio = 4.0\n"
+                     "interface_stiffness = 1000.0\nforce = 1.0\npreload = 1.0\nharmonics = 5\n[excitation]\n"
+                     "kind = \"table\"\nvalues = " +
+                         values + "\n[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 6.0\n"));
+  };
+  folder.write("load.csv", "# of one turn\n1.0, 0.6\n-0.25 -1; -0.6,0.25\n");
+  const Case from_file = read("\"load.csv\"");
+  CHECK(from_file.resolved == read("[1.0, 0.6, -0.25, -1.0, -0.6, 0.25]").resolved);
+  CHECK(from_file.branches.front().problem.system.harmonics == std::vector<int>{1, 3, 5});
+  folder.write("load.csv", "1.0\n0.6\nx\n");
+  CHECK_THAT(error_of([&] { read("\"load.csv\""); }),
+             ContainsSubstring("load.csv:3: expected finite numbers, got x"));
+}
+
 TEST_CASE("Derivatives under engine orders are those of differences", "[excitation]") {
   const Run run("engine_orders", {"system.harmonics=5"});
   REQUIRE(run.traced.front().branch.complete());

@@ -125,6 +125,18 @@ TEST_CASE("A file of weights gives an output for each row") {
   }
 }
 
+TEST_CASE("The resolved case has the weights that a file held") {
+  const TemporaryFolder folder;
+  folder.write("w.csv", "sum, 1.0, 0, 2.5\n");
+  const Case input = read_case(folder.write("case.toml",
+                                            "[system]\nmodel = \"spring_mass\"\ncontact_stiffness = "
+                                            "1.0\npreload = 1.0\nbase = { mass = [1.0, 1.0, 1.0], "
+                                            "stiffness = [1.0, 1.0, 1.0], weights = \"w.csv\" "
+                                            "}\n[branch]\nparameter = \"eta\"\nfrom = 0.5\nto = 2.0\n"));
+  const auto expected = nlohmann::ordered_json::parse(R"({"sum": {"dof": [1, 3], "value": [1.0, 2.5]}})");
+  CHECK(input.resolved["system"]["base"]["weights"] == expected);
+}
+
 TEST_CASE("Peaks of an output in time are where a branch close by is lower on both sides") {
   RandomSystems draw(74);
   const TemporaryFolder folder;
