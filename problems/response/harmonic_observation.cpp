@@ -1,5 +1,6 @@
 // The quantities of a point of a harmonic problem, with their gradients.
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/problems/response/contact_problem.hpp"
@@ -37,6 +38,10 @@ class HarmonicProblem::Observation {
       case Measure::greatest: return greatest(quantity.of, quantity.which);
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
       case Measure::reading: return reading(quantity.which, quantity.order);
+      case Measure::largest: return outermost(quantity, true);
+      case Measure::least: return outermost(quantity, false);
+      case Measure::wave: return of_wave(quantity);
+      case Measure::slipping: return slipping();
     }
     return 0;
   }
@@ -72,6 +77,48 @@ class HarmonicProblem::Observation {
     if (gradient_ != nullptr && size > rounding * usual_size(quantity))
       add(quantity.of, quantity.which, quantity.order, part / size * z);
     return size;
+  }
+
+  /// Of the motions of all sectors the largest amplitude, or the least; with the gradient of that sector's.
+  double outermost(const Quantity& quantity, bool largest) {
+    Quantity found = quantity;
+    double size = -1;
+    for (Index i = 0; i < system_.sectors; ++i) {
+      const Index which = quantity.which + i * in_sector(quantity.of);
+      const double one = std::abs(phasor(quantity.of, which, quantity.order));
+      if (size >= 0 && (largest ? one <= size : one >= size)) continue;
+      size = one;
+      found.which = which;
+    }
+    return amplitude(found, 1);
+  }
+
+  /// How many motions of a kind a sector has: those of the next one follow in their order.
+  Index in_sector(Body of) const {
+    return of == Body::output ? std::ssize(system_.outputs) : problem_.contacts() / system_.sectors;
+  }
+
+  /// |sum_i d_i e^{j a q i}|/N of a motion, the part of the wave q.
+  double of_wave(const Quantity& quantity) {
+    Complex sum = 0;
+    const auto turn = [&](Index i) {
+      const double angle = two_pi * static_cast<double>(quantity.wave * i) / static_cast<double>(system_.sectors);
+      return Complex(std::cos(angle), std::sin(angle)) / static_cast<double>(system_.sectors);
+    };
+    for (Index i = 0; i < system_.sectors; ++i)
+      sum += turn(i) * phasor(quantity.of, quantity.which + i * in_sector(quantity.of), quantity.order);
+    const double size = std::abs(sum);
+    constexpr double rounding = 1e-15;
+    for (Index i = 0; i < system_.sectors && gradient_ != nullptr && size > rounding * u_.norm(); ++i)
+      add(quantity.of, quantity.which + i * in_sector(quantity.of), quantity.order,
+          std::conj(turn(i)) * (sum / size));
+    return size;
+  }
+
+  double slipping() const {
+    double count = 0;
+    for (Index i = 0; i < problem_.contacts(); ++i) count += slips(regime_, i) ? 1 : 0;
+    return count / static_cast<double>(problem_.contacts());
   }
 
   /// What rounding of a motion is measured by: of an output by the parts that it is the
@@ -294,13 +341,14 @@ class HarmonicProblem::Observation {
     }
   };
   Row row_of(Body of, Index which, Index order) {
-    const ContactOutput* output = of == Body::output ? &system_.output(which, order) : nullptr;
+    const Index outputs = std::max<Index>(1, std::ssize(system_.outputs));
+    const ContactOutput* output = of == Body::output ? &system_.output(which % outputs, order) : nullptr;
     const ContactModes* structure = output != nullptr ? &output->modes : &system_.damper[at(order)];
     const bool is_base = output != nullptr && output->on_base;
     if (structure != responded_) problem_.respond(*structure, is_base, order, u_, p_, work_.response);
     responded_ = structure;
     problem_.coordinates_.forces_on(is_base, elements_, order, work_.on_structure);
-    const Index index = output != nullptr ? problem_.contacts() : which;
+    const Index index = output != nullptr ? problem_.contacts() + which / outputs : which;
     Row row{work_.response, is_base, index, work_.on_structure, {}};
     if (!is_rigid(order)) return row;
     const RigidMotions& rigid = problem_.rigid_;
@@ -330,7 +378,8 @@ class HarmonicProblem::Observation {
 std::vector<continuation::Observable> HarmonicProblem::observables() const {
   std::vector<continuation::Observable> all;
   for (const Quantity& quantity : quantities_) {
-    all.push_back({quantity.name, quantity.measure != Measure::force});
+    const bool has_gradient = quantity.measure != Measure::force && quantity.measure != Measure::slipping;
+    all.push_back({quantity.name, has_gradient});
     if (quantity.measure == Measure::lag) all.back() = angle(quantity.name);
   }
   return all;

@@ -38,7 +38,7 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                  {"psi", Measure::lag},
                  {"dissipated", Measure::dissipated}};
   add_readings(0, "");
-  add_further_contacts();
+  system_.sectors > 1 ? add_ring() : add_further_contacts();
   for (const ContactOutput& output : system_.outputs) {
     quantities_.push_back({output.name, output.is_lag ? Measure::lag : Measure::amplitude, Body::output,
                            &output - system_.outputs.data()});
@@ -343,8 +343,20 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
   if (is_varied()) parameters(further) = varied_scale(u, p);
 }
 
+std::vector<double> HarmonicResponse::ring_landmarks(double from, double to) const {
+  std::vector<double> values;
+  for (Index a = 0; a < harmonics(); ++a) {
+    for (const double found : system_.landmarks[at(a)]) {
+      const double value = found / system_.multiple(a);
+      if (system_.orders[at(a)] != 0 && value > from && value < to) values.push_back(value);
+    }
+  }
+  return values;
+}
+
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
+  if (!system_.landmarks.empty()) return ring_landmarks(from, to);
   const Vector springs = contact_springs(system_.contacts);
   std::vector<double> values;
   for (Index a = 0; a < harmonics(); ++a) {

@@ -64,6 +64,7 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   if (problem.model != nullptr) return "a model of the library";
   if (!problem.response->in_time) return problem.response->title;
   if (!structures_of(problem.system).has_equations()) return "structures by their responses alone";
+  if (structures_of(problem.system).whole() != nullptr) return "whole rings";
   return branch.curve ? "curves" : "";
 }
 

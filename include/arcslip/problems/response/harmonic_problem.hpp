@@ -113,7 +113,11 @@ class HarmonicProblem : public continuation::Problem {
     energy,
     greatest,
     force,
-    reading
+    reading,
+    largest,
+    least,
+    wave,
+    slipping
   };
   enum class Body { contact, base, damper, output };
   struct Quantity {
@@ -122,6 +126,7 @@ class HarmonicProblem : public continuation::Problem {
     Body of = Body::contact;  ///< of what
     Index which = 0;          ///< contact or output; of an energy or a reading the element
     Index order = 0;          ///< the position of the harmonic, or which reading
+    Index wave = 0;           ///< of motions round a whole ring, +-q
   };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
@@ -130,6 +135,9 @@ class HarmonicProblem : public continuation::Problem {
   /// The quantities of the contacts but the first, of the first in the other harmonics, what an element tells
   /// and all those beside the contacts do, and how fast what elements alone hold drifts.
   void add_further_contacts();
+  /// Of a whole ring, of the contacts of a sector and the outputs: the largest and least amplitudes of all
+  /// sectors, the first contact's by waves, and the part of the contacts that slip.
+  void add_ring();
   void add_other_harmonics();
   void add_readings(Index element, const std::string& suffix);
   void add_further_elements();

@@ -156,6 +156,7 @@ class HarmonicResponse : public HarmonicProblem {
     return coordinates_.element(e).is_linear(slips(regime, e));
   }
   void add_outputs_in_time();
+  std::vector<double> ring_landmarks(double from, double to) const;
   bool is_odd_;  ///< whether all harmonics are odd
 
   /// Whether there is a response at these parameters.
