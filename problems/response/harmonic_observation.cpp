@@ -81,16 +81,13 @@ class HarmonicProblem::Observation {
 
   /// Of the motions of all sectors the largest amplitude, or the least; with the gradient of that sector's.
   double outermost(const Quantity& quantity, bool largest) {
-    Quantity found = quantity;
-    double size = -1;
-    for (Index i = 0; i < system_.sectors; ++i) {
-      const Index which = quantity.which + i * in_sector(quantity.of);
-      const double one = std::abs(phasor(quantity.of, which, quantity.order));
-      if (size >= 0 && (largest ? one <= size : one >= size)) continue;
-      size = one;
-      found.which = which;
-    }
-    return amplitude(found, 1);
+    const ComplexVector& all = of_sectors(quantity);
+    Index found = 0;
+    largest ? all.cwiseAbs().maxCoeff(&found) : all.cwiseAbs().minCoeff(&found);
+    if (gradient_ == nullptr) return std::abs(all(found));
+    Quantity one = quantity;
+    one.which += found * in_sector(quantity.of);
+    return amplitude(one, 1);
   }
 
   /// How many motions of a kind a sector has: those of the next one follow in their order.
@@ -98,20 +95,43 @@ class HarmonicProblem::Observation {
     return of == Body::output ? std::ssize(system_.outputs) : problem_.contacts() / system_.sectors;
   }
 
+  /// A motion of all sectors, found once for quantities that follow one another.
+  const ComplexVector& of_sectors(const Quantity& quantity) {
+    const auto& [name, measure, of, which, order, wave] = quantity;
+    if (known_ != nullptr && known_->of == of && known_->which == which && known_->order == order)
+      return sectors_;
+    known_ = &quantity;
+    sectors_.resize(system_.sectors);
+    ContactVector moved;
+    if (of == Body::base || of == Body::damper) {
+      const Row row = row_of(of, which, order);
+      moved.noalias() = row.response.compliance * row.forces;
+    }
+    for (Index i = 0; i < system_.sectors; ++i) {
+      const Index one = which + i * in_sector(of);
+      const bool is_known = moved.size() > 0 && !is_rigid(order);
+      if (!is_known) {
+        sectors_(i) = phasor(of, one, order);
+      } else {
+        sectors_(i) = moved(one) - (of == Body::base ? problem_.motion(u_, p_, one)(order) : 0.0);
+      }
+    }
+    return sectors_;
+  }
+
   /// |sum_i d_i e^{j a q i}|/N of a motion, the part of the wave q.
   double of_wave(const Quantity& quantity) {
-    Complex sum = 0;
-    const auto turn = [&](Index i) {
-      const double angle = two_pi * static_cast<double>(quantity.wave * i) / static_cast<double>(system_.sectors);
-      return Complex(std::cos(angle), std::sin(angle)) / static_cast<double>(system_.sectors);
-    };
-    for (Index i = 0; i < system_.sectors; ++i)
-      sum += turn(i) * phasor(quantity.of, quantity.which + i * in_sector(quantity.of), quantity.order);
-    const double size = std::abs(sum);
     constexpr double rounding = 1e-15;
-    for (Index i = 0; i < system_.sectors && gradient_ != nullptr && size > rounding * u_.norm(); ++i)
+    const auto n = static_cast<double>(system_.sectors);
+    const Complex turn = std::polar(1.0, two_pi * static_cast<double>(quantity.wave) / n);
+    const ComplexVector& all = of_sectors(quantity);
+    ComplexVector turns(all.size());
+    for (Index i = 0; i < all.size(); ++i) turns(i) = (i == 0 ? 1 / n : turns(i - 1) * turn);
+    const Complex sum = turns.cwiseProduct(all).sum();
+    const double size = std::abs(sum);
+    for (Index i = 0; i < all.size() && gradient_ != nullptr && size > rounding * u_.norm(); ++i)
       add(quantity.of, quantity.which + i * in_sector(quantity.of), quantity.order,
-          std::conj(turn(i)) * (sum / size));
+          std::conj(turns(i)) * (sum / size));
     return size;
   }
 
@@ -371,6 +391,8 @@ class HarmonicProblem::Observation {
   const ContactModes* responded_ = nullptr;
   Rest rest_;            // found once it is asked for
   ContactVector moved_;  // of the coordinates, by rigid motions
+  const Quantity* known_ = nullptr;  // whose motion of all sectors is known
+  ComplexVector sectors_;
   Index read_ = -1;      // the element whose readings are known
   std::vector<MotionNumber> told_;
 };

@@ -19,46 +19,45 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
     const double angle = two_pi * static_cast<double>(q) / static_cast<double>(count());
     turns_.emplace_back(std::cos(angle), -std::sin(angle));
   }
+  transform_.resize(count(), count());
+  for (Index m = 0; m < count(); ++m) {
+    for (Index i = 0; i < count(); ++i)
+      transform_(m, i) = turns_[static_cast<std::size_t>(m * i % count())] / static_cast<double>(count());
+  }
+  for (const ContactModes& wave : given_.waves) {
+    is_loaded_.push_back(wave.is_solved() || std::any_of(wave.modes().begin(), wave.modes().end(),
+                                                         [](const auto& mode) { return mode.load != 0.0; }));
+  }
   for (const RingChange& change : given_.changes) rows_.insert(rows_.end(), change.of.begin(), change.of.end());
 }
 
-/// One transformation over the waves for all entries; what a wave answers is asked for once.
+/// The blocks of all lags between sectors, by a transformation over the waves of all entries at once.
 RingPart::Tuned RingPart::tuned(double eta, double load) const {
   const Index n = count();
-  const auto turn = [&](Index m, Index i) { return turns_[static_cast<std::size_t>(m * i % n)]; };
-  Tuned sum;
-  sum.compliance.assign(static_cast<std::size_t>(n), ContactMatrix::Zero(ports_, ports_));
-  sum.compliance_eta = sum.compliance;
-  sum.free.setZero(ports_, n);
-  sum.free_eta.setZero(ports_, n);
-  const double part = 1 / static_cast<double>(n);
-  const double load_part = load / std::sqrt(static_cast<double>(n));
+  const Index entries = ports_ * ports_;
+  ComplexMatrix waves(2 * entries, n);  // a column for each wave: its compliance, then the derivative
+  ComplexMatrix free = ComplexMatrix::Zero(2 * ports_, n);
+  const auto keep = [&](Index m, const auto& compliance, const auto& by_eta) {
+    Eigen::Map<ContactMatrix>(waves.col(m).data(), ports_, ports_) = compliance;
+    Eigen::Map<ContactMatrix>(waves.col(m).data() + entries, ports_, ports_) = by_eta;
+  };
   ContactReceptance one;
   for (Index m = 0; m < n; ++m) {
-    const ContactModes& wave = given_.waves[static_cast<std::size_t>(m)];
+    const auto at = static_cast<std::size_t>(m);
     const bool is_twin = is_modal_ && 2 * m > n;
-    const bool is_loaded = wave.is_solved() || std::any_of(wave.modes().begin(), wave.modes().end(),
-                                                           [](const auto& mode) { return mode.load != 0.0; });
-    if (is_twin && !is_loaded) continue;
+    if (is_twin && !is_loaded_[at]) continue;
     one.set_zero(ports_);
-    wave.add(eta, one);
-    if (is_loaded) {
-      for (Index i = 0; i < n; ++i) {
-        sum.free.col(i) += (load_part * turn(m, i)) * one.free;
-        sum.free_eta.col(i) += (load_part * turn(m, i)) * one.free_eta;
-      }
-    }
+    given_.waves[at].add(eta, one);
+    if (is_loaded_[at]) free.col(m) << one.free, one.free_eta;
     if (is_twin) continue;
-    const bool has_twin = is_modal_ && m > 0 && 2 * m < n;
-    for (Index lag = 0; lag < n; ++lag) {
-      const auto to = static_cast<std::size_t>(lag);
-      sum.compliance[to] += (part * turn(m, lag)) * one.compliance;
-      sum.compliance_eta[to] += (part * turn(m, lag)) * one.compliance_eta;
-      if (!has_twin) continue;
-      sum.compliance[to] += (part * std::conj(turn(m, lag))) * one.compliance.transpose();
-      sum.compliance_eta[to] += (part * std::conj(turn(m, lag))) * one.compliance_eta.transpose();
-    }
+    keep(m, one.compliance, one.compliance_eta);
+    if (is_modal_ && m > 0 && 2 * m < n)
+      keep(n - m, one.compliance.transpose(), one.compliance_eta.transpose());
   }
+  Tuned sum;
+  sum.entries.noalias() = waves * transform_;
+  sum.free.noalias() = (load * std::sqrt(static_cast<double>(n))) * (free.topRows(ports_) * transform_);
+  sum.free_eta.noalias() = (load * std::sqrt(static_cast<double>(n))) * (free.bottomRows(ports_) * transform_);
   return sum;
 }
 
@@ -83,20 +82,20 @@ RingPart::Stiffness RingPart::stiffness(double eta) const {
   return all;
 }
 
-ComplexMatrix RingPart::times_rows(const Blocks& blocks, const Places& places) const {
+ComplexMatrix RingPart::times_rows(const Tuned& tuned, bool by_eta, const Places& places) const {
   ComplexMatrix product = ComplexMatrix::Zero(std::ssize(places), std::ssize(rows_));
   for (Index k = 0; k < product.cols(); ++k) {
     for (const RingChange::Term& term : rows_[static_cast<std::size_t>(k)]) {
       for (Index i = 0; i < product.rows(); ++i) {
         const auto& [sector, port] = places[static_cast<std::size_t>(i)];
-        product(i, k) += term.weight * block(blocks, sector, term.sector)(port, term.port);
+        product(i, k) += term.weight * entry(tuned, by_eta, place(sector, port), place(term.sector, term.port));
       }
     }
   }
   return product;
 }
 
-ComplexMatrix RingPart::between_rows(const Blocks& blocks) const {
+ComplexMatrix RingPart::between_rows(const Tuned& tuned, bool by_eta) const {
   const Index size = std::ssize(rows_);
   ComplexMatrix product = ComplexMatrix::Zero(size, size);
   for (Index k = 0; k < size; ++k) {
@@ -104,7 +103,7 @@ ComplexMatrix RingPart::between_rows(const Blocks& blocks) const {
       for (const RingChange::Term& to : rows_[static_cast<std::size_t>(i)]) {
         for (const RingChange::Term& from : rows_[static_cast<std::size_t>(k)])
           product(i, k) +=
-              to.weight * from.weight * block(blocks, to.sector, from.sector)(to.port, from.port);
+              to.weight * from.weight * entry(tuned, by_eta, place(to.sector, to.port), place(from.sector, from.port));
       }
     }
   }
@@ -122,8 +121,8 @@ ComplexVector RingPart::of_rows(const ComplexMatrix& motions) const {
 
 RingPart::Stiffness RingPart::turned(const Tuned& tuned, double eta) const {
   const Stiffness d = stiffness(eta);
-  const ComplexMatrix c = between_rows(tuned.compliance);
-  const ComplexMatrix c_eta = between_rows(tuned.compliance_eta);
+  const ComplexMatrix c = between_rows(tuned, false);
+  const ComplexMatrix c_eta = between_rows(tuned, true);
   const Index size = c.rows();
   const ComplexMatrix factor =
       (ComplexMatrix::Identity(size, size) + d.value * c).partialPivLu().inverse();  // (1 + D C)^-1
@@ -153,16 +152,17 @@ ContactReceptance RingPart::at(double eta, double load, Index port) const {
     response.free(first + i) = all.free(of, sector);
     response.free_eta(first + i) = all.free_eta(of, sector);
     for (Index j = 0; j < n * c; ++j) {
-      response.compliance(first + i, j) = block(all.compliance, sector, j / c)(of, j % c);
-      response.compliance_eta(first + i, j) = block(all.compliance_eta, sector, j / c)(of, j % c);
+      const Index to = place(j / c, j % c);
+      response.compliance(first + i, j) = entry(all, false, place(sector, of), to);
+      response.compliance_eta(first + i, j) = entry(all, true, place(sector, of), to);
     }
   }
   if (rows_.empty()) return response;
   const Stiffness g = turned(all, eta);
-  const ComplexMatrix left = times_rows(all.compliance, rows);
-  const ComplexMatrix left_eta = times_rows(all.compliance_eta, rows);
-  const ComplexMatrix right = port >= 0 ? times_rows(all.compliance, contacts) : left;
-  const ComplexMatrix right_eta = port >= 0 ? times_rows(all.compliance_eta, contacts) : left_eta;
+  const ComplexMatrix left = times_rows(all, false, rows);
+  const ComplexMatrix left_eta = times_rows(all, true, rows);
+  const ComplexMatrix right = port >= 0 ? times_rows(all, false, contacts) : left;
+  const ComplexMatrix right_eta = port >= 0 ? times_rows(all, true, contacts) : left_eta;
   const ComplexMatrix held = left * g.value;
   const ComplexMatrix held_eta = left_eta * g.value + left * g.by_eta;
   const ComplexVector x = of_rows(all.free);
@@ -185,9 +185,9 @@ CycleWork RingPart::work(double eta, double load, const ContactVector& forces) c
     const Tuned all = tuned(eta, load);
     Places contacts;
     for (Index i = 0; i < n * c; ++i) contacts.push_back({i / c, i % c});
-    const ComplexVector x = of_rows(all.free) + times_rows(all.compliance, contacts).transpose() * forces;
+    const ComplexVector x = of_rows(all.free) + times_rows(all, false, contacts).transpose() * forces;
     const ComplexVector taken = turned(all, eta).value * x;  // what the changes meet the motion with
-    const ComplexVector moved = x - between_rows(all.compliance) * taken;
+    const ComplexVector moved = x - between_rows(all, false) * taken;
     for (Index k = 0; k < x.size(); ++k) {
       for (const RingChange::Term& term : rows_[static_cast<std::size_t>(k)])
         on_ports(term.port, term.sector) -= term.weight * taken(k);

@@ -2,6 +2,7 @@
 
 // Base or damper of a whole ring, as its contacts and some further motions in each sector see it.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -34,12 +35,10 @@ class RingPart {
   ContactModes modes() const;
 
  private:
-  using Blocks = std::vector<ContactMatrix>;
-
-  /// Motions of all ports of all sectors, ports x N, and compliances C_{i - j} between ports.
+  /// Motions of all ports of all sectors, ports x N, and compliances between ports of sectors that are
+  /// 0..N-1 apart, a column for each lag: its block, then the derivative of that.
   struct Tuned {
-    Blocks compliance;
-    Blocks compliance_eta;
+    ComplexMatrix entries;
     ComplexMatrix free;
     ComplexMatrix free_eta;
   };
@@ -56,18 +55,24 @@ class RingPart {
 
   Index count() const { return std::ssize(given_.waves); }
   Index place(Index sector, Index port) const { return sector * ports_ + port; }
-  const ContactMatrix& block(const Blocks& blocks, Index i, Index j) const {
-    return blocks[static_cast<std::size_t>((i - j + count()) % count())];
+  /// Of one port's motion per force on another one, each by `place`.
+  Complex entry(const Tuned& tuned, bool by_eta, Index to, Index from) const {
+    const Index lag = (to / ports_ - from / ports_ + count()) % count();
+    const Index half = by_eta ? ports_ * ports_ : 0;
+    return tuned.entries(half + from % ports_ * ports_ + to % ports_, lag);
   }
   /// Rows of C B for ports (sector, port) in a list, and of B^T C as its transpose, since C is symmetric.
-  ComplexMatrix times_rows(const Blocks& blocks, const std::vector<std::array<Index, 2>>& places) const;
-  ComplexMatrix between_rows(const Blocks& blocks) const;
+  ComplexMatrix times_rows(const Tuned& tuned, bool by_eta,
+                           const std::vector<std::array<Index, 2>>& places) const;
+  ComplexMatrix between_rows(const Tuned& tuned, bool by_eta) const;
   ComplexVector of_rows(const ComplexMatrix& motions) const;
 
   Given given_;
   Index ports_;
   bool is_modal_;                                    // whether waves m and N - m differ by a transposition
   std::vector<Complex> turns_;                       // e^{-2 pi j q/N}
+  ComplexMatrix transform_;                          // e^{-j a_m i}/N
+  std::vector<bool> is_loaded_;                      // of each wave
   std::vector<std::vector<RingChange::Term>> rows_;  // of all changes
 };
 
