@@ -128,8 +128,9 @@ RingPart::Stiffness RingPart::turned(const Tuned& tuned, double eta) const {
       (ComplexMatrix::Identity(size, size) + d.value * c).partialPivLu().inverse();  // (1 + D C)^-1
   Stiffness all;
   all.value = factor * d.value;
-  all.by_eta = factor * d.by_eta * (ComplexMatrix::Identity(size, size) - c * all.value) -
-               all.value * c_eta * all.value;
+  all.by_eta.noalias() = -all.value * c_eta * all.value;
+  if (!d.by_eta.isZero(0))
+    all.by_eta += factor * d.by_eta * (ComplexMatrix::Identity(size, size) - c * all.value);
   return all;
 }
 
