@@ -87,7 +87,8 @@ void RunFiles::take_over_lines(AtomicFile& file, std::size_t branches) {
 
 void RunFiles::add(const TracedBranch& traced) {
   BranchFile::Rows rows = branches_.rows(count_, traced);
-  const bool many = curve_rows_ + traced.branch.points.size() > most_curve_rows;
+  // Points of whole rings lie close, and what is told of one costs as much as its solution.
+  const bool many = sectors_ != nullptr || curve_rows_ + traced.branch.points.size() > most_curve_rows;
   BranchFile::Rows curve = curves_.rows(count_, many ? traced : as_drawn(traced));
   ordered_json summary = summarize(count_, traced);
   const std::string of_sectors = sectors_ ? sector_rows(count_, traced) : "";

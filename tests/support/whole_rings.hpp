@@ -3,6 +3,8 @@
 // A bladed disk with a ring below it, whole and as one sector: masses 1.2, .35, .25 in a row on ground, the
 // first one joined to that of the next sector; a ring of masses .12 that rubs on the first ones.
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "arcslip/assembly/harmonic_system.hpp"
@@ -52,7 +54,7 @@ using Ports = std::vector<std::vector<std::pair<Index, double>>>;
 
 inline void add_ports(SectorPart& part, const Ports& ports) {
   for (const auto& port : ports) {
-    SectorOutput output{"#" + std::to_string(part.combinations.size()), {}};
+    SectorOutput output{fmt::format("#{}", part.combinations.size()), {}};
     for (const auto& [dof, weight] : port) {
       output.terms.push_back({std::ssize(part.sector.outputs), weight});
       part.sector.outputs.push_back(dof);
