@@ -69,8 +69,7 @@ void HarmonicProblem::add_ring() {
   if (own > 0 && 2 * own < system_.sectors)
     quantities_.push_back({fmt::format("Y_back_{}", own), Measure::wave, Body::base, 0, 0, -own});
   quantities_.push_back({"slipping", Measure::slipping});
-  for (Index i = 0; i < std::ssize(system_.outputs); ++i)
-    add(system_.outputs[at(i)].name, Body::output, i);
+  for (Index i = 0; i < std::ssize(system_.outputs); ++i) add(system_.outputs[at(i)].name, Body::output, i);
 }
 
 void HarmonicProblem::add_other_harmonics() {

@@ -28,7 +28,8 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
     is_loaded_.push_back(wave.is_solved() || std::any_of(wave.modes().begin(), wave.modes().end(),
                                                          [](const auto& mode) { return mode.load != 0.0; }));
   }
-  for (const RingChange& change : given_.changes) rows_.insert(rows_.end(), change.of.begin(), change.of.end());
+  for (const RingChange& change : given_.changes)
+    rows_.insert(rows_.end(), change.of.begin(), change.of.end());
 }
 
 /// The blocks of all lags between sectors, by a transformation over the waves of all entries at once.
@@ -57,7 +58,8 @@ RingPart::Tuned RingPart::tuned(double eta, double load) const {
   Tuned sum;
   sum.entries.noalias() = waves * transform_;
   sum.free.noalias() = (load * std::sqrt(static_cast<double>(n))) * (free.topRows(ports_) * transform_);
-  sum.free_eta.noalias() = (load * std::sqrt(static_cast<double>(n))) * (free.bottomRows(ports_) * transform_);
+  sum.free_eta.noalias() =
+      (load * std::sqrt(static_cast<double>(n))) * (free.bottomRows(ports_) * transform_);
   return sum;
 }
 
@@ -88,7 +90,8 @@ ComplexMatrix RingPart::times_rows(const Tuned& tuned, bool by_eta, const Places
     for (const RingChange::Term& term : rows_[static_cast<std::size_t>(k)]) {
       for (Index i = 0; i < product.rows(); ++i) {
         const auto& [sector, port] = places[static_cast<std::size_t>(i)];
-        product(i, k) += term.weight * entry(tuned, by_eta, place(sector, port), place(term.sector, term.port));
+        product(i, k) +=
+            term.weight * entry(tuned, by_eta, place(sector, port), place(term.sector, term.port));
       }
     }
   }
@@ -102,8 +105,8 @@ ComplexMatrix RingPart::between_rows(const Tuned& tuned, bool by_eta) const {
     for (Index i = 0; i < size; ++i) {
       for (const RingChange::Term& to : rows_[static_cast<std::size_t>(i)]) {
         for (const RingChange::Term& from : rows_[static_cast<std::size_t>(k)])
-          product(i, k) +=
-              to.weight * from.weight * entry(tuned, by_eta, place(to.sector, to.port), place(from.sector, from.port));
+          product(i, k) += to.weight * from.weight *
+                           entry(tuned, by_eta, place(to.sector, to.port), place(from.sector, from.port));
       }
     }
   }

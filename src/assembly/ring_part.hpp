@@ -16,8 +16,9 @@ class RingPart {
  public:
   /// What is the same in all sectors, and what is not.
   struct Given {
-    Index contacts = 1;              ///< of a sector, the first ones of its ports
-    std::vector<ContactModes> waves;  ///< m = 0..N-1, of the ports of one sector, each with its load times sqrt(N)
+    Index contacts = 1;  ///< of a sector, the first ones of its ports
+    std::vector<ContactModes>
+        waves;  ///< m = 0..N-1, of the ports of one sector, each with its load times sqrt(N)
     std::vector<RingChange> changes = {};  ///< of this part
     Loss loss = {};                        ///< of the changes; its modal part does not count
     double circular_frequency = two_pi;    ///< w over eta

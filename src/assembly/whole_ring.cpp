@@ -49,8 +49,8 @@ void refuse(const std::string& why) { throw std::invalid_argument("WholeRing: " 
 
 }  // namespace
 
-std::string to_string(RingLoad::Course course) {
-  using Course = RingLoad::Course;
+std::string to_string(WholeLoad::Course course) {
+  using Course = WholeLoad::Course;
   return course == Course::travelling ? "travelling"
          : course == Course::standing ? "standing"
          : course == Course::point    ? "point"
@@ -60,7 +60,7 @@ std::string to_string(RingLoad::Course course) {
 WholeRing::WholeRing(RingMake make) : make_(std::move(make)) {
   const Index n = make_.sectors;
   if (n < 2) refuse(fmt::format("2 sectors or more, not {}", n));
-  if (make_.load.course == RingLoad::Course::given && std::ssize(make_.load.sectors) != n)
+  if (make_.load.course == WholeLoad::Course::given && std::ssize(make_.load.sectors) != n)
     refuse(fmt::format("an amplitude for each of the {} sectors, not {}", n, make_.load.sectors.size()));
   for (const RingChange& change : make_.changes) {
     const Index size = std::ssize(change.of);
@@ -95,7 +95,7 @@ std::vector<Complex> WholeRing::amplitudes(Index wave_number) const {
   const Index n = make_.sectors;
   std::vector<Complex> all(static_cast<std::size_t>(n), 0.0);
   const auto wave = [&](Index m) -> Complex& { return all[static_cast<std::size_t>((m % n + n) % n)]; };
-  using Course = RingLoad::Course;
+  using Course = WholeLoad::Course;
   switch (make_.load.course) {
     case Course::travelling: wave(wave_number) = 1; break;
     case Course::standing:
@@ -140,54 +140,52 @@ std::vector<ContactModes> waves_of(const Structures& sector, SystemParameters on
 
 }  // namespace
 
+std::shared_ptr<const RingPart> WholeRing::part(const SystemParameters& system, bool is_base) const {
+  SystemParameters one = one_sector(system);
+  one.force = 1;
+  one.wanted.insert(one.wanted.end(), make_.wanted.begin(), make_.wanted.end());
+  const bool is_travelling = make_.load.course == WholeLoad::Course::travelling;
+  const PairLosses losses = this->losses(system);
+  RingPart::Given given{std::ssize(system.contacts) / make_.sectors,
+                        waves_of(sector(), one, is_base, amplitudes(system.wave_number), is_travelling),
+                        {},
+                        is_base ? losses.base(system) : losses.damper(system),
+                        circular_frequency()};
+  const Index ports = is_base ? make_.base_ports : make_.damper_ports;
+  const Index first = given.waves.front().contacts() - ports;
+  for (const RingChange& change : make_.changes) {
+    if (change.on_base != is_base) continue;
+    given.changes.push_back(change);
+    for (auto& row : given.changes.back().of) {
+      for (RingChange::Term& term : row) term.port += first;
+    }
+  }
+  return std::make_shared<const RingPart>(std::move(given));
+}
+
 ContactSystem WholeRing::wave(const SystemParameters& system) const {
   if (system.tells_lag)
     throw std::invalid_argument("the whole ring tells no lag, as its load acts on motions that differ");
-  SystemParameters one = one_sector(system);
-  const double force = one.force;
-  one.force = 1;
-  one.wanted.insert(one.wanted.end(), make_.wanted.begin(), make_.wanted.end());
-  const std::vector<Complex> amplitudes = this->amplitudes(system.wave_number);
-  const bool is_travelling = make_.load.course == RingLoad::Course::travelling;
-  const PairLosses losses = this->losses(system);
-  const Index c = std::ssize(system.contacts) / make_.sectors;
-  const auto part = [&](bool is_base) {
-    RingPart::Given given{c, waves_of(sector(), one, is_base, amplitudes, is_travelling),
-                          {},
-                          is_base ? losses.base(system) : losses.damper(system),
-                          circular_frequency()};
-    for (const RingChange& change : make_.changes) {
-      if (change.on_base != is_base) continue;
-      const Index first =
-          given.waves.front().contacts() - (is_base ? make_.base_ports : make_.damper_ports);
-      given.changes.push_back(change);
-      for (auto& row : given.changes.back().of) {
-        for (RingChange::Term& term : row) term.port += first;
-      }
-    }
-    return std::make_shared<const RingPart>(std::move(given));
-  };
-  const auto base = part(true);
-  const auto damper = part(false);
+  const auto base = part(system, true);
+  const auto damper = part(system, false);
   const auto solved = [](const std::shared_ptr<const RingPart>& of, double load) {
     return of->modes().solved_by([of](double eta, double factor) { return of->at(eta, factor); }, load,
                                  [of](double eta, double factor, const ContactVector& forces) {
                                    return of->work(eta, factor, forces);
                                  });
   };
-  ContactSystem whole{solved(base, force), solved(damper, 0), system.contacts};
-  SystemParameters told = one_sector(system);
-  Index seen[2] = {c, c};  // of the damper, of the base
-  for (const ContactOutput& output : sector().wave(told).outputs) {
+  ContactSystem whole{solved(base, system.force), solved(damper, 0), system.contacts};
+  const Index count = std::ssize(system.contacts);
+  Index port_of_base = count / make_.sectors;
+  Index port_of_damper = port_of_base;
+  for (const ContactOutput& output : sector().wave(one_sector(system)).outputs) {
     if (output.name.find('#') != std::string::npos) continue;
-    const Index port = seen[output.on_base ? 1 : 0]++;
+    const Index port = output.on_base ? port_of_base++ : port_of_damper++;
     const auto of = output.on_base ? base : damper;
-    const Index size = std::ssize(system.contacts) + make_.sectors;
-    const ContactModes none(size, {}, {});
-    whole.outputs.push_back({output.name,
-                             none.solved_by([of, port](double eta, double factor) { return of->at(eta, factor, port); },
-                                            output.on_base ? force : 0),
-                             output.on_base});
+    const auto respond = [of, port](double eta, double factor) { return of->at(eta, factor, port); };
+    const ContactModes none(count + make_.sectors, {}, {});
+    whole.outputs.push_back(
+        {output.name, none.solved_by(respond, output.on_base ? system.force : 0), output.on_base});
   }
   return whole;
 }
@@ -209,6 +207,8 @@ std::vector<PartModes> WholeRing::modes(const SystemParameters& system) const {
 }
 
 std::vector<double> WholeRing::landmarks(const SystemParameters& system) const {
+  // Where nothing deforms but stuck contacts, as of free rods that move as a whole, the response is singular.
+  constexpr double undamped = 1e-10;
   SystemParameters one = one_sector(system);
   one.wanted.clear();
   std::vector<double> all;
@@ -216,8 +216,9 @@ std::vector<double> WholeRing::landmarks(const SystemParameters& system) const {
     one.wave_number = m;
     const ContactSystem wave = sector().wave(one);
     const Vector springs = contact_springs(wave.contacts);
-    for (const JoinedMode& mode : joined_modes({&wave.base, &wave.damper}, springs))
-      all.push_back(mode.frequency);
+    for (const JoinedMode& mode : joined_modes({&wave.base, &wave.damper}, springs)) {
+      if (std::abs(mode.damping) > undamped) all.push_back(mode.frequency);
+    }
     for (const JoinedMode& mode : joined_modes({&wave.damper}, springs)) all.push_back(mode.frequency);
     for (const ContactModes* structure : {&wave.base, &wave.damper}) {
       for (const ContactMode& mode : structure->modes()) all.push_back(mode.frequency);

@@ -41,9 +41,10 @@ constexpr auto check_changed_dofs = [](const RingChangeSettings& settings, const
   const std::size_t count = settings.dofs.size();
   if (!is_mistuning(section)) {
     if (count != 2)
-      section.fail("dofs", fmt::format("expected two dofs, one of the sector behind which the link is and one "
-                                       "of the next, got {}",
-                                       count));
+      section.fail("dofs",
+                   fmt::format("expected two dofs, one of the sector behind which the link is and one "
+                               "of the next, got {}",
+                               count));
     return;
   }
   if (count < 1 || count > 2)
@@ -71,7 +72,9 @@ WeightRow motion_row(std::vector<Index> dofs, std::vector<double> weights) {
   return {"", std::move(dofs), std::move(weights)};
 }
 
-Index dof_of(const RingChangeSettings& settings, std::size_t i) { return static_cast<Index>(settings.dofs[i]) - 1; }
+Index dof_of(const RingChangeSettings& settings, std::size_t i) {
+  return static_cast<Index>(settings.dofs[i]) - 1;
+}
 
 /// Motions of a sector that a table is about.
 std::vector<WeightRow> motions_of(const RingChangeSettings& settings, bool mistuned) {
@@ -95,7 +98,8 @@ void add_mistuning(const RingChangeSettings& settings, Index port, std::vector<R
 void add_cut(const RingChangeSettings& settings, Index port, std::vector<RingChange>& changes) {
   for (const Index i : settings.after) {
     const Index next = (i + 1) % settings.sectors;
-    changes.push_back({settings.on_base, {{{i, port, -1}, {next, port + 1, 1}}},
+    changes.push_back({settings.on_base,
+                       {{{i, port, -1}, {next, port + 1, 1}}},
                        Matrix::Constant(1, 1, -settings.stiffness)});
   }
 }
@@ -115,8 +119,8 @@ RingChange element_change(const SystemParameters& system, bool on_base, Index no
 }
 
 /// Of rods and beams, whose ports are the dofs of their nodes.
-void read_element_changes(const TomlDocument& document, const SystemParameters& system, const RingChangeSettings& start,
-                          RingMake& ring) {
+void read_element_changes(const TomlDocument& document, const SystemParameters& system,
+                          const RingChangeSettings& start, RingMake& ring) {
   const auto port = [](const RingChangeSettings& settings) { return dof_of(settings, 0); };
   for (const TomlSection& section : changing_tables(document, "mistuning")) {
     const RingChangeSettings settings = read_change(section, start);
@@ -133,9 +137,8 @@ void read_element_changes(const TomlDocument& document, const SystemParameters& 
   for (const Index i : listed_sectors(section, "split", ring.sectors))
     ring.changes.push_back(element_change(system, false, i, -1, true));
   for (const bool on_base : {true, false}) {
-    const bool is_changed =
-        std::any_of(ring.changes.begin(), ring.changes.end(),
-                    [=](const RingChange& change) { return change.on_base == on_base; });
+    const bool is_changed = std::any_of(ring.changes.begin(), ring.changes.end(),
+                                        [=](const RingChange& change) { return change.on_base == on_base; });
     if (!is_changed) continue;
     (on_base ? ring.base_ports : ring.damper_ports) = start.size;
     for (Index k = 0; k < start.size; ++k)
@@ -150,17 +153,21 @@ const KeyTable<RingChangeSettings>& mistuning_keys() {
     if (settings.sectors > 0) settings.factors = factors_of_sectors(section, "factors", settings.sectors, 1);
   };
   static const KeyTable<RingChangeSettings> keys{
-      {ChangeKey::choice("part", &RingChangeSettings::on_base, changed_parts(), "what is mistuned", "", required),
-       ChangeKey("dofs", &RingChangeSettings::dofs, changed_dof_rule(),
-         "a dof of the sector, or two with a spring between them; of rods and beams one of a node",
-         otherwise("required of sectors; of rods and beams the stiffness of the elements behind the nodes"),
-         then(check_changed_dofs), unresolved),
-       ChangeKey("stiffness", &RingChangeSettings::stiffness, positive(), "of the spring between the dofs, or from the one to ground",
-         otherwise("none"), unresolved),
-       ChangeKey("mass", &RingChangeSettings::mass, positive(), "on the one dof", otherwise("none"), unresolved),
-       ChangeKey::special("factors", "list, CSV file or table",
-                  "on these in each sector: numbers, a file of them, or `{ scatter, seed, correlation, law }`",
-                  read_factors, required)}};
+      {ChangeKey::choice("part", &RingChangeSettings::on_base, changed_parts(), "what is mistuned", "",
+                         required),
+       ChangeKey(
+           "dofs", &RingChangeSettings::dofs, changed_dof_rule(),
+           "a dof of the sector, or two with a spring between them; of rods and beams one of a node",
+           otherwise("required of sectors; of rods and beams the stiffness of the elements behind the nodes"),
+           then(check_changed_dofs), unresolved),
+       ChangeKey("stiffness", &RingChangeSettings::stiffness, positive(),
+                 "of the spring between the dofs, or from the one to ground", otherwise("none"), unresolved),
+       ChangeKey("mass", &RingChangeSettings::mass, positive(), "on the one dof", otherwise("none"),
+                 unresolved),
+       ChangeKey::special(
+           "factors", "list, CSV file or table",
+           "on these in each sector: numbers, a file of them, or `{ scatter, seed, correlation, law }`",
+           read_factors, required)}};
   return keys;
 }
 
@@ -171,10 +178,11 @@ const KeyTable<RingChangeSettings>& cut_keys() {
   };
   static const KeyTable<RingChangeSettings> keys{
       {ChangeKey::choice("part", &RingChangeSettings::on_base, changed_parts(), "what is cut", "", required),
-       ChangeKey::special("after", "list of sectors", "behind which the link to the next one is missing", read_after,
-                  required),
-       ChangeKey("dofs", &RingChangeSettings::dofs, changed_dof_rule(), "the dof of the sector and that of the next one between which it is",
-         required, then(check_changed_dofs)),
+       ChangeKey::special("after", "list of sectors", "behind which the link to the next one is missing",
+                          read_after, required),
+       ChangeKey("dofs", &RingChangeSettings::dofs, changed_dof_rule(),
+                 "the dof of the sector and that of the next one between which it is", required,
+                 then(check_changed_dofs)),
        ChangeKey("stiffness", &RingChangeSettings::stiffness, positive(), "of the link", required)}};
   return keys;
 }

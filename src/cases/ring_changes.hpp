@@ -11,15 +11,15 @@ namespace arcslip {
 
 /// One of these tables.
 struct RingChangeSettings {
-  bool on_base = true;                ///< or on the damper
-  std::vector<double> dofs = {};      ///< of a sector, from 1; without them elements of rods and beams change
-  double stiffness = 0;               ///< of a spring between two of them, or from one to ground
-  double mass = 0;                    ///< of one
-  std::vector<double> factors = {};   ///< of a mistuning, on these in each sector
-  std::vector<Index> after = {};      ///< of a cut: behind which sectors, from 0
-  Index sectors = 0;                  ///< N, known beforehand
-  Index size = 0;                     ///< dofs that there are, the same; 0: not known
-  bool has_elements = false;          ///< whether they are rods and beams
+  bool on_base = true;               ///< or on the damper
+  std::vector<double> dofs = {};     ///< of a sector, from 1; without them elements of rods and beams change
+  double stiffness = 0;              ///< of a spring between two of them, or from one to ground
+  double mass = 0;                   ///< of one
+  std::vector<double> factors = {};  ///< of a mistuning, on these in each sector
+  std::vector<Index> after = {};     ///< of a cut: behind which sectors, from 0
+  Index sectors = 0;                 ///< N, known beforehand
+  Index size = 0;                    ///< dofs that there are, the same; 0: not known
+  bool has_elements = false;         ///< whether they are rods and beams
 };
 
 /// Their keys.

@@ -55,8 +55,8 @@ std::vector<double> scattered_factors(const TomlSection& section, Index sectors)
     one = settings.law == ScatterSettings::Law::normal ? 1 + settings.scatter * one
                                                        : std::exp(std::sqrt(variance) * one - variance / 2);
     if (!(one > 0))
-      section.fail("scatter", fmt::format("expected factors above 0, got one of {:g}; lognormal ones are",
-                                          one));
+      section.fail("scatter",
+                   fmt::format("expected factors above 0, got one of {:g}; lognormal ones are", one));
   }
   return factors;
 }
@@ -92,7 +92,8 @@ const KeyTable<ScatterSettings>& scatter_keys() {
   using S = ScatterSettings;
   using K = Key<S>;
   static const KeyTable<S> keys{
-      {K("scatter", &S::scatter, inside(0, 10), "standard deviation of the factors, whose mean is 1", required),
+      {K("scatter", &S::scatter, inside(0, 10), "standard deviation of the factors, whose mean is 1",
+         required),
        K("seed", &S::seed, at_least(0, 9e15), "of the numbers, which are the same everywhere"),
        K("correlation", &S::correlation, at_least(0),
          "L: sectors at a distance d are correlated as exp(-(d/L)^2/2); 0: not at all", unit("sectors")),
@@ -125,9 +126,9 @@ std::vector<double> factors_of_sectors(const TomlSection& section, const std::st
   }
   const Index size = std::ssize(numbers);
   if (size != sectors && size != sectors * each)
-    section.fail(key, fmt::format("expected {} numbers, one for each sector{}, got {}", sectors,
-                                  each > 1 ? fmt::format(", or {}, one for each contact", sectors * each) : "",
-                                  size));
+    section.fail(
+        key, fmt::format("expected {} numbers, one for each sector{}, got {}", sectors,
+                         each > 1 ? fmt::format(", or {}, one for each contact", sectors * each) : "", size));
   if (size == sectors * each) return numbers;
   std::vector<double> all;
   for (const double one : numbers) all.insert(all.end(), static_cast<std::size_t>(each), one);
@@ -135,10 +136,9 @@ std::vector<double> factors_of_sectors(const TomlSection& section, const std::st
 }
 
 std::vector<Index> listed_sectors(const TomlSection& section, const std::string& key, Index sectors) {
-  const NumberRule rule{[=](double one) {
-                          return one >= 1 && one <= static_cast<double>(sectors) && one == std::floor(one);
-                        },
-                        fmt::format(" that is a sector from 1 to {}", sectors)};
+  const NumberRule rule{
+      [=](double one) { return one >= 1 && one <= static_cast<double>(sectors) && one == std::floor(one); },
+      fmt::format(" that is a sector from 1 to {}", sectors)};
   std::vector<Index> all;
   for (const double one : section.numbers(key, rule)) {
     const Index sector = static_cast<Index>(one) - 1;

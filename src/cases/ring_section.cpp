@@ -22,7 +22,7 @@ struct WholeSettings {
   Index sectors = 0;
   Index each = 1;  ///< contacts of a sector
   bool has_elements = false;
-  RingLoad load = {};
+  WholeLoad load = {};
   std::vector<double> preload = {};  ///< factors
   std::vector<double> stiffness = {};
   std::vector<double> friction = {};
@@ -55,7 +55,7 @@ std::vector<std::vector<double>> listed_amplitudes(const TomlSection& section, c
 }
 
 void read_course(WholeSettings& settings, const TomlSection& section) {
-  using Course = RingLoad::Course;
+  using Course = WholeLoad::Course;
   const toml::node& node = section.require("load", courses);
   for (const Course course : {Course::travelling, Course::standing, Course::point}) {
     if (node.value<std::string>() != to_string(course)) continue;
@@ -79,7 +79,8 @@ void read_course(WholeSettings& settings, const TomlSection& section) {
     section.fail("load", "expected a force that is not 0");
 }
 
-WholeKey factors_key(const char* name, std::vector<double> WholeSettings::*member, const std::string& meaning) {
+WholeKey factors_key(const char* name, std::vector<double> WholeSettings::*member,
+                     const std::string& meaning) {
   const auto read = [=](WholeSettings& settings, const TomlSection& section) {
     settings.*member = factors_of_sectors(section, name, settings.sectors, settings.each);
   };
@@ -90,33 +91,41 @@ const KeyTable<WholeSettings>& whole_keys() {
   const auto read_missing = [](WholeSettings& settings, const TomlSection& section) {
     settings.missing = listed_sectors(section, "missing", settings.sectors);
   };
-  const auto has_elements = [](const WholeSettings& settings, const TomlSection&) { return settings.has_elements; };
+  const auto has_elements = [](const WholeSettings& settings, const TomlSection&) {
+    return settings.has_elements;
+  };
   static const KeyTable<WholeSettings> keys{
-      {WholeKey::special("load", "text, list or CSV file",
-                  "round the ring: `travelling` with the wave, `standing` as cos(n theta), `point` on sector 1, "
-                  "or an amplitude, perhaps with a phase in radians, for each sector",
-                  read_course, otherwise("\"travelling\""), resolved([](const WholeSettings& settings) {
-                    return ordered_json(to_string(settings.load.course));
-                  })),
-       factors_key("preload", &WholeSettings::preload,
-               "factors on the preload of each sector's contacts, or of each contact: numbers, a file of them, "
-               "or `{ scatter, seed, correlation, law }`"),
-       factors_key("friction", &WholeSettings::friction, "the same on their friction coefficient, which multiplies it"),
-       factors_key("stiffness", &WholeSettings::stiffness, "the same on their stiffness, at the same limit of the force"),
+      {WholeKey::special(
+           "load", "text, list or CSV file",
+           "round the ring: `travelling` with the wave, `standing` as cos(n theta), `point` on sector 1, "
+           "or an amplitude, perhaps with a phase in radians, for each sector",
+           read_course, otherwise("\"travelling\""), resolved([](const WholeSettings& settings) {
+             return ordered_json(to_string(settings.load.course));
+           })),
+       factors_key(
+           "preload", &WholeSettings::preload,
+           "factors on the preload of each sector's contacts, or of each contact: numbers, a file of them, "
+           "or `{ scatter, seed, correlation, law }`"),
+       factors_key("friction", &WholeSettings::friction,
+                   "the same on their friction coefficient, which multiplies it"),
+       factors_key("stiffness", &WholeSettings::stiffness,
+                   "the same on their stiffness, at the same limit of the force"),
        WholeKey::special("missing", "list of sectors", "without contacts", read_missing, otherwise("none")),
        WholeKey::special("split", "list of nodes",
-                  "of rods and beams: behind which the damper's element to the next one is missing", {},
-                  otherwise("none"),
-                  only("only for rods and beams; links of sectors are cut by [[ring.cut]]", has_elements,
-                       "only for rods and beams")),
-       WholeKey::special("mistuning", "tables", "of base or damper, [[ring.mistuning]]", {}, otherwise("none")),
-       WholeKey::special("cut", "tables", "links of sectors that are missing, [[ring.cut]]", {}, otherwise("none"))}};
+                         "of rods and beams: behind which the damper's element to the next one is missing",
+                         {}, otherwise("none"),
+                         only("only for rods and beams; links of sectors are cut by [[ring.cut]]",
+                              has_elements, "only for rods and beams")),
+       WholeKey::special("mistuning", "tables", "of base or damper: `[[ring.mistuning]]`", {},
+                         otherwise("none")),
+       WholeKey::special("cut", "tables", "links of sectors that are missing: `[[ring.cut]]`", {},
+                         otherwise("none"))}};
   return keys;
 }
 
 /// Refuses what is not calculated of whole rings.
 void check_ring_use(const TomlDocument& document, const TomlSection& section, const SystemUse& use,
-               const ProblemRequest& problem) {
+                    const ProblemRequest& problem) {
   const SystemParameters& system = problem.system;
   const auto fail = [&](const std::string& why) { document.fail(section.table(), "ring", why); };
   if (use.is_free) fail("only of forced responses: limit cycles and nonlinear modes are those of one sector");
@@ -125,16 +134,18 @@ void check_ring_use(const TomlDocument& document, const TomlSection& section, co
     fail("expected a structure of sectors or nodes, as rods, beams, or model = \"sector\" with `sectors`");
   if (system.elements > most_sectors)
     fail(fmt::format("expected at most {} sectors, got {}", most_sectors, system.elements));
-  if (system.periods() > 1) fail("only of responses that repeat themselves with the load, not over `periods`");
+  if (system.periods() > 1)
+    fail("only of responses that repeat themselves with the load, not over `periods`");
 }
 
 /// Refuses loads that have a phase within a sector, but for the travelling one that it belongs to.
-void check_ring_load(const TomlSection& section, const RingLoad& load, const SystemParameters& system) {
+void check_ring_load(const TomlSection& section, const WholeLoad& load, const SystemParameters& system) {
   const auto* pair = dynamic_cast<const SectorPair*>(system.structures.get());
-  if (load.course == RingLoad::Course::travelling || pair == nullptr) return;
+  if (load.course == WholeLoad::Course::travelling || pair == nullptr) return;
   if (!pair->base().sector.load.imag().isZero(0))
-    section.fail("load", "expected \"travelling\", as the sector's load has an imaginary part, a phase that "
-                         "belongs to a wave");
+    section.fail("load",
+                 "expected \"travelling\", as the sector's load has an imaginary part, a phase that "
+                 "belongs to a wave");
 }
 
 std::vector<double> product_of(const std::vector<double>& a, const std::vector<double>& b) {
@@ -149,6 +160,7 @@ std::vector<double> product_of(const std::vector<double>& a, const std::vector<d
 std::vector<KeyWords> ring_words() {
   std::vector<KeyWords> words = whole_keys().words();
   for (KeyWords& key : words) {
+    if (key.name == "preload") key.inner = scatter_keys().words();
     if (key.name == "mistuning") key.inner = mistuning_keys().words();
     if (key.name == "cut") key.inner = cut_keys().words();
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 // What `arcslip run` writes: branches.csv, the same as it is drawn in curves.csv, summary.json and, where it
-// is asked for, verify.csv and offsets.csv, of whole rings sectors.csv. Branches go to the disk as they come; the files appear together
-// at the end.
+// is asked for, verify.csv and offsets.csv, of whole rings sectors.csv. Branches go to the disk as they come;
+// the files appear together at the end.
 
 #include <mutex>
 #include <optional>

@@ -30,9 +30,10 @@ void add_rows(const HarmonicResponse& problem, const continuation::BranchPoint& 
       const Complex u = motions.damper(j, i);
       const double threshold = problem.slip_threshold(i * each + j, point.parameters);
       fmt::format_to(std::back_inserter(text),
-                     "{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", begin, i + 1, j + 1,
-                     point.regime[i * each + j] != 0 ? "slip" : "stick", std::abs(r), std::abs(r) / threshold,
-                     std::abs(y), std::abs(u), problems::lag(y), problems::lag(u), problems::lag(r));
+                     "{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", begin, i + 1,
+                     j + 1, point.regime[i * each + j] != 0 ? "slip" : "stick", std::abs(r),
+                     std::abs(r) / threshold, std::abs(y), std::abs(u), problems::lag(y), problems::lag(u),
+                     problems::lag(r));
       for (Index k = 0; k < motions.outputs.rows(); ++k)
         fmt::format_to(std::back_inserter(text), ",{:.17g}", std::abs(motions.outputs(k, i)));
       text += "\n";

@@ -14,7 +14,7 @@ using continuation::Guess;
 using problems::HarmonicResponse;
 using problems::sector_motions;
 using problems::SectorMotions;
-using Course = RingLoad::Course;
+using Course = WholeLoad::Course;
 
 namespace {
 
@@ -103,6 +103,10 @@ TEST_CASE("Elements beside the contacts act in every sector", "[whole ring]") {
   PlacedElement spring{"spring", find_element_kind("cubic"), PlacedElement::Place::damper, 0, {.1}};
   rods.others = {spring};
   check_alike(rods, 4.1);
+  SystemParameters stops = blisk(1, 6, 1);
+  stops.harmonics = {1, 0, 2, 3};
+  stops.others = {{"stop", find_element_kind("unilateral"), PlacedElement::Place::base, 0, {1e5, 2e-7}}};
+  check_alike(stops, 553);
 }
 
 namespace {
@@ -130,18 +134,19 @@ struct Highest {
 
 /// z_i of numpy.random.default_rng(1).standard_normal(24).
 const std::vector<double> deviations{
-    0.34558419206478602, 0.82161814350115836, 0.33043707618338714, -1.3031572316043609,
-    0.90535586667311774, 0.44637457236401129, -0.53695323536028516, 0.58111810419635312,
-    0.36457239618607573, 0.29413249665552599, 0.028422241315796789, 0.54671298661244694,
-    -0.73645408700166692, -0.16290994799305278, -0.48211931267997826, 0.59884621263462756,
-    0.03972210748165899, -0.29245675096508861, -0.78190846235684208, -0.25719224061887069,
-    0.0081421805183435076, -0.27560290529937043, 1.2940638143982073, 1.0067243153057943};
+    0.34558419206478602,   0.82161814350115836,  0.33043707618338714,  -1.3031572316043609,
+    0.90535586667311774,   0.44637457236401129,  -0.53695323536028516, 0.58111810419635312,
+    0.36457239618607573,   0.29413249665552599,  0.028422241315796789, 0.54671298661244694,
+    -0.73645408700166692,  -0.16290994799305278, -0.48211931267997826, 0.59884621263462756,
+    0.03972210748165899,   -0.29245675096508861, -0.78190846235684208, -0.25719224061887069,
+    0.0081421805183435076, -0.27560290529937043, 1.2940638143982073,   1.0067243153057943};
 
 /// The spring between the first two masses of each blade, k (1 + part z_i).
 std::vector<RingChange> mistuned(double part, Index sectors = 24) {
   std::vector<RingChange> changes;
   for (Index i = 0; i < sectors; ++i)
-    changes.push_back({true, {{{i, 0, 1}}}, Matrix::Constant(1, 1, 1e6 * part * deviations[static_cast<std::size_t>(i)])});
+    changes.push_back(
+        {true, {{{i, 0, 1}}}, Matrix::Constant(1, 1, 1e6 * part * deviations[static_cast<std::size_t>(i)])});
   return changes;
 }
 const Ports blade_spring{{{0, 1}, {1, -1}}};
@@ -195,7 +200,8 @@ TEST_CASE("Of a bladed disk that is mistuned, or whose ring is split, the highes
 TEST_CASE("Where all contacts stick a standing wave is the mean of two travelling ones", "[whole ring]") {
   const SystemParameters one = blisk(50);
   RingMake back = ring_of(one, Course::given);
-  for (Index i = 0; i < 24; ++i) back.load.sectors.push_back(std::polar(1.0, two_pi * 2 * static_cast<double>(i) / 24));
+  for (Index i = 0; i < 24; ++i)
+    back.load.sectors.push_back(std::polar(1.0, two_pi * 2 * static_cast<double>(i) / 24));
   const auto motions = [&](const RingMake& make) {
     const HarmonicResponse problem = response_of(whole_of(one, make));
     return sector_motions(problem, problem.guess(553.2, 50)).outputs;

@@ -11,7 +11,7 @@ using continuation::Guess;
 using problems::HarmonicResponse;
 using problems::sector_motions;
 using problems::SectorMotions;
-using Course = RingLoad::Course;
+using Course = WholeLoad::Course;
 
 namespace {
 
@@ -52,7 +52,7 @@ Assembled ring(Index sectors, Index missing) {
 
 /// The same as changes to equal sectors, viscously damped.
 SystemParameters changed(Index sectors, double part, double preload, const RingContacts& contacts,
-                         const RingLoad& load, double zeta, const std::vector<int>& harmonics = {1},
+                         const WholeLoad& load, double zeta, const std::vector<int>& harmonics = {1},
                          double mass_damping = 0) {
   SystemParameters one = blisk(preload, sectors, 2, DampingKind::viscous, {{{0, 1}, {1, -1}}, {{2, 1}}},
                                {{{0, 1}}}, mass_damping);
@@ -67,8 +67,7 @@ SystemParameters changed(Index sectors, double part, double preload, const RingC
     make.changes.push_back(
         {true, {{{i, 1, 1}}}, Matrix::Zero(1, 1), Matrix::Constant(1, 1, .25 * part * drawn(i, 2))});
   }
-  make.changes.push_back(
-      {false, {{{sectors - 1, 0, -1}, {0, 0, 1}}}, Matrix::Constant(1, 1, -5e6)});
+  make.changes.push_back({false, {{{sectors - 1, 0, -1}, {0, 0, 1}}}, Matrix::Constant(1, 1, -5e6)});
   return whole_of(one, make, contacts);
 }
 
@@ -93,7 +92,7 @@ TEST_CASE("Mistuned stuck sectors with a split ring are what their assembled mat
       contacts.stiffness.push_back(1 + .3 * drawn(i, 3));
       stuck.push_back(5e6 * contacts.stiffness.back());
     }
-    RingLoad load{Course::given, 2, {}};
+    WholeLoad load{Course::given, 2, {}};
     for (Index i = 0; i < n; ++i) load.sectors.emplace_back(1 + drawn(i, 4), drawn(i, 5));
     const HarmonicResponse problem = response_of(changed(n, .05, 1e9, contacts, load, 1e-3));
     const Assembled base = disk(n, .05);
@@ -123,7 +122,7 @@ TEST_CASE("Mistuned stuck sectors with a split ring are what their assembled mat
 // Whitehead (1966): mistuning raises the highest amplitude of one family of modes at most by this factor.
 TEST_CASE("Mistuning raises amplitudes by less than Whitehead's factor", "[whole ring]") {
   constexpr Index n = 12;
-  const RingLoad load{Course::travelling, 2, {}};
+  const WholeLoad load{Course::travelling, 2, {}};
   const auto highest = [&](double part) {
     SystemParameters system = changed(n, part, 1e9, {}, load, 1e-3);
     const HarmonicResponse problem = response_of(system);
@@ -145,7 +144,8 @@ namespace {
 
 /// The first harmonic of all masses in the settled state, by Runge-Kutta steps between which sliders move.
 ComplexVector marched(const Assembled& base, const Assembled& damper, const std::vector<double>& stiffness,
-                      const std::vector<double>& limits, const RingLoad& load, double eta, double zeta, double mass_damping) {
+                      const std::vector<double>& limits, const WholeLoad& load, double eta, double zeta,
+                      double mass_damping) {
   const Index n = damper.mass.rows();
   const double w = two_pi * eta;
   const Matrix k = joined_stiffness(base, damper, std::vector<double>(stiffness.size(), 0.0));
@@ -178,7 +178,8 @@ ComplexVector marched(const Assembled& base, const Assembled& damper, const std:
   ComplexVector harmonic = ComplexVector::Zero(4 * n);
   for (int step = 0; step < steps * periods; ++step) {
     const double t = dt * step;
-    if (step >= steps * (periods - 1)) harmonic += (2.0 / steps) * std::polar(1.0, -w * t) * d.cast<Complex>();
+    if (step >= steps * (periods - 1))
+      harmonic += (2.0 / steps) * std::polar(1.0, -w * t) * d.cast<Complex>();
     const Vector a1 = acceleration(d, v, t);
     const Vector a2 = acceleration(d + dt / 2 * v, v + dt / 2 * a1, t + dt / 2);
     const Vector a3 = acceleration(d + dt / 2 * v + dt * dt / 4 * a1, v + dt / 2 * a2, t + dt / 2);
@@ -203,7 +204,7 @@ TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][num
     RingContacts contacts;
     std::vector<double> stiffness;
     std::vector<double> limits;
-    RingLoad load{Course::given, 2, {}};
+    WholeLoad load{Course::given, 2, {}};
     for (Index i = 0; i < n; ++i) {
       contacts.stiffness.push_back(1 + .3 * drawn(i, 3 + draw));
       contacts.limit.push_back(1 + .5 * drawn(i, 6 + draw));
@@ -216,7 +217,8 @@ TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][num
         response_of(changed(n, .05, preload, contacts, load, zeta, orders, mass_damping));
     const Guess at = problem.guess(eta, preload);
     const SectorMotions found = sector_motions(problem, at);
-    const ComplexVector d = marched(disk(n, .05), ring(n, n - 1), stiffness, limits, load, eta, zeta, mass_damping);
+    const ComplexVector d =
+        marched(disk(n, .05), ring(n, n - 1), stiffness, limits, load, eta, zeta, mass_damping);
     CAPTURE(draw, problem.describe(at.regime));
     CHECK(problem.describe(at.regime) != "stick");
     double worst = 0;

@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void measure(Index sectors, RingLoad::Course course, bool is_split) {
+void measure(Index sectors, WholeLoad::Course course, bool is_split) {
   const Index waves = std::max<Index>(1, (sectors + 6) / 12);  // of nearly the same frequency
   const SystemParameters one = blisk(1, sectors, waves, DampingKind::modal, {}, {{{0, 1}}});
   RingMake ring = ring_of(one, course);
@@ -34,7 +34,8 @@ void measure(Index sectors, RingLoad::Course course, bool is_split) {
   int evaluations = 0;
   const Clock::time_point begun = Clock::now();
   while (seconds_since(begun) < .5) {
-    if (!problem.evaluate(at.unknowns, at.parameters, at.regime, {&residual, &jacobian, &by_parameters})) return;
+    if (!problem.evaluate(at.unknowns, at.parameters, at.regime, {&residual, &jacobian, &by_parameters}))
+      return;
     ++evaluations;
   }
   const double each = seconds_since(begun) / evaluations;
@@ -58,7 +59,7 @@ void measure(Index sectors, RingLoad::Course course, bool is_split) {
 int main() {
   fmt::print("   N       load        evaluations/s  ms each   points   ms/point  seconds\n");
   for (const Index sectors : {6, 12, 24, 50, 100}) {
-    for (const auto course : {RingLoad::Course::travelling, RingLoad::Course::standing}) {
+    for (const auto course : {WholeLoad::Course::travelling, WholeLoad::Course::standing}) {
       measure(sectors, course, false);
       measure(sectors, course, true);
     }

@@ -10,6 +10,7 @@
 #include "cases/ring_numbers.hpp"
 #include "catch.hpp"
 #include "mistakes.hpp"
+#include "program.hpp"
 #include "results/sector_table.hpp"
 #include "temporary_folder.hpp"
 #include "whole_rings.hpp"
@@ -24,7 +25,8 @@ namespace {
 std::string ring_case(const std::string& model, const std::string& ring) {
   return "[system]\nmodel = \"" + model +
          "\"\nwave_number = 2\nelements = 8\nmass_ratio = 5.0\nfrequency_ratio = 4.0\n"
-         "interface_stiffness = 500.0\nforce = 1.0\npreload = 1.0\ndamping = { base = 1e-2, damper = 2e-2 }\n" +
+         "interface_stiffness = 500.0\nforce = 1.0\npreload = 1.0\ndamping = { base = 1e-2, damper = 2e-2 "
+         "}\n" +
          ring + "[branch]\nparameter = \"eta\"\nfrom = 3.0\nto = 5.0\n";
 }
 
@@ -44,7 +46,8 @@ ComplexMatrix assembled(const ChainElement& element, const Vector& factors, cons
       for (Index k = 0; k < 2 * dofs; ++k) {
         const Index row = (e * dofs + i) % (n * dofs);
         const Index column = (e * dofs + k) % (n * dofs);
-        z(row, column) += factors(e) * Complex(1, loss.at(eta)) * static_cast<double>(element.stiffness(i, k));
+        z(row, column) +=
+            factors(e) * Complex(1, loss.at(eta)) * static_cast<double>(element.stiffness(i, k));
         if (factors(e) != 0) z(row, column) -= w * w * static_cast<double>(element.mass(i, k));
       }
     }
@@ -57,9 +60,10 @@ ComplexMatrix assembled(const ChainElement& element, const Vector& factors, cons
 TEST_CASE("Split and mistuned rods and beams are what their assembled elements are", "[ring section]") {
   const std::string model = GENERATE("rods", "beams");
   const SystemParameters system = system_of(
-      ring_case(model, "[ring]\nsplit = [8, 3]\nload = \"travelling\"\n[[ring.mistuning]]\npart = \"base\"\n"
-                       "factors = [1, 1.1, 0.9, 1.02, 1, 0.97, 1.05, 1]\n[[ring.mistuning]]\npart = \"base\"\n"
-                       "dofs = [1]\nmass = 0.5\nfactors = [1, 1.4, 1, 1, 0.8, 1, 1, 1]\n"));
+      ring_case(model,
+                "[ring]\nsplit = [8, 3]\nload = \"travelling\"\n[[ring.mistuning]]\npart = \"base\"\n"
+                "factors = [1, 1.1, 0.9, 1.02, 1, 0.97, 1.05, 1]\n[[ring.mistuning]]\npart = \"base\"\n"
+                "dofs = [1]\nmass = 0.5\nfactors = [1, 1.4, 1, 1, 0.8, 1, 1, 1]\n"));
   const auto make = system.model == StructureModel::rods ? rod_element : beam_element;
   const ChainElement base = make(5, 80, 2, 8);
   const ChainElement damper = make(1, 1, 2, 8);
@@ -87,7 +91,8 @@ TEST_CASE("Split and mistuned rods and beams are what their assembled elements a
       z(y, u) -= k;
       z(u, y) -= k;
       for (Index j = 0; j < dofs; ++j)
-        force(y + j) = static_cast<Complex>(load(j)) * std::polar(1.0, -two_pi * 2 * static_cast<double>(i) / 8);
+        force(y + j) =
+            static_cast<Complex>(load(j)) * std::polar(1.0, -two_pi * 2 * static_cast<double>(i) / 8);
     }
     const ComplexVector d = z.partialPivLu().solve(force);
     const SectorMotions found = problems::sector_motions(problem, problem.guess(eta, 1e9));
@@ -102,8 +107,9 @@ TEST_CASE("Factors of contacts are read from lists, files and scatter", "[ring s
   const TemporaryFolder folder;
   folder.write("factors.csv", "1.5 # first\n2\n1,1,1\n1\n1\n0.5\n");
   const std::string path = folder.write(
-      "case.toml", ring_case("rods", "[ring]\npreload = \"factors.csv\"\nfriction = [1, 1, 1, 1, 1, 1, 1, 3]\n"
-                                     "stiffness = { scatter = 0.1, seed = 4 }\nmissing = [3]\n"));
+      "case.toml", ring_case("rods",
+                             "[ring]\npreload = \"factors.csv\"\nfriction = [1, 1, 1, 1, 1, 1, 1, 3]\n"
+                             "stiffness = { scatter = 0.1, seed = 4 }\nmissing = [3]\n"));
   const SystemParameters system = read_case(path).branches.front().problem.system;
   const double k = 500.0 / 8;
   const double limit = 80;  // of the force over P: K*/N times N
@@ -146,11 +152,13 @@ TEST_CASE("A table of all sectors has what each contact does at special points",
   CHECK(traced.front().branch.complete());
   const std::string text = sectors_header(traced.front()) + sector_rows(0, traced.front());
   const auto rows = read_csv(folder.write("sectors.csv", text));
-  const auto special = std::count_if(traced.front().branch.points.begin(), traced.front().branch.points.end(),
-                                     [](const auto& point) { return point.type != continuation::PointType::regular; });
+  const auto special =
+      std::count_if(traced.front().branch.points.begin(), traced.front().branch.points.end(),
+                    [](const auto& point) { return point.type != continuation::PointType::regular; });
   CHECK(std::ssize(rows) == 1 + 8 * special);
   CHECK(rows.front().back() == "psi");
-  CHECK_THAT(error_of([&] { return describe(input.branches.front().values); }), ContainsSubstring("no error"));
+  CHECK_THAT(error_of([&] { return describe(input.branches.front().values); }),
+             ContainsSubstring("no error"));
 }
 
 TEST_CASE("What no whole ring has is refused on one line", "[ring section]") {
@@ -161,24 +169,27 @@ TEST_CASE("What no whole ring has is refused on one line", "[ring section]") {
   const TemporaryFolder folder;
   REQUIRE_NOTHROW(read_case(folder.write("case.toml", right)));
   for (const Mistake& mistake : std::vector<Mistake>{
-           {"load = \"standing\"", "load = \"stand\"", ":11:", "ring.load", "\"travelling\", \"standing\"", "stand"},
-           {"load = \"standing\"", "load = [1, 2]", ":11:", "ring.load", "8 amplitudes", "got 2"},
-           {"preload = [1, ", "preload = [", ":12:", "ring.preload", "8 numbers", "got 7"},
-           {"preload = [1, ", "preload = [0, ", ":12:", "ring.preload", "> 0", "0"},
-           {"preload = [1, 1, 1, 1, 1, 1, 1, 1]", "preload = { scatter = 9, law = \"normal\" }", ":12:", "scatter",
-            "above 0", "got"},
-           {"preload = [1, 1, 1, 1, 1, 1, 1, 1]", "preload = { scater = 9 }", ":12:", "scater", "scatter", ""},
-           {"split = [8]", "split = [9]", ":13:", "ring.split", "from 1 to 8", "9"},
-           {"split = [8]", "split = [8, 8]", ":13:", "ring.split", "differ", "8 twice"},
-           {"split = [8]", "splitt = [8]", ":13:", "ring.splitt", "split", ""},
-           {"dofs = [1]", "dofs = [2]", ":16:", "dofs", "from 1 to 1", "2"},
-           {"part = \"base\"", "part = \"bas\"", ":15:", "part", "\"base\" or \"damper\"", "bas"},
-           {"mass = 0.1", "mas = 0.1", ":17:", "mas", "mass", ""},
+           {"load = \"standing\"", "load = \"stand\"", ":12:", "ring.load", "\"travelling\", \"standing\"",
+            "stand"},
+           {"load = \"standing\"", "load = [1, 2]", ":12:", "ring.load", "8 amplitudes", "got 2"},
+           {"preload = [1, ", "preload = [", ":13:", "ring.preload", "8 numbers", "got 7"},
+           {"preload = [1, ", "preload = [0, ", ":13:", "ring.preload", "> 0", "0"},
+           {"preload = [1, 1, 1, 1, 1, 1, 1, 1]", "preload = { scatter = 9, law = \"normal\" }",
+            ":13:", "scatter", "above 0", "got"},
+           {"preload = [1, 1, 1, 1, 1, 1, 1, 1]", "preload = { scater = 9 }", ":13:", "scater", "scatter",
+            ""},
+           {"split = [8]", "split = [9]", ":14:", "ring.split", "from 1 to 8", "9"},
+           {"split = [8]", "split = [8, 8]", ":14:", "ring.split", "differ", "8 twice"},
+           {"split = [8]", "splitt = [8]", ":14:", "ring.splitt", "split", ""},
+           {"dofs = [1]", "dofs = [2]", ":17:", "dofs", "from 1 to 1", "2"},
+           {"part = \"base\"", "part = \"bas\"", ":16:", "part", "\"base\" or \"damper\"", "bas"},
+           {"mass = 0.1", "mas = 0.1", ":18:", "mas", "mass", ""},
            {"to = 5.0", "to = 5.0\nstability = true", "", "stability", "not of whole rings", ""},
-           {"parameter = \"eta\"", "parameter = \"zeta_B\"\neta = 4.0", "", "branch.parameter", "F, K_FD", "zeta_B"}}) {
-    check_message(error_of([&] {
-                    read_case(folder.write("case.toml", replaced(right, mistake.from, mistake.to)));
-                  }),
-                  mistake);
+           {"parameter = \"eta\"\nfrom = 3.0\nto = 5.0",
+            "parameter = \"zeta_B\"\neta = 4.0\nfrom = 0.01\nto = 0.02", "", "branch.parameter", "F, K_FD",
+            "zeta_B"}}) {
+    check_message(
+        error_of([&] { read_case(folder.write("case.toml", replaced(right, mistake.from, mistake.to))); }),
+        mistake);
   }
 }

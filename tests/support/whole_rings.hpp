@@ -87,7 +87,7 @@ inline SystemParameters blisk(double preload, Index sectors = 24, Index waves = 
   return system;
 }
 
-inline RingMake ring_of(const SystemParameters& one, RingLoad::Course course) {
+inline RingMake ring_of(const SystemParameters& one, WholeLoad::Course course) {
   return {one.elements, one.structures, one.contacts, {course, one.wave_number, {}}};
 }
 

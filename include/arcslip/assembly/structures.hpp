@@ -51,9 +51,9 @@ class Structures {
   /// std::invalid_argument.
   virtual ContactSystem wave(const SystemParameters& system) const = 0;
 
-  /// Base or damper under the same wave as its contacts see it and, after them, all of its outputs that `wave`
-  /// has, in their order, as further contacts. Throws std::invalid_argument where it has outputs and is no sum
-  /// of modes.
+  /// Base or damper under the same wave as its contacts see it and, after them, all of its outputs that
+  /// `wave` has, in their order, as further contacts. Throws std::invalid_argument where it has outputs and
+  /// is no sum of modes.
   virtual ContactModes seen(const SystemParameters& system, bool is_base) const;
 
   /// What it is if its contacts are those of all sectors; else null.

@@ -25,8 +25,10 @@
 
 namespace arcslip {
 
+class RingPart;
+
 /// How a load goes round the ring. The force of the system is its amplitude.
-struct RingLoad {
+struct WholeLoad {
   /// Over the sectors.
   enum class Course {
     travelling,  ///< the system's wave n, in its harmonic h that of h n
@@ -40,7 +42,7 @@ struct RingLoad {
 };
 
 /// As case files have it: its name.
-std::string to_string(RingLoad::Course course);
+std::string to_string(WholeLoad::Course course);
 
 /// A linear element in some sectors, beside what all have: it meets x = sum of weights times motions.
 struct RingChange {
@@ -59,16 +61,17 @@ struct RingChange {
 
 /// What a whole ring is made of.
 struct RingMake {
-  Index sectors = 2;                                   ///< N >= 2
-  std::shared_ptr<const Structures> structures = {};   ///< of one sector; null: rods and beams
-  std::vector<SectorContact> contacts = {};            ///< of one sector, as its structures have them
-  RingLoad load = {};                                  ///< round the ring
+  Index sectors = 2;                                  ///< N >= 2
+  std::shared_ptr<const Structures> structures = {};  ///< of one sector; null: rods and beams
+  std::vector<SectorContact> contacts = {};           ///< of one sector, as its structures have them
+  WholeLoad load = {};                                ///< round the ring
   /// The last of what is wanted of base and damper that is not told but for changes; the ports that these
   /// name.
   Index base_ports = 0;
   Index damper_ports = 0;
-  std::vector<WantedOutput> wanted = {};  ///< by which rods and beams are asked for ports, after a system's own
-  std::vector<RingChange> changes = {};   ///< to both
+  std::vector<WantedOutput> wanted =
+      {};  ///< by which rods and beams are asked for ports, after a system's own
+  std::vector<RingChange> changes = {};  ///< to both
 };
 
 /// The structures of all sectors. Its system's contacts are all N x c, those of sector 1 first.
@@ -100,6 +103,7 @@ class WholeRing final : public Structures {
  private:
   const Structures& sector() const;
   std::vector<Complex> amplitudes(Index wave_number) const;
+  std::shared_ptr<const RingPart> part(const SystemParameters& system, bool is_base) const;
 
   RingMake make_;
 };

@@ -35,7 +35,7 @@ class HarmonicProblem : public continuation::Problem {
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
 
-  /// All but synthesised forces have gradients.
+  /// All but synthesised forces, and some of whole rings, have gradients.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
@@ -119,6 +119,11 @@ class HarmonicProblem : public continuation::Problem {
     wave,
     slipping
   };
+  /// Forces have none, and of a whole ring what may be zero.
+  static bool has_gradient(Measure measure) {
+    return measure != Measure::force && measure != Measure::least && measure != Measure::wave &&
+           measure != Measure::slipping;
+  }
   enum class Body { contact, base, damper, output };
   struct Quantity {
     std::string name;         ///< the observable's
