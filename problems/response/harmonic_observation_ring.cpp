@@ -4,32 +4,15 @@
 
 namespace arcslip::problems {
 
-/// Of the motions of all sectors the largest amplitude. Where several sectors have it the gradient is the
-/// middle of theirs, as differences to both sides have it.
+/// Of the motions of all sectors the largest amplitude, with the gradient of the first one that has it: where
+/// several have, it is a corner, but along a branch on which they are alike they change alike.
 double HarmonicProblem::Observation::largest(const Quantity& quantity) {
-  constexpr double alike = 1e-9;
-  const Vector sizes = of_sectors(quantity).cwiseAbs();
-  const double most = sizes.maxCoeff();
+  Index found = 0;
+  const double most = of_sectors(quantity).cwiseAbs().maxCoeff(&found);
   if (gradient_ == nullptr) return most;
-  continuation::Gradient* const sum = gradient_;
-  continuation::Gradient low, high, one{sum->unknowns, sum->parameters};
-  for (Index i = 0; i < sizes.size(); ++i) {
-    if (sizes(i) < most * (1 - alike)) continue;
-    one.unknowns.setZero();
-    one.parameters.setZero();
-    gradient_ = &one;
-    Quantity own = quantity;
-    own.which += i * in_sector(quantity.of);
-    amplitude(own, 1);
-    const bool is_first = low.unknowns.size() == 0;
-    if (is_first) low = high = one;
-    low = {low.unknowns.cwiseMin(one.unknowns), low.parameters.cwiseMin(one.parameters)};
-    high = {high.unknowns.cwiseMax(one.unknowns), high.parameters.cwiseMax(one.parameters)};
-  }
-  gradient_ = sum;
-  sum->unknowns += (low.unknowns + high.unknowns) / 2;
-  sum->parameters += (low.parameters + high.parameters) / 2;
-  return most;
+  Quantity own = quantity;
+  own.which += found * in_sector(quantity.of);
+  return amplitude(own, 1);
 }
 
 /// How many motions of a kind a sector has: those of the next one follow in their order.

@@ -153,7 +153,7 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
     order.inverse = joint.compliance;
     invert(order.inverse);
   }
-  order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
+  set_weight(order);
 }
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -286,14 +286,10 @@ void HarmonicResponse::fill_by_parameters(Order& order, const std::vector<Elemen
 void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compliance,
                                        const ContactVector& free, double share, double weight) const {
   const Index m = order.inverse.rows();
-  order.product.noalias() = compliance * order.solver();
-  order.turned.noalias() = order.solver() * order.product;
-  if (order.turned.rows() > m) order.turned = order.turned.topLeftCorner(m, m).eval();
-  const Complex slope =  // of the weight's logarithm, over its square
-      order.inverse.conjugate().cwiseProduct(order.turned).sum();
+  const double slope = weight_slope(order, compliance, free);
   order.f = share * free;
   order.f.noalias() -= compliance * order.held;
-  order.gap += (order.weight * order.weight * slope.real()) * order.residual;
+  order.gap += (order.weight * order.weight * slope) * order.residual;
   order.gap.noalias() += weight * (order.solver().topRows(m) * order.f);
 }
 

@@ -46,7 +46,7 @@ double difference(const HarmonicResponse& whole, const Guess& all, const Harmoni
         worst = std::max(worst, ((found.*part).col(i) - turn * (expected.*part).col(0)).norm() / size);
       if (found.outputs.rows() == 0) continue;
       const double of_output = (found.outputs.col(i) - turn * expected.outputs.col(0)).norm();
-      worst = std::max(worst, of_output / expected.outputs.norm());
+      worst = std::max(worst, of_output / sector_motions(one, at).outputs.norm());
     }
   }
   return worst;
