@@ -196,6 +196,8 @@ PairLosses WholeRing::losses(const SystemParameters& system) const {
 
 double WholeRing::nodes(const SystemParameters& system) const { return sector().nodes(one_sector(system)); }
 
+bool WholeRing::has_equations() const { return sector().has_equations(); }
+
 double WholeRing::circular_frequency() const { return sector().circular_frequency(); }
 
 void WholeRing::check(Index /*wave_number*/, Index nodes) const {

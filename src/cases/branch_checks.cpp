@@ -36,6 +36,8 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
   const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
   if (problem.model != nullptr) return;
+  if (branch.curve && branch.curve->is_backbone() && structures_of(system).whole() != nullptr)
+    branch_section.fail("curve", "not of whole rings, whose load acts on motions that lag differently");
   if (branch.curve && branch.curve->type == continuation::PointType::regime_switch && system.periods() > 1)
     branch_section.fail("curve",
                         "not of switches of responses over several periods: where all periods are "

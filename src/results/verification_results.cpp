@@ -68,6 +68,13 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   return branch.curve ? "curves" : "";
 }
 
+bool has_balance(const CaseBranch& branch) {
+  const ProblemRequest& problem = branch.problem;
+  const bool is_whole = problem.model == nullptr && problem.response->in_time && !branch.curve &&
+                        structures_of(problem.system).whole() != nullptr;
+  return why_not_verifiable(branch).empty() || (is_whole && structures_of(problem.system).has_equations());
+}
+
 VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options) {
   VerifiedBranch verified{number, &traced, {}, 0};
   if (traced.branch.points.empty() || !why_not_verifiable(*traced.request).empty()) return verified;

@@ -193,3 +193,15 @@ TEST_CASE("What no whole ring has is refused on one line", "[ring section]") {
         mistake);
   }
 }
+
+TEST_CASE("The case of a split ring has the highest amplitudes that it says", "[ring section]") {
+  const Run run("split_ring");
+  REQUIRE(run.traced.size() == 3);
+  const double expected[] = {.0933297, .0081215, .0119743};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double highest = 0;
+    for (const BranchPoint& point : points(run.traced[i], PointType::peak))
+      highest = std::max(highest, value(run.traced[i], point, "Y_max"));
+    CHECK_THAT(highest, WithinRel(expected[i], 1e-5));
+  }
+}

@@ -98,6 +98,7 @@ class WholeRing final : public Structures {
   double circular_frequency() const override;
   void check(Index wave_number, Index nodes) const override;
   std::vector<PartModes> modes(const SystemParameters& system) const override;
+  bool has_equations() const override;
   const WholeRing* whole() const override { return this; }
 
  private:
