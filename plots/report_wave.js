@@ -23,10 +23,10 @@ function stateAt(R, S, phase) {
   return half < Math.acos(1 - (2 * S) / R) ? "stick" : "slip";
 }
 
-// Whether the columns tell all of the motion: one contact at each node, in one harmonic.
-function hasWave({ isFriction, table: { columns }, input: { branch, system } }) {
+// Whether the columns tell all of the motion: one contact at each node, in one harmonic; not of whole rings, whose nodes differ.
+function hasWave({ isFriction, table: { columns }, input: { branch, system, ring } }) {
   const response = branch.response || "forced";
-  return isFriction && !branch.curve && response === "forced" && system.elements > 2 && (system.harmonics ?? 1) === 1 &&
+  return isFriction && !ring && !branch.curve && response === "forced" && system.elements > 2 && (system.harmonics ?? 1) === 1 &&
     ["Y", "U", "R", "S", "beta", "alpha", "psi", "type"].every((name) => columns[name]) &&
     !Object.keys(columns).some((name) => /_h\d+$|^[UR]_(contact_)?\d/.test(name));
 }

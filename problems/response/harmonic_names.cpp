@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "arcslip/problems/response/harmonic_problem.hpp"
 
 namespace arcslip::problems {
@@ -29,7 +31,7 @@ std::string HarmonicProblem::describe(const continuation::Regime& regime) const 
 
 void HarmonicProblem::add_further_contacts() {
   for (Index i = 1; i < contacts(); ++i) {
-    const auto name = [&](const char* quantity) { return quantity + suffix_of(i); };
+    const auto name = [&](const char* quantity) { return fmt::format("{}{}", quantity, suffix_of(i)); };
     quantities_.push_back({name("R"), Measure::amplitude, Body::contact, i});
     quantities_.push_back({name("R_over_S"), Measure::ratio, Body::contact, i});
     quantities_.push_back({name("Y"), Measure::amplitude, Body::base, i});
@@ -43,6 +45,31 @@ void HarmonicProblem::add_further_contacts() {
       quantities_.push_back({name("U_h0"), Measure::mean, Body::damper, i, a});
     }
   }
+}
+
+void HarmonicProblem::add_ring() {
+  constexpr Index most_waves = 6;
+  const Index each = contacts() / system_.sectors;
+  const auto add = [&](const std::string& name, Body of, Index which) {
+    quantities_.push_back({fmt::format("{}_max", name), Measure::largest, of, which});
+    quantities_.push_back({fmt::format("{}_min", name), Measure::least, of, which});
+  };
+  for (Index j = 0; j < each; ++j) {
+    const std::string suffix = j == 0 ? "" : fmt::format("_contact_{}", j + 1);
+    add(fmt::format("R{}", suffix), Body::contact, j);
+    add(fmt::format("Y{}", suffix), Body::base, j);
+    add(fmt::format("U{}", suffix), Body::damper, j);
+  }
+  const Index half = system_.sectors / 2;
+  const Index own = std::min(system_.wave_number % system_.sectors, half);
+  for (Index q = 0; q <= half; ++q) {
+    if (q <= most_waves || q == own)
+      quantities_.push_back({fmt::format("Y_wave_{}", q), Measure::wave, Body::base, 0, 0, q});
+  }
+  if (own > 0 && 2 * own < system_.sectors)
+    quantities_.push_back({fmt::format("Y_back_{}", own), Measure::wave, Body::base, 0, 0, -own});
+  quantities_.push_back({"slipping", Measure::slipping});
+  for (Index i = 0; i < std::ssize(system_.outputs); ++i) add(system_.outputs[at(i)].name, Body::output, i);
 }
 
 void HarmonicProblem::add_other_harmonics() {
@@ -71,6 +98,7 @@ void HarmonicProblem::add_readings(Index element, const std::string& suffix) {
 
 void HarmonicProblem::add_further_elements() {
   for (Index e = contacts(); e < coordinates_.elements(); ++e) {
+    if (first(e).sector > 0) continue;
     const std::string suffix = suffix_of(e);
     if (coordinates_.element(e).dissipates())
       quantities_.push_back({"energy" + suffix, Measure::energy, Body::contact, e});

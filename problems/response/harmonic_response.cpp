@@ -38,7 +38,7 @@ HarmonicResponse::HarmonicResponse(HarmonicSystem system)
                  {"psi", Measure::lag},
                  {"dissipated", Measure::dissipated}};
   add_readings(0, "");
-  add_further_contacts();
+  system_.sectors > 1 ? add_ring() : add_further_contacts();
   for (const ContactOutput& output : system_.outputs) {
     quantities_.push_back({output.name, output.is_lag ? Measure::lag : Measure::amplitude, Body::output,
                            &output - system_.outputs.data()});
@@ -153,7 +153,7 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
     order.inverse = joint.compliance;
     invert(order.inverse);
   }
-  order.weight = 1 / std::sqrt(1 + order.inverse.squaredNorm());
+  set_weight(order);
 }
 
 bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -286,14 +286,10 @@ void HarmonicResponse::fill_by_parameters(Order& order, const std::vector<Elemen
 void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compliance,
                                        const ContactVector& free, double share, double weight) const {
   const Index m = order.inverse.rows();
-  order.product.noalias() = compliance * order.solver();
-  order.turned.noalias() = order.solver() * order.product;
-  if (order.turned.rows() > m) order.turned = order.turned.topLeftCorner(m, m).eval();
-  const Complex slope =  // of the weight's logarithm, over its square
-      order.inverse.conjugate().cwiseProduct(order.turned).sum();
+  const double slope = weight_slope(order, compliance, free);
   order.f = share * free;
   order.f.noalias() -= compliance * order.held;
-  order.gap += (order.weight * order.weight * slope.real()) * order.residual;
+  order.gap += (order.weight * order.weight * slope) * order.residual;
   order.gap.noalias() += weight * (order.solver().topRows(m) * order.f);
 }
 
@@ -343,8 +339,20 @@ void HarmonicResponse::scale(const Vector& u, const Vector& p, Vector& unknowns,
   if (is_varied()) parameters(further) = varied_scale(u, p);
 }
 
+std::vector<double> HarmonicResponse::ring_landmarks(double from, double to) const {
+  std::vector<double> values;
+  for (Index a = 0; a < harmonics(); ++a) {
+    for (const double found : system_.landmarks[at(a)]) {
+      const double value = found / system_.multiple(a);
+      if (system_.orders[at(a)] != 0 && value > from && value < to) values.push_back(value);
+    }
+  }
+  return values;
+}
+
 std::vector<double> HarmonicResponse::landmarks(Index parameter, double from, double to) const {
   if (parameter != eta) return {};
+  if (!system_.landmarks.empty()) return ring_landmarks(from, to);
   const Vector springs = contact_springs(system_.contacts);
   std::vector<double> values;
   for (Index a = 0; a < harmonics(); ++a) {

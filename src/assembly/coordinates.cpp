@@ -5,6 +5,7 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/elements/held_element.hpp"
 #include "arcslip/elements/idle.hpp"
 #include "arcslip/elements/jenkins.hpp"
@@ -29,53 +30,76 @@ ElementKind::Values values_of(const PlacedElement& placed, double nodes, double 
 
 }  // namespace
 
-std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
-                                          const std::function<double(const Coordinate&)>& usual_stiffness) {
-  std::vector<Coordinate> all;
-  if (parameters.has_cubic_springs()) {
-    const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
-    SystemParameters unit = parameters;
-    unit.cubic_stiffness = 1;
-    const double share = cubic_coefficient(unit);
-    for (Index i = 0; i < dofs; ++i) {
-      Coordinate& one = all.emplace_back(Coordinate{1, 0, i, nullptr});
-      const double usual = usual_stiffness(one);
-      one.element = cubic_spring(cubic_coefficient(parameters), usual);
-      one.follows_base = true;
-      if (parameters.varied == "cubic_stiffness")
-        one.varied = [=](double value) { return cubic_spring({share * value, share, 0}, usual); };
-    }
+namespace {
+
+using UsualStiffness = std::function<double(const Coordinate&)>;
+
+/// A cubic spring from each contact dof of the base to ground.
+void add_cubic_springs(const SystemParameters& parameters, const UsualStiffness& usual_stiffness,
+                       std::vector<Coordinate>& all) {
+  const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
+  SystemParameters unit = parameters;
+  unit.cubic_stiffness = 1;
+  const double share = cubic_coefficient(unit);
+  for (Index i = 0; i < dofs; ++i) {
+    Coordinate& one = all.emplace_back(Coordinate{1, 0, i, nullptr});
+    const double usual = usual_stiffness(one);
+    one.element = cubic_spring(cubic_coefficient(parameters), usual);
+    one.follows_base = true;
+    if (parameters.varied == "cubic_stiffness")
+      one.varied = [=](double value) { return cubic_spring({share * value, share, 0}, usual); };
   }
+}
+
+/// The k-th element of a system in one sector, whose contact dofs begin with `first`.
+void add_placed(const SystemParameters& parameters, std::size_t k, Index sector, Index first,
+                const UsualStiffness& usual_stiffness, std::vector<Coordinate>& all) {
   const double nodes = structures_of(parameters).nodes(parameters);
   const double rate = structures_of(parameters).circular_frequency();
-  for (std::size_t k = 0; k < parameters.others.size(); ++k) {
-    const PlacedElement& placed = parameters.others[k];
-    using Place = PlacedElement::Place;
-    const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
-    const double damper = placed.place == Place::base ? 0 : 1;
-    const double side = placed.closes_backwards ? -1 : 1;  // of the coordinate that closes
-    const double own = placed.kind->closes == ElementKind::Closing::cannot ? side : 1;
-    Coordinate one{own * base, own * damper, placed.dof, nullptr};
-    const Coordinate second{base, damper, placed.second, nullptr};
-    const Coordinate closing{side * base, side * damper, placed.normal, nullptr};
-    const double usual = usual_stiffness(placed.closes() ? closing : one);
-    one.name = element_name(parameters, k);
-    one.element = placed.kind->make(values_of(placed, nodes, rate, usual));
-    for (Index i = 0; i < std::ssize(placed.settings); ++i) {
-      if (setting_name(parameters, k, static_cast<std::size_t>(i)) != parameters.varied) continue;
-      one.varied = [=](double value) {
-        return placed.kind->make(values_of(placed, nodes, rate, usual, i, value));
-      };
-    }
-    const auto element = one.element;
-    all.push_back(std::move(one));
-    const auto add = [&](Coordinate further, Index part) {
-      further.element = element;
-      further.part = part;
-      all.push_back(std::move(further));
+  const PlacedElement& placed = parameters.others[k];
+  using Place = PlacedElement::Place;
+  const double base = placed.place == Place::base ? 1 : placed.place == Place::contact ? -1 : 0;
+  const double damper = placed.place == Place::base ? 0 : 1;
+  const double side = placed.closes_backwards ? -1 : 1;  // of the coordinate that closes
+  const double own = placed.kind->closes == ElementKind::Closing::cannot ? side : 1;
+  Coordinate one{own * base, own * damper, first + placed.dof, nullptr};
+  const Coordinate second{base, damper, first + placed.second, nullptr};
+  const Coordinate closing{side * base, side * damper, first + placed.normal, nullptr};
+  const double usual = usual_stiffness(placed.closes() ? closing : one);
+  one.name = element_name(parameters, k);
+  if (sector > 0) one.name += "_sector_" + std::to_string(sector + 1);
+  one.sector = sector;
+  one.element = placed.kind->make(values_of(placed, nodes, rate, usual));
+  for (Index i = 0; i < std::ssize(placed.settings); ++i) {
+    if (setting_name(parameters, k, static_cast<std::size_t>(i)) != parameters.varied) continue;
+    one.varied = [=](double value) {
+      return placed.kind->make(values_of(placed, nodes, rate, usual, i, value));
     };
-    if (placed.kind->slides == 2) add(second, 1);
-    if (placed.closes()) add(closing, placed.kind->slides);
+  }
+  const auto element = one.element;
+  all.push_back(std::move(one));
+  const auto add = [&](Coordinate further, Index part) {
+    further.element = element;
+    further.part = part;
+    further.sector = sector;
+    all.push_back(std::move(further));
+  };
+  if (placed.kind->slides == 2) add(second, 1);
+  if (placed.closes()) add(closing, placed.kind->slides);
+}
+
+}  // namespace
+
+std::vector<Coordinate> other_coordinates(const SystemParameters& parameters,
+                                          const UsualStiffness& usual_stiffness) {
+  std::vector<Coordinate> all;
+  if (parameters.has_cubic_springs()) add_cubic_springs(parameters, usual_stiffness, all);
+  const WholeRing* whole = structures_of(parameters).whole();
+  const Index sectors = whole != nullptr ? whole->sectors() : 1;
+  const Index dofs = std::ssize(parameters.contacts) / sectors;
+  for (std::size_t k = 0; k < parameters.others.size(); ++k) {
+    for (Index sector = 0; sector < sectors; ++sector)
+      add_placed(parameters, k, sector, sector * dofs, usual_stiffness, all);
   }
   std::stable_partition(all.begin(), all.end(),
                         [](const Coordinate& one) { return one.element->has_border(); });

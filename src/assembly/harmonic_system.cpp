@@ -10,6 +10,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/elements/idle.hpp"
 #include "arcslip/motion/swing.hpp"
 
@@ -149,6 +150,12 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   const PairLosses losses = structures_of(parameters).losses(parameters);
   system.base_loss_per_zeta = losses.base_per_zeta;
   system.base_loss_fixed = losses.base_fixed;
+  if (const WholeRing* whole = structures_of(parameters).whole()) {
+    system.sectors = whole->sectors();
+    system.wave_number = parameters.wave_number;
+    for (const int h : parameters.harmonics)
+      system.landmarks.push_back(whole->landmarks(in_order(parameters, h)));
+  }
   if (!parameters.varied.empty()) system.varied = system_parameter(parameters, parameters.varied);
   system.others =
       other_coordinates(parameters, [&](const Coordinate& one) { return usual_stiffness(system, one); });

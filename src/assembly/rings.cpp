@@ -21,25 +21,39 @@ ContactModes in_contact_modes(const ModalModel& model) {
   return {1, std::move(modes), model.loss()};
 }
 
-/// What is wanted of the rings. The dofs of an element's second node are the first one's with the next phase.
-std::vector<ContactOutput> outputs_of(const SystemParameters& parameters, const ReducedPair& pair,
-                                      const Loss& base_loss, const Loss& damper_loss) {
+/// The contact and, below it, outputs of an element's dofs, of which those of its second node are the first
+/// one's with the next phase.
+PreciseComplexMatrix rows_of(const SystemParameters& parameters, const std::vector<const Vector*>& weights,
+                             Index dofs) {
   const PreciseReal a = propagation_constant(parameters.wave_number, parameters.elements);
   const PreciseComplex forward{cos(a), -sin(a)};
+  PreciseComplexMatrix rows(std::ssize(weights) + 1, dofs);
+  for (Index i = 0; i < dofs; ++i) {
+    rows(0, i) = i == 0 ? 1 : 0;
+    for (Index k = 1; k < rows.rows(); ++k) {
+      const Vector& one = *weights[static_cast<std::size_t>(k - 1)];
+      rows(k, i) = PreciseComplex(one(i)) + PreciseComplex(one(dofs + i)) * forward;
+    }
+  }
+  return rows;
+}
+
+std::vector<ContactMode> modes_of(const ReducedStructure& structure, const PreciseComplexMatrix& rows) {
+  std::vector<ContactMode> modes;
+  for (SeenMode& mode : seen_modes(structure, rows))
+    modes.push_back({mode.frequency, std::move(mode.shape), mode.load});
+  return modes;
+}
+
+/// What is wanted of the rings.
+std::vector<ContactOutput> outputs_of(const SystemParameters& parameters, const ReducedPair& pair,
+                                      const Loss& base_loss, const Loss& damper_loss) {
   std::vector<ContactOutput> outputs;
   for (const WantedOutput& wanted : parameters.wanted) {
     const ReducedStructure& structure = wanted.on_base ? pair.base : pair.damper;
-    const Index dofs = structure.mass.rows();
-    PreciseComplexMatrix rows(2, dofs);  // the contact and the sum
-    for (Index i = 0; i < dofs; ++i) {
-      rows(0, i) = i == 0 ? 1 : 0;
-      rows(1, i) = PreciseComplex(wanted.weights(i)) + PreciseComplex(wanted.weights(dofs + i)) * forward;
-    }
     std::vector<ContactMode> modes;
-    if (wanted.on_base || !parameters.fixed_damper) {
-      for (SeenMode& mode : seen_modes(structure, rows))
-        modes.push_back({mode.frequency, std::move(mode.shape), mode.load});
-    }
+    if (wanted.on_base || !parameters.fixed_damper)
+      modes = modes_of(structure, rows_of(parameters, {&wanted.weights}, structure.mass.rows()));
     const char letter = wanted.on_base ? 'Y' : 'U';
     outputs.push_back({std::string{letter, '_'} + wanted.name,
                        ContactModes(2, std::move(modes), wanted.on_base ? base_loss : damper_loss),
@@ -94,6 +108,20 @@ ContactSystem Rings::wave(const SystemParameters& parameters) const {
                      system.outputs};
   if (parameters.tells_lag) wave.outputs.push_back(driven_motion(wave.base.with_driven_motion()));
   return wave;
+}
+
+ContactModes Rings::seen(const SystemParameters& parameters, bool is_base) const {
+  const ReducedPair pair = reduce(parameters);
+  const ReducedStructure& structure = is_base ? pair.base : pair.damper;
+  std::vector<const Vector*> weights;
+  for (const WantedOutput& wanted : parameters.wanted) {
+    if (wanted.on_base == is_base) weights.push_back(&wanted.weights);
+  }
+  const PairLosses losses = this->losses(parameters);
+  const PreciseComplexMatrix rows = rows_of(parameters, weights, structure.mass.rows());
+  std::vector<ContactMode> modes;
+  if (is_base || !parameters.fixed_damper) modes = modes_of(structure, rows);
+  return {rows.rows(), std::move(modes), is_base ? losses.base(parameters) : losses.damper(parameters)};
 }
 
 FrictionSystem Rings::one_contact(const SystemParameters& parameters) const {

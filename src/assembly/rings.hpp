@@ -8,6 +8,7 @@ namespace arcslip {
 class Rings : public Structures {
  public:
   ContactSystem wave(const SystemParameters& system) const override;
+  ContactModes seen(const SystemParameters& system, bool is_base) const override;
   FrictionSystem one_contact(const SystemParameters& system) const override;
   bool is_one_contact(const SystemParameters& /*system*/) const override { return true; }
   PairLosses losses(const SystemParameters& system) const override;

@@ -11,6 +11,26 @@ const Structures& structures_of(const SystemParameters& system) {
   return system.structures ? *system.structures : rings;
 }
 
+/// All outputs of a part are seen by the same modes.
+ContactModes Structures::seen(const SystemParameters& system, bool is_base) const {
+  const ContactSystem wave = this->wave(system);
+  const ContactModes& part = is_base ? wave.base : wave.damper;
+  std::vector<ContactMode> modes = part.modes();
+  const Index contacts = part.contacts();
+  Index count = contacts;
+  for (const ContactOutput& output : wave.outputs) {
+    if (output.on_base != is_base || output.is_lag) continue;
+    if (part.is_solved())
+      throw std::invalid_argument("outputs of a structure that is solved for are seen one by one alone");
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      modes[k].shape.conservativeResize(count + 1);
+      modes[k].shape(count) = output.modes.modes()[k].shape(contacts);
+    }
+    ++count;
+  }
+  return count == contacts ? part : ContactModes(count, std::move(modes), part.loss());
+}
+
 FrictionSystem Structures::one_contact(const SystemParameters& system) const {
   if (!is_one_contact(system))
     throw std::invalid_argument(

@@ -137,7 +137,8 @@ std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
       system_number("F", &S::force, change_load, Kind::load, system),
       of_contacts("K_FD", system.interface_stiffness, false, -1, system),
       system_number("P_2", &S::preload_growth, change_growth, Kind::growth, system)};
-  if (structures_of(system).has_equations()) {
+  const bool is_whole = structures_of(system).whole() != nullptr;  // which is solved for at its own damping
+  if (structures_of(system).has_equations() && !is_whole) {
     all.insert(all.begin() + 1,
                {system_number("zeta_B", &S::base_damping, change_base_damping, Kind::damping, system),
                 system_number("zeta_D", &S::damper_damping, change_damper_damping, Kind::damping, system)});
@@ -148,8 +149,12 @@ std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
   }
   for (SystemParameter& one : structures_of(system).parameters(system)) all.push_back(std::move(one));
   const Index count = std::ssize(system.contacts);  // if they are listed
-  for (Index i = count > 0 ? -1 : 0; i < (count > 1 ? count : 0); ++i) {
-    const SectorContact& one = system.contacts[static_cast<std::size_t>(std::max<Index>(i, 0))];
+  const Index named = count > 1 && !is_whole ? count : 0;
+  const auto rubs = std::find_if(system.contacts.begin(), system.contacts.end(),
+                                 [](const SectorContact& one) { return one.stiffness > 0; });
+  const Index first = rubs == system.contacts.end() ? 0 : rubs - system.contacts.begin();
+  for (Index i = count > 0 ? -1 : 0; i < named; ++i) {
+    const SectorContact& one = system.contacts[static_cast<std::size_t>(i < 0 ? first : i)];
     all.push_back(of_contacts("L", one.stiffness * one.slip_per_preload, true, i, system));
     if (i < 0) continue;
     const double own = one.stiffness * static_cast<double>(system.elements);

@@ -36,6 +36,8 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
   const ProblemRequest& problem = branch.problem;
   const SystemParameters& system = problem.system;
   if (problem.model != nullptr) return;
+  if (branch.curve && branch.curve->is_backbone() && structures_of(system).whole() != nullptr)
+    branch_section.fail("curve", "not of whole rings, whose load acts on motions that lag differently");
   if (branch.curve && branch.curve->type == continuation::PointType::regime_switch && system.periods() > 1)
     branch_section.fail("curve",
                         "not of switches of responses over several periods: where all periods are "
@@ -56,6 +58,8 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
+  if (structures_of(system).whole() != nullptr)
+    section.fail("stability", "not of whole rings, whose disturbances are not of one wave");
   using Kind = SystemParameter::Kind;
   const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
   if (kind != Kind::load && kind != Kind::growth)

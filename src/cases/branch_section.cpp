@@ -145,7 +145,8 @@ void read_extrema(CaseBranch& branch, const TomlSection& section) {
     observables = section.texts("extrema_of", {}, "an array of observables");
     if (curve && !ridge) section.fail("extrema_of", "only beside curves of peaks or troughs");
   } else if (branch.problem.model == nullptr && !branch.problem.response->extremum.empty()) {
-    observables = {branch.problem.response->extremum};
+    const bool is_whole = section.document().root().contains("ring");
+    observables = {is_whole ? "Y_max" : branch.problem.response->extremum};
   }
   if (ridge && observables.empty()) section.require("extrema_of", expected);
   if (ridge && observables.size() != 1) section.mismatch("extrema_of", expected);

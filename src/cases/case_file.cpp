@@ -21,7 +21,7 @@
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title", "system", "geometry", "element", "excitation", "branch", "study", "continuation"};
+  return {"title", "system", "geometry", "element", "excitation", "ring", "branch", "study", "continuation"};
 }
 
 namespace {
@@ -64,7 +64,8 @@ void check_extrema(const TomlSection& branch, const CaseBranch& first) {
 
 /// Whether a load does work, on a motion that lags behind it.
 bool may_tell_lag(const ProblemRequest& problem) {
-  return problem.model == nullptr && !problem.response->has_own_frequency();
+  return problem.model == nullptr && !problem.response->has_own_frequency() &&
+         structures_of(problem.system).whole() == nullptr;
 }
 
 /// Refuses levels of what the problem does not have.

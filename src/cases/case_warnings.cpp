@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "arcslip/assembly/resonances.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "cases/unit_names.hpp"
 
 namespace arcslip {
@@ -178,6 +179,7 @@ std::vector<std::string> warnings_of(const CasePlan& plan) {
   for (std::size_t i = 0; i < std::min(plan.count, most_looked_at); ++i) {
     const CaseBranch branch = plan.branch(i);
     if (branch.problem.model != nullptr || branch.problem.response->has_own_frequency()) return {};
+    if (structures_of(branch.problem.system).whole() != nullptr) return {};  // waves have too many resonances
     slips.look(branch.problem, ranges_of(branch));
   }
   return slips.sentences("branches");

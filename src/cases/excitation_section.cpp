@@ -2,38 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "cases/element_section.hpp"
-#include "cases/named_file.hpp"
-#include "cases/output_weights.hpp"
-#include "keys/printable.hpp"
+#include "cases/ring_numbers.hpp"
 
 namespace arcslip {
 namespace {
 
-/// The numbers of a text, between blanks, commas and ends of lines, behind # none.
-std::vector<double> numbers_of(std::string_view text, const std::string& file) {
+/// All numbers of a file that a key names, row by row.
+std::vector<double> numbers_of_file(const TomlSection& section, const std::string& key) {
   std::vector<double> all;
-  for (std::size_t line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view rest = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    rest = rest.substr(0, rest.find('#'));
-    constexpr std::string_view between = " \t\r,;";
-    for (rest.remove_prefix(std::min(rest.find_first_not_of(between), rest.size())); !rest.empty();
-         rest.remove_prefix(std::min(rest.find_first_not_of(between), rest.size()))) {
-      const std::string_view word = rest.substr(0, rest.find_first_of(between));
-      double& value = all.emplace_back();
-      const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || last != word.data() + word.size() || !std::isfinite(value))
-        throw MatrixTextError(fmt::format("{}:{}: expected finite numbers, got {}", file, line,
-                                          printable(std::string(word), 40)));
-      rest.remove_prefix(word.size());
-    }
-  }
+  for (const std::vector<double>& row : number_rows(section, key))
+    all.insert(all.end(), row.begin(), row.end());
   return all;
 }
 
@@ -55,9 +37,8 @@ Key<Excitation> key_of(const ListSetting& list, std::size_t i) {
   if (!list.may_be_file) return E(each.name, value, rule_of_each(each), each.meaning, needed, unlisted);
   const auto read = [value, name = each.name, rule = rule_of_each(each)](Excitation& excitation,
                                                                          const TomlSection& section) {
-    value(excitation) = section.require(name, "").is_string()
-                            ? parsed(section, name, largest_list, nullptr, numbers_of)
-                            : section.numbers(name, rule);
+    value(excitation) =
+        section.require(name, "").is_string() ? numbers_of_file(section, name) : section.numbers(name, rule);
   };
   return E::special(each.name, "list of numbers or file", each.meaning, read, needed,
                     resolved([value](const Excitation& excitation) { return json_of(value(excitation)); }),

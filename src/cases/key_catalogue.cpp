@@ -6,6 +6,7 @@
 #include "cases/continuation_section.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
+#include "cases/ring_section.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/study_section.hpp"
 #include "cases/system_section.hpp"
@@ -77,6 +78,7 @@ std::vector<KeySection> key_catalogue() {
   sections.back().repeats = true;
   section("excitation", "the load",
           words_of_kinds(excitation_kinds(), 1, "what its course is", excitation_keys));
+  section("ring", "all sectors in place of one", ring_words());
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());
   section("study", "", study_keys().words());

@@ -8,6 +8,7 @@
 
 #include "cases/named_file.hpp"
 #include "cases/output_weights.hpp"
+#include "cases/ring_changes.hpp"
 
 namespace arcslip {
 namespace {
@@ -216,6 +217,8 @@ SectorPart read_part(const TomlDocument& document, const std::string& path, Sect
   part.path = response;
   part.fingerprint = 14695981039346656037U;
   part_keys(loaded).read(part, section);
+  for (const WeightRow& row : changed_motions(document, loaded, part.sector.mass.rows()))
+    add_combination(part, row);
   if (!loaded) part.sector.load = ComplexVector::Zero(part.sector.mass.rows());
   try {
     part.sector = checked(std::move(part.sector));

@@ -14,6 +14,7 @@
 #include "cases/geometry_section.hpp"
 #include "cases/given_structure.hpp"
 #include "cases/harmonics_section.hpp"
+#include "cases/ring_section.hpp"
 
 namespace arcslip {
 namespace {
@@ -87,6 +88,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   complete_orders(section, problem.system);
   check_balanced(document, problem);
   check_waves(section, problem.system);
+  read_ring(document, use, problem);
 }
 
 Key<LibrarySettings> key_of(const Setting& setting, std::size_t i) {
@@ -310,6 +312,8 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
     document.fail(document.root().get("element"), "element", "only for systems with friction");
   if (document.root().contains("excitation"))
     document.fail(document.root().get("excitation"), "excitation", "only for systems with friction");
+  if (document.root().contains("ring"))
+    document.fail(document.root().get("ring"), "ring", "only for systems with friction");
   LibrarySettings settings{problems::defaults(*model), use.parameter};
   library_keys(*model).read(settings, section);
   problem.settings = std::move(settings.values);
@@ -348,7 +352,8 @@ void resolve_system(const ProblemRequest& problem, ordered_json& file) {
   ordered_json& section = file["system"];
   if (problem.model != nullptr)
     return fill(section, library_keys(*problem.model).values({problem.settings, ""}));
-  fill(section, problem.structure->resolved(problem, section));
+  fill(section, problem.structure->resolved(of_one_sector(problem), section));
+  if (file.contains("ring")) fill(file["ring"], ring_values());
   const Excitation& excitation = problem.system.excitation;
   if (excitation.kind != nullptr)
     fill(file["excitation"], excitation_keys(*excitation.kind).values(excitation));

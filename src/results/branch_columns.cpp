@@ -55,7 +55,7 @@ std::vector<Index> Columns::shown() const {
   std::vector<Index> indices;
   std::vector<std::string> names = system_parameter_names(request_.problem.system);
   names.insert(names.begin(), {"eta", "zeta"});
-  names.insert(names.end(), {"P", "R_over_S", "Y", "growth", "worst_wave"});
+  names.insert(names.end(), {"P", "R_over_S", "Y", "Y_max", "slipping", "growth", "worst_wave"});
   for (const std::string& name : names) {
     if (const Index i = find(name); i >= 0) indices.push_back(i);
   }

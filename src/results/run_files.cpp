@@ -10,6 +10,7 @@
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/output.hpp"
+#include "results/sector_table.hpp"
 
 namespace arcslip {
 namespace {
@@ -42,6 +43,7 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
       branches_(folder + "/branches.csv", BranchTable::Detail::full),
       curves_(folder + "/curves.csv", BranchTable::Detail::drawn),
       summary_(folder, beginning(plan)) {
+  if (plan.resolved.contains("ring")) sectors_ = std::make_unique<AtomicFile>(folder + "/sectors.csv");
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
@@ -58,9 +60,16 @@ void RunFiles::take_over(std::size_t branches, const std::string& header) {
   curve_rows_ = curves_.take_over(branches, header);
   for (std::size_t i = 0; i < branches; ++i) summary_.add(summary["branches"][i]);
   count_ = branches;
-  for (AtomicFile* file : {verification_.get(), offsets_.get()}) {
-    if (file != nullptr) take_over_lines(*file, branches);
+  for (AtomicFile* file : further()) take_over_lines(*file, branches);
+}
+
+/// Files that there are beside those of all runs.
+std::vector<AtomicFile*> RunFiles::further() const {
+  std::vector<AtomicFile*> all;
+  for (const auto& file : {verification_.get(), offsets_.get(), sectors_.get()}) {
+    if (file != nullptr) all.push_back(file);
   }
+  return all;
 }
 
 /// Those of so many branches, from the file of that name that stands in the folder.
@@ -68,15 +77,21 @@ void RunFiles::take_over_lines(AtomicFile& file, std::size_t branches) {
   std::ifstream before(file.path(), std::ios::binary);
   std::string line;
   std::getline(before, line);
+  if (&file == sectors_.get() && !line.empty()) {
+    file.write(line + "\n");
+    has_sectors_ = true;
+  }
   while (std::getline(before, line) && std::strtoul(line.c_str(), nullptr, 10) < branches)
     file.write(line + "\n");
 }
 
 void RunFiles::add(const TracedBranch& traced) {
   BranchFile::Rows rows = branches_.rows(count_, traced);
-  const bool many = curve_rows_ + traced.branch.points.size() > most_curve_rows;
+  // Points of whole rings lie close, and what is told of one costs as much as its solution.
+  const bool many = sectors_ != nullptr || curve_rows_ + traced.branch.points.size() > most_curve_rows;
   BranchFile::Rows curve = curves_.rows(count_, many ? traced : as_drawn(traced));
   ordered_json summary = summarize(count_, traced);
+  const std::string of_sectors = sectors_ ? sector_rows(count_, traced) : "";
 
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
@@ -84,8 +99,15 @@ void RunFiles::add(const TracedBranch& traced) {
   curve_rows_ += curve.count;
   branches_.add(std::move(rows));
   curves_.add(std::move(curve));
+  if (sectors_) add_sectors(traced, of_sectors);
   last_ = std::move(summary);
   ++count_;
+}
+
+void RunFiles::add_sectors(const TracedBranch& traced, const std::string& rows) {
+  if (!has_sectors_) sectors_->write(sectors_header(traced));
+  has_sectors_ = true;
+  sectors_->write(rows);
 }
 
 void RunFiles::add_failed(const CaseBranch& request, const std::string& why) {
@@ -135,19 +157,16 @@ void RunFiles::finish(double seconds, bool interrupted) {
   branches_.finish();
   curves_.finish();  // the later one: pictures are drawn from it
   summary_.file().sync();
-  for (const auto& file : {verification_.get(), offsets_.get()}) {
-    if (file != nullptr) file->sync();
-  }
+  for (AtomicFile* file : further()) file->sync();
   std::error_code ignored;
   for (const char* name : {"/verify.csv", "/offsets.csv"}) {  // they belong to other branches
     if (!verification_) std::filesystem::remove(folder_ + name, ignored);
   }
+  if (!sectors_) std::filesystem::remove(folder_ + "/sectors.csv", ignored);
   branches_.commit();
   curves_.commit();
   summary_.file().commit();
-  for (const auto& file : {verification_.get(), offsets_.get()}) {
-    if (file != nullptr) file->commit();
-  }
+  for (AtomicFile* file : further()) file->commit();
 }
 
 }  // namespace arcslip

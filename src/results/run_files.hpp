@@ -1,8 +1,8 @@
 #pragma once
 
 // What `arcslip run` writes: branches.csv, the same as it is drawn in curves.csv, summary.json and, where it
-// is asked for, verify.csv and offsets.csv. Branches go to the disk as they come; the files appear together
-// at the end.
+// is asked for, verify.csv and offsets.csv, of whole rings sectors.csv. Branches go to the disk as they come;
+// the files appear together at the end.
 
 #include <mutex>
 #include <optional>
@@ -46,6 +46,8 @@ class RunFiles {
 
  private:
   void write_summary();
+  void add_sectors(const TracedBranch& traced, const std::string& rows);
+  std::vector<AtomicFile*> further() const;
   void take_over_lines(AtomicFile& file, std::size_t branches);
 
   std::string folder_;
@@ -58,6 +60,8 @@ class RunFiles {
   SummaryFile summary_;
   std::unique_ptr<AtomicFile> verification_;
   std::unique_ptr<AtomicFile> offsets_;  ///< beside it
+  std::unique_ptr<AtomicFile> sectors_;  ///< of a whole ring
+  bool has_sectors_ = false;             ///< whether the header of that is written
   nlohmann::ordered_json last_;          ///< the last branch's summary
   bool verifying_ = false;               ///< whether a verification is not at its end
 };

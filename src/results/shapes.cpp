@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/resonances.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/response/balanced_points.hpp"
 #include "results/atomic_file.hpp"
 #include "results/output_folder.hpp"
@@ -37,6 +38,7 @@ double apart(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[
 }  // namespace
 
 std::string why_no_shapes(const SystemParameters& system) {
+  if (structures_of(system).whole() != nullptr) return "those of whole rings are not written";
   const SectorPair* pair = pair_of(system);
   if (pair == nullptr) return "rods, beams and masses on springs have none";
   if (pair->base().places.empty()) return "system.base has no `coordinates`";

@@ -37,6 +37,7 @@ struct Coordinate {
 
   Index part = 0;         ///< which of its element's coordinates it is
   std::string name = {};  ///< the element's, if it has one
+  Index sector = 0;       ///< of a whole ring the one in which it is
 
   /// Entry of L for a structure, and of G.
   double move(bool is_base) const { return is_base ? base : damper; }

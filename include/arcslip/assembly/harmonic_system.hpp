@@ -42,6 +42,12 @@ struct HarmonicSystem {
   /// The outputs of each order, in which those of the first one come first; empty where it is that alone.
   std::vector<std::vector<ContactOutput>> outputs_of_orders = {};
 
+  /// Of how many sectors contacts and outputs are, in turn; 1 where a wave tells the others.
+  Index sectors = 1;
+  /// Of a whole ring the load's wave, and in each order resonances, which no joined modes are looked for.
+  Index wave_number = 0;
+  std::vector<std::vector<double>> landmarks = {};
+
   /// p: eta is the frequency of this harmonic.
   int periods() const { return orders.front(); }
 

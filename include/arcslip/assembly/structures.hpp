@@ -40,6 +40,8 @@ struct PartModes {
   double tolerance = 0;                 ///< that was asked for
 };
 
+class WholeRing;
+
 /// Base and damper. Immutable but for what is found once and kept; used from several threads.
 class Structures {
  public:
@@ -48,6 +50,14 @@ class Structures {
   /// Both under the wave of `system`, loaded, with its contacts, outputs and lag. Throws
   /// std::invalid_argument.
   virtual ContactSystem wave(const SystemParameters& system) const = 0;
+
+  /// Base or damper under the same wave as its contacts see it and, after them, all of its outputs that
+  /// `wave` has, in their order, as further contacts. Throws std::invalid_argument where it has outputs and
+  /// is no sum of modes.
+  virtual ContactModes seen(const SystemParameters& system, bool is_base) const;
+
+  /// What it is if its contacts are those of all sectors; else null.
+  virtual const WholeRing* whole() const { return nullptr; }
 
   /// The same with a single contact and modes alone, as the response of one unknown takes it; by default made
   /// of `wave`. Throws std::invalid_argument.

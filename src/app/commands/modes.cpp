@@ -8,6 +8,7 @@
 #include "app/wrap.hpp"
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/version.hpp"
+#include "cases/ring_section.hpp"
 #include "keys/printable.hpp"
 #include "results/atomic_file.hpp"
 #include "results/mode_table.hpp"
@@ -35,7 +36,7 @@ ProblemRequest first_problem(const CaseFile& file) {
   if (problem.model != nullptr)
     throw InputError(fmt::format("{}: modes are those of systems with friction, not of {}", file.path(),
                                  problem.model->name));
-  return problem;
+  return of_one_sector(std::move(problem));
 }
 
 int modes(const ModesOptions& options) {

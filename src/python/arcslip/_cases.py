@@ -140,7 +140,8 @@ class Run:
             self._core.write(os.fsdecode(folder))
         elif not (os.path.isdir(folder) and os.path.samefile(self._folder, folder)):
             os.makedirs(folder, exist_ok=True)
-            for name in ("branches.csv", "curves.csv", "summary.json", "verify.csv", "offsets.csv"):
+            for name in ("branches.csv", "curves.csv", "summary.json", "verify.csv", "offsets.csv",
+                         "sectors.csv"):
                 if os.path.exists(os.path.join(self._folder, name)):
                     shutil.copy(os.path.join(self._folder, name), folder)
 

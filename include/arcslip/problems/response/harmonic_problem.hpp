@@ -35,7 +35,7 @@ class HarmonicProblem : public continuation::Problem {
   /// The first border that a solution lies beyond, or -1.
   int crossed_border(const continuation::Guess& at) const;
 
-  /// All but synthesised forces have gradients.
+  /// All but synthesised forces, and some of whole rings, have gradients.
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;
@@ -113,8 +113,17 @@ class HarmonicProblem : public continuation::Problem {
     energy,
     greatest,
     force,
-    reading
+    reading,
+    largest,
+    least,
+    wave,
+    slipping
   };
+  /// Forces have none, and of a whole ring what may be zero.
+  static bool has_gradient(Measure measure) {
+    return measure != Measure::force && measure != Measure::least && measure != Measure::wave &&
+           measure != Measure::slipping;
+  }
   enum class Body { contact, base, damper, output };
   struct Quantity {
     std::string name;         ///< the observable's
@@ -122,6 +131,7 @@ class HarmonicProblem : public continuation::Problem {
     Body of = Body::contact;  ///< of what
     Index which = 0;          ///< contact or output; of an energy or a reading the element
     Index order = 0;          ///< the position of the harmonic, or which reading
+    Index wave = 0;           ///< of motions round a whole ring, +-q
   };
 
   /// Throws std::invalid_argument where base, damper and contacts differ in number.
@@ -130,6 +140,9 @@ class HarmonicProblem : public continuation::Problem {
   /// The quantities of the contacts but the first, of the first in the other harmonics, what an element tells
   /// and all those beside the contacts do, and how fast what elements alone hold drifts.
   void add_further_contacts();
+  /// Of a whole ring, of the contacts of a sector and the outputs: the largest and least amplitudes of all
+  /// sectors, the first contact's by waves, and the part of the contacts that slip.
+  void add_ring();
   void add_other_harmonics();
   void add_readings(Index element, const std::string& suffix);
   void add_further_elements();

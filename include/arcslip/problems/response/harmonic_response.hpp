@@ -108,7 +108,8 @@ class HarmonicResponse : public HarmonicProblem {
     ContactVector free_by_varied;
     ContactMatrix inverse;   // (1 + C_h K)^{-1}, at rest its limit as rigid motions meet no stiffness
     ContactMatrix bordered;  // by rigid motions: [1 + C_0 K, S; S^H K, 0]^{-1}, whose first block it is
-    double weight;           // 1/sqrt(1 + |inverse|^2)
+    double weight;           // 1/sqrt(1 + |inverse|^2), of a whole ring see set_weight
+    ContactVector driven;    // of a whole ring inverse -x0
     Coordinates::Each each;  // work space
     ContactVector f, gap, held, residual;
     ContactMatrix product, turned;
@@ -117,6 +118,8 @@ class HarmonicResponse : public HarmonicProblem {
     const ContactMatrix& solver() const { return bordered.size() > 0 ? bordered : inverse; }
   };
   void set_order(Index which, const Vector& p, const continuation::Regime& regime, Order& order) const;
+  void set_weight(Order& order) const;
+  double weight_slope(Order& order, const ContactMatrix& compliance, const ContactVector& free) const;
   void set_varied(Order& order, double frequency_value, const Vector& p) const;
   void border_by_rigid(Order& order, const Vector& p) const;
   [[nodiscard]] bool remembers_mean(const std::vector<ElementForce>& elements, const Vector& p,
@@ -157,6 +160,7 @@ class HarmonicResponse : public HarmonicProblem {
     return coordinates_.element(e).is_linear(slips(regime, e));
   }
   void add_outputs_in_time();
+  std::vector<double> ring_landmarks(double from, double to) const;
   bool is_odd_;  ///< whether all harmonics are odd
 
   /// Whether there is a response at these parameters.

@@ -1,0 +1,80 @@
+#pragma once
+
+// Base or damper of a whole ring, as its contacts and some further motions in each sector see it.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "arcslip/assembly/whole_ring.hpp"
+#include "arcslip/structure/contact_modes.hpp"
+
+namespace arcslip {
+
+/// Immutable; may be used from several threads.
+class RingPart {
+ public:
+  /// What is the same in all sectors, and what is not.
+  struct Given {
+    Index contacts = 1;  ///< of a sector, the first ones of its ports
+    std::vector<ContactModes>
+        waves;  ///< m = 0..N-1, of the ports of one sector, each with its load times sqrt(N)
+    std::vector<RingChange> changes = {};  ///< of this part
+    Loss loss = {};                        ///< of the changes; its modal part does not count
+    double circular_frequency = two_pi;    ///< w over eta
+  };
+  explicit RingPart(Given given);
+
+  /// Of the N x c contacts under this factor of the load. With a port (>= 0) rows for its motions in all
+  /// sectors follow, and nothing else is filled.
+  ContactReceptance at(double eta, double load, Index port = -1) const;
+
+  /// Of the same, with what the changes take.
+  CycleWork work(double eta, double load, const ContactVector& forces) const;
+
+  /// The modes of the whole as its contacts see it, with their loads.
+  ContactModes modes() const;
+
+ private:
+  /// Motions of all ports of all sectors, ports x N, and compliances between ports of sectors that are
+  /// 0..N-1 apart, a column for each lag: its block, then the derivative of that.
+  struct Tuned {
+    ComplexMatrix entries;
+    ComplexMatrix free;
+    ComplexMatrix free_eta;
+  };
+  Tuned tuned(double eta, double load) const;
+
+  /// D(eta) of all changes, one after the other, with its derivative.
+  struct Stiffness {
+    ComplexMatrix value;
+    ComplexMatrix by_eta;
+  };
+  Stiffness stiffness(double eta) const;
+  /// (D^-1 + B^T C B)^-1 = D (1 + B^T C B D)^-1, with its derivative.
+  Stiffness turned(const Tuned& tuned, double eta) const;
+
+  Index count() const { return std::ssize(given_.waves); }
+  Index place(Index sector, Index port) const { return sector * ports_ + port; }
+  /// Of one port's motion per force on another one, each by `place`.
+  Complex entry(const Tuned& tuned, bool by_eta, Index to, Index from) const {
+    const Index lag = (to / ports_ - from / ports_ + count()) % count();
+    const Index half = by_eta ? ports_ * ports_ : 0;
+    return tuned.entries(half + from % ports_ * ports_ + to % ports_, lag);
+  }
+  /// Rows of C B for ports (sector, port) in a list, and of B^T C as its transpose, since C is symmetric.
+  ComplexMatrix times_rows(const Tuned& tuned, bool by_eta,
+                           const std::vector<std::array<Index, 2>>& places) const;
+  ComplexMatrix between_rows(const Tuned& tuned, bool by_eta) const;
+  ComplexVector of_rows(const ComplexMatrix& motions) const;
+
+  Given given_;
+  Index ports_;
+  bool is_modal_;                                    // whether waves m and N - m differ by a transposition
+  std::vector<Complex> turns_;                       // e^{-2 pi j q/N}
+  ComplexMatrix transform_;                          // e^{-j a_m i}/N
+  std::vector<bool> is_loaded_;                      // of each wave
+  std::vector<std::vector<RingChange::Term>> rows_;  // of all changes
+};
+
+}  // namespace arcslip
