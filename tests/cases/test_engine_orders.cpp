@@ -99,6 +99,23 @@ TEST_CASE("An engine order acts on the nodes as the one N further does, at its o
   CHECK_THAT(seventh_peak, WithinRel(first_peak, 1e-9));
 }
 
+TEST_CASE("All sectors of a whole ring feel engine orders as one sector does", "[excitation][ring]") {
+  const Settings near{"system.harmonics=5", "branch.from=0.086", "branch.to=0.089"};
+  Settings whole = near;
+  whole.push_back("ring.load=\"travelling\"");
+  const Run one("engine_orders", near);
+  const Run all("engine_orders", whole);
+  const BranchPoint alone = landing(one.traced.front());
+  const BranchPoint together = landing(all.traced.front());
+  for (const char* name : {"Y", "Y_h0", "Y_h2", "Y_h3", "Y_h4", "Y_h5", "Y_peak", "beta", "dissipated"}) {
+    INFO(name);
+    CHECK_THAT(value(all.traced.front(), together, name),
+               WithinRel(value(one.traced.front(), alone, name), 1e-9));
+  }
+  CHECK_THAT(value(all.traced.front(), together, "Y_min"),
+             WithinRel(value(all.traced.front(), together, "Y_max"), 1e-9));
+}
+
 TEST_CASE("A ring that turns past a jet is the ring in time, and power comes to nothing",
           "[excitation][numbers]") {
   const std::string jet =
