@@ -112,6 +112,16 @@ TEST_CASE("Y at eta = 4.6 of hardening springs is that of an independent balance
   CHECK_THAT(value_of(problem, branch.points.back(), HarmonicResponse::Y), WithinAbs(published.Y, 2e-6));
 }
 
+TEST_CASE("The upper fold of hardening springs in nine harmonics is the published one", "[cubic_harmonics]") {
+  const HarmonicResponse problem(build_harmonic_system(sprung_rods(odd_up_to(9))));
+  const Branch branch = traced_from(problem, 0.1, between(0.5, 8));
+  REQUIRE(branch.complete());
+  const std::vector<BranchPoint> folds = of_type(branch, PointType::fold);
+  REQUIRE(folds.size() == 2);
+  CHECK_THAT(folds.front().parameters(HarmonicResponse::eta), WithinAbs(4.820, 1e-3));
+  CHECK_THAT(value_of(problem, folds.front(), HarmonicResponse::Y), WithinAbs(1.4872, 1e-4));
+}
+
 TEST_CASE("Derivatives of responses and modes with cubic springs are exact in stick and slip",
           "[cubic_harmonics]") {
   const SystemParameters system = sprung_rods({1, 3, 5});
