@@ -281,7 +281,7 @@ bool RingMotion::expands(const RingState& state, double length) {
   p.conservativeResize(Eigen::NoChange, needed + 1);
   segment_.slip.conservativeResize(Eigen::NoChange, needed + 1);
   segment_.motion.noalias() = ring_.motion * p;
-  return is_summed;
+  return is_summed && p.allFinite();
 }
 
 /// Gives memory that no phase needs the value that belongs to it.
@@ -307,7 +307,10 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
   while (duration - elapsed > 1e-15 * period_) {
     const double wanted = std::min(longest, duration - elapsed);
     double length = wanted;
-    while (!expands(state, length)) length *= 0.5;
+    while (!expands(state, length)) {
+      length *= 0.5;
+      if (length < 1e-14 * period_) throw std::runtime_error("the motion in time grows without bound");
+    }
     longest = length < wanted ? 2 * length : std::min(longest_step_, 4 * longest);
     ++count_.steps;
     const std::vector<Crossing>& crossings = first_crossings(state);
