@@ -24,25 +24,9 @@ ContactModes opposite(const ContactModes& modes) {
 
 /// The same under so many times its load.
 ContactModes loaded(const ContactModes& modes, Complex amplitude) {
-  std::vector<ContactMode> all = modes.modes();
-  for (ContactMode& mode : all) mode.load *= amplitude;
-  const ContactModes modal(modes.contacts(), std::move(all), modes.loss());
-  if (!modes.is_solved()) return modal;
   const double size = std::abs(amplitude);
-  const Complex phase = size > 0 ? amplitude / size : 1;
-  const auto of_load = [modes](double load) {
-    return modes.varied(Variation{.load = load, .loss = modes.loss()});
-  };
-  const auto respond = [=](double eta, double load) {
-    ContactReceptance response = of_load(load * size).at(eta);
-    response.free *= phase;
-    response.free_eta *= phase;
-    return response;
-  };
-  const auto work = [=](double eta, double load, const ContactVector& forces) {
-    return of_load(load * size).work(eta, std::conj(phase) * forces);
-  };
-  return modal.solved_by(respond, 1, work);
+  const ContactModes own = modes.varied(Variation{.load = size, .loss = modes.loss()});
+  return size > 0 ? own.turned(amplitude / size) : own;
 }
 
 void refuse(const std::string& why) { throw std::invalid_argument("WholeRing: " + why); }
