@@ -1,13 +1,12 @@
 #include "assembly/ring_part.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace arcslip {
 namespace {
 
-using Places = std::vector<std::array<Index, 2>>;
+using Places = std::vector<std::array<Index, 2>>;  // sectors with ports
 
 }  // namespace
 
@@ -30,10 +29,12 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
   }
   for (const RingChange& change : given_.changes)
     rows_.insert(rows_.end(), change.of.begin(), change.of.end());
+  for (Index i = 0; i < count() * given_.contacts; ++i)
+    contacts_.push_back({i / given_.contacts, i % given_.contacts});
 }
 
 /// The blocks of all lags between sectors, by a transformation over the waves of all entries at once.
-RingPart::Tuned RingPart::tuned(double eta, double load) const {
+RingPart::Tuned RingPart::tuned(double eta) const {
   const Index n = count();
   const Index entries = ports_ * ports_;
   ComplexMatrix waves(2 * entries, n);  // a column for each wave: its compliance, then the derivative
@@ -57,9 +58,9 @@ RingPart::Tuned RingPart::tuned(double eta, double load) const {
   }
   Tuned sum;
   sum.entries.noalias() = waves * transform_;
-  sum.free.noalias() = (load * std::sqrt(static_cast<double>(n))) * (free.topRows(ports_) * transform_);
-  sum.free_eta.noalias() =
-      (load * std::sqrt(static_cast<double>(n))) * (free.bottomRows(ports_) * transform_);
+  const double size = std::sqrt(static_cast<double>(n));
+  sum.free.noalias() = size * (free.topRows(ports_) * transform_);
+  sum.free_eta.noalias() = size * (free.bottomRows(ports_) * transform_);
   return sum;
 }
 
@@ -122,60 +123,75 @@ ComplexVector RingPart::of_rows(const ComplexMatrix& motions) const {
   return x;
 }
 
-RingPart::Stiffness RingPart::turned(const Tuned& tuned, double eta) const {
-  const Stiffness d = stiffness(eta);
-  const ComplexMatrix c = between_rows(tuned, false);
-  const ComplexMatrix c_eta = between_rows(tuned, true);
-  const Index size = c.rows();
-  const ComplexMatrix factor =
-      (ComplexMatrix::Identity(size, size) + d.value * c).partialPivLu().inverse();  // (1 + D C)^-1
-  Stiffness all;
-  all.value = factor * d.value;
-  all.by_eta.noalias() = -all.value * c_eta * all.value;
-  if (!d.by_eta.isZero(0))
-    all.by_eta += factor * d.by_eta * (ComplexMatrix::Identity(size, size) - c * all.value);
+RingPart::Rows RingPart::rows(const Solved& all, const Places& places) const {
+  Rows found{times_rows(all.tuned, false, places), times_rows(all.tuned, true, places), {}, {}, {}};
+  const ComplexMatrix met = all.changes.value * found.left.transpose();
+  found.held.noalias() = all.factors.solve(met).transpose();
+  found.rate = found.left_eta;
+  found.rate.noalias() -= 0.5 * (found.held * all.between_eta);
+  if (all.changes.by_eta.isZero(0)) return found;
+  found.kept = found.left;
+  found.kept.noalias() -= found.held * all.between;
+  return found;
+}
+
+std::shared_ptr<const RingPart::Solved> RingPart::solved(double eta) const {
+  std::shared_ptr<const Solved> known = last_.load();
+  if (known != nullptr && known->eta == eta) return known;
+  const auto all = std::make_shared<Solved>();
+  all->eta = eta;
+  all->tuned = tuned(eta);
+  if (!rows_.empty()) {
+    all->changes = stiffness(eta);
+    all->between = between_rows(all->tuned, false);
+    all->between_eta = between_rows(all->tuned, true);
+    ComplexMatrix turned = all->changes.value * all->between;
+    turned.diagonal().array() += 1.0;
+    all->factors.compute(turned);
+    all->contacts = rows(*all, contacts_);
+  }
+  last_.store(all);
   return all;
 }
 
 ContactReceptance RingPart::at(double eta, double load, Index port) const {
-  const Index n = count();
-  const Index c = given_.contacts;
-  const Tuned all = tuned(eta, load);
-  Places contacts;
-  for (Index i = 0; i < n * c; ++i) contacts.push_back({i / c, i % c});
-  Places rows = contacts;
+  const std::shared_ptr<const Solved> all = solved(eta);
+  Places places = contacts_;
   if (port >= 0) {
-    rows.clear();
-    for (Index i = 0; i < n; ++i) rows.push_back({i, port});
+    places.clear();
+    for (Index i = 0; i < count(); ++i) places.push_back({i, port});
   }
-  const Index first = port >= 0 ? n * c : 0;
+  const Index columns = std::ssize(contacts_);
+  const Index first = port >= 0 ? columns : 0;
+  const Index size = std::ssize(places);
   ContactReceptance response;
-  response.set_zero(first + std::ssize(rows));
-  for (Index i = 0; i < std::ssize(rows); ++i) {
-    const auto& [sector, of] = rows[static_cast<std::size_t>(i)];
-    response.free(first + i) = all.free(of, sector);
-    response.free_eta(first + i) = all.free_eta(of, sector);
-    for (Index j = 0; j < n * c; ++j) {
-      const Index to = place(j / c, j % c);
-      response.compliance(first + i, j) = entry(all, false, place(sector, of), to);
-      response.compliance_eta(first + i, j) = entry(all, true, place(sector, of), to);
+  response.set_zero(first + size);
+  for (Index i = 0; i < size; ++i) {
+    const auto& [sector, of] = places[static_cast<std::size_t>(i)];
+    response.free(first + i) = load * all->tuned.free(of, sector);
+    response.free_eta(first + i) = load * all->tuned.free_eta(of, sector);
+    for (Index j = 0; j < columns; ++j) {
+      const auto& [to, contact] = contacts_[static_cast<std::size_t>(j)];
+      response.compliance(first + i, j) = entry(all->tuned, false, place(sector, of), place(to, contact));
+      response.compliance_eta(first + i, j) = entry(all->tuned, true, place(sector, of), place(to, contact));
     }
   }
   if (rows_.empty()) return response;
-  const Stiffness g = turned(all, eta);
-  const ComplexMatrix left = times_rows(all, false, rows);
-  const ComplexMatrix left_eta = times_rows(all, true, rows);
-  const ComplexMatrix right = port >= 0 ? times_rows(all, false, contacts) : left;
-  const ComplexMatrix right_eta = port >= 0 ? times_rows(all, true, contacts) : left_eta;
-  const ComplexMatrix held = left * g.value;
-  const ComplexMatrix held_eta = left_eta * g.value + left * g.by_eta;
-  const ComplexVector x = of_rows(all.free);
-  const Index size = std::ssize(rows);
-  response.compliance.block(first, 0, size, n * c) -= held * right.transpose();
-  response.compliance_eta.block(first, 0, size, n * c) -=
-      held_eta * right.transpose() + held * right_eta.transpose();
-  response.free.tail(size) -= held * x;
-  response.free_eta.tail(size) -= held_eta * x + held * of_rows(all.free_eta);
+  const Rows& of_contacts = all->contacts;
+  const Rows own = port >= 0 ? rows(*all, places) : of_contacts;
+  auto compliance = response.compliance.block(first, 0, size, columns);
+  auto compliance_eta = response.compliance_eta.block(first, 0, size, columns);
+  compliance.noalias() -= own.held * of_contacts.left.transpose();
+  compliance_eta.noalias() -= own.rate * of_contacts.held.transpose();
+  compliance_eta.noalias() -= own.held * of_contacts.rate.transpose();
+  const ComplexVector x = load * of_rows(all->tuned.free);
+  const ComplexVector met = all->factors.solve(all->changes.value * x);  // by the changes
+  response.free.tail(size).noalias() -= own.held * x;
+  response.free_eta.tail(size).noalias() -=
+      own.left_eta * met + own.held * (load * of_rows(all->tuned.free_eta) - all->between_eta * met);
+  if (own.kept.size() == 0) return response;
+  compliance_eta.noalias() -= own.kept * (all->changes.by_eta * of_contacts.kept.transpose());
+  response.free_eta.tail(size).noalias() -= own.kept * (all->changes.by_eta * (x - all->between * met));
   return response;
 }
 
@@ -186,12 +202,10 @@ CycleWork RingPart::work(double eta, double load, const ContactVector& forces) c
   for (Index i = 0; i < n * c; ++i) on_ports(i % c, i / c) = forces(i);
   CycleWork sum;
   if (!rows_.empty()) {
-    const Tuned all = tuned(eta, load);
-    Places contacts;
-    for (Index i = 0; i < n * c; ++i) contacts.push_back({i / c, i % c});
-    const ComplexVector x = of_rows(all.free) + times_rows(all, false, contacts).transpose() * forces;
-    const ComplexVector taken = turned(all, eta).value * x;  // what the changes meet the motion with
-    const ComplexVector moved = x - between_rows(all, false) * taken;
+    const std::shared_ptr<const Solved> all = solved(eta);
+    const ComplexVector x = load * of_rows(all->tuned.free) + all->contacts.left.transpose() * forces;
+    const ComplexVector taken = all->factors.solve(all->changes.value * x);  // what the changes meet it with
+    const ComplexVector moved = x - all->between * taken;
     for (Index k = 0; k < x.size(); ++k) {
       for (const RingChange::Term& term : rows_[static_cast<std::size_t>(k)])
         on_ports(term.port, term.sector) -= term.weight * taken(k);

@@ -2,7 +2,9 @@
 
 // Base or damper of a whole ring, as its contacts and some further motions in each sector see it.
 
+#include <Eigen/LU>
 #include <array>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -36,14 +38,14 @@ class RingPart {
   ContactModes modes() const;
 
  private:
-  /// Motions of all ports of all sectors, ports x N, and compliances between ports of sectors that are
-  /// 0..N-1 apart, a column for each lag: its block, then the derivative of that.
+  /// Motions of all ports of all sectors under the load of each wave, ports x N, and compliances between
+  /// ports of sectors that are 0..N-1 apart, a column for each lag: its block, then the derivative of that.
   struct Tuned {
     ComplexMatrix entries;
     ComplexMatrix free;
     ComplexMatrix free_eta;
   };
-  Tuned tuned(double eta, double load) const;
+  Tuned tuned(double eta) const;
 
   /// D(eta) of all changes, one after the other, with its derivative.
   struct Stiffness {
@@ -51,8 +53,30 @@ class RingPart {
     ComplexMatrix by_eta;
   };
   Stiffness stiffness(double eta) const;
-  /// (D^-1 + B^T C B)^-1 = D (1 + B^T C B D)^-1, with its derivative.
-  Stiffness turned(const Tuned& tuned, double eta) const;
+
+  /// Rows of the compliance of the changed whole, C_pc' = C_pc - H_p R^T with R = C_cB, L = C_pB,
+  /// H = L (D^-1 + B^T C B)^-1, and what its derivative takes: with V = L_eta - H B^T C_eta B/2
+  ///   C_pc,eta' = C_pc,eta - V_p H_c^T - H_p V_c^T - K_p D_eta K_c^T,   K = L - H B^T C B,
+  /// and of the motions y' = y - H x with x = B^T y.
+  struct Rows {
+    ComplexMatrix left;      // L
+    ComplexMatrix left_eta;  // its derivative
+    ComplexMatrix held;      // H
+    ComplexMatrix rate;      // V
+    ComplexMatrix kept;      // K, where D changes with eta
+  };
+  /// All that is found once for an eta.
+  struct Solved {
+    double eta;
+    Tuned tuned;
+    Stiffness changes;
+    ComplexMatrix between;                       // B^T C B
+    ComplexMatrix between_eta;                   // its derivative
+    Eigen::PartialPivLU<ComplexMatrix> factors;  // of 1 + D B^T C B
+    Rows contacts;
+  };
+  std::shared_ptr<const Solved> solved(double eta) const;
+  Rows rows(const Solved& all, const std::vector<std::array<Index, 2>>& places) const;
 
   Index count() const { return std::ssize(given_.waves); }
   Index place(Index sector, Index port) const { return sector * ports_ + port; }
@@ -75,6 +99,9 @@ class RingPart {
   ComplexMatrix transform_;                          // e^{-j a_m i}/N
   std::vector<bool> is_loaded_;                      // of each wave
   std::vector<std::vector<RingChange::Term>> rows_;  // of all changes
+  std::vector<std::array<Index, 2>> contacts_;       // sector and port of each
+  mutable std::atomic<std::shared_ptr<const Solved>>
+      last_;  // that was asked for, which outputs ask for again
 };
 
 }  // namespace arcslip
