@@ -69,6 +69,7 @@ void HarmonicProblem::add_ring() {
   if (own > 0 && 2 * own < system_.sectors)
     quantities_.push_back({fmt::format("Y_back_{}", own), Measure::wave, Body::base, 0, 0, -own});
   quantities_.push_back({"slipping", Measure::slipping});
+  quantities_.push_back({"energy_contacts", Measure::losses});
   for (Index i = 0; i < std::ssize(system_.outputs); ++i) add(system_.outputs[at(i)].name, Body::output, i);
 }
 

@@ -44,6 +44,7 @@ class HarmonicProblem::Observation {
       case Measure::least: return of_sectors(quantity).cwiseAbs().minCoeff();
       case Measure::wave: return of_wave(quantity);
       case Measure::slipping: return slipping();
+      case Measure::losses: return losses();
     }
     return 0;
   }
@@ -87,6 +88,7 @@ class HarmonicProblem::Observation {
   const ComplexVector& of_sectors(const Quantity& quantity);
   double of_wave(const Quantity& quantity);
   double slipping() const;
+  double losses() const;
 
   /// What rounding of a motion is measured by: of an output by the parts that it is the
   /// sum of in the first harmonic.

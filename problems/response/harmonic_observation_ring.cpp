@@ -63,4 +63,11 @@ double HarmonicProblem::Observation::slipping() const {
   return count / static_cast<double>(problem_.contacts());
 }
 
+/// Of all contacts, in each of the load's periods.
+double HarmonicProblem::Observation::losses() const {
+  double sum = 0;
+  for (Index i = 0; i < problem_.contacts(); ++i) sum += elements_[at(i)].energy;
+  return sum / system_.periods();
+}
+
 }  // namespace arcslip::problems

@@ -10,7 +10,9 @@
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/cases/runs.hpp"
+#include "arcslip/continuation/problem/one_piece.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/ridges/free_response.hpp"
 #include "arcslip/problems/ridges/response_study.hpp"
@@ -21,9 +23,19 @@ namespace {
 using problems::PreloadRange;
 using problems::PreloadStudy;
 
+bool is_whole(const SystemParameters& system) { return structures_of(system).whole() != nullptr; }
+
 /// Whether closed slopes serve.
 bool is_closed(const StudyCase& study, const StudyDesign& design) {
   return study.objective == "Y" && !needs_balance(design.system, design.harmonics_tolerance);
+}
+
+/// Of a whole ring, whose contacts begin and cease to slip one after the other all along a response, the
+/// pieces taken as one, unless other elements join them less smoothly.
+std::shared_ptr<const continuation::Problem> in_one_piece(
+    const StudyDesign& design, std::shared_ptr<const continuation::Problem> problem) {
+  const bool joins = is_whole(design.system) && !design.system.has_others();
+  return joins ? std::make_shared<const continuation::OnePiece>(std::move(problem)) : problem;
 }
 
 /// The design's response, from where it is known at the range's highest preload.
@@ -36,18 +48,26 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
   if (!subject.failure.empty())
     throw std::runtime_error(fmt::format("no response at eta = {:g}, P = {:g}: {}", design.range.eta_low,
                                          design.range.to, subject.failure));
-  return problems::ResponsePeaks({subject.built.problem, "eta", "P", design.range.eta_low,
-                                  design.range.eta_high, study.objective, subject.guess, study.options});
+  return problems::ResponsePeaks({in_one_piece(design, subject.built.problem), "eta", "P",
+                                  design.range.eta_low, design.range.eta_high, study.objective, subject.guess,
+                                  study.options});
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {
   std::vector<std::string> others;
+  if (is_whole(system)) others.emplace_back("contacts");
   for (std::size_t i = 0; i < system.others.size(); ++i) {
     if (system.others[i].kind->has_memory) others.push_back(element_name(system, i));
   }
-  return {build_wave(system).contacts, static_cast<double>(system.elements),
-          system.preload_growth,       !system.has_others(),
-          !has_own_friction(system),   others};
+  const bool homogeneous = !system.has_others();
+  const bool by_load = !has_own_friction(system);
+  if (is_whole(system)) return {{}, 1, system.preload_growth, homogeneous, by_load, others};
+  return {build_wave(system).contacts,
+          static_cast<double>(system.elements),
+          system.preload_growth,
+          homogeneous,
+          by_load,
+          others};
 }
 
 /// What the base does without damper, which shares no objective with the damper but Y. With elements that may

@@ -27,9 +27,11 @@ ElementKey key_of(const ElementKind& kind, std::size_t i) {
 void read_name(PlacedElement& placed, const TomlSection& section) {
   placed.name = section.text("name", {});
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  const bool is_of_contact = placed.name.rfind("contact_", 0) == 0;  // whose columns end so
+  const bool is_of_contact =  // whose columns end so
+      placed.name.rfind("contact_", 0) == 0 || placed.name == "contacts";
   if (placed.name.empty() || is_of_contact || !std::all_of(placed.name.begin(), placed.name.end(), fits))
-    section.mismatch("name", "a name of letters, digits and _ that does not begin with contact_");
+    section.mismatch(
+        "name", "a name of letters, digits and _ that does not begin with contact_, and is not contacts");
 }
 
 /// The further dofs along which it slides and closes.

@@ -150,7 +150,8 @@ void read_element_changes(const TomlDocument& document, const SystemParameters& 
 
 const KeyTable<RingChangeSettings>& mistuning_keys() {
   const auto read_factors = [](RingChangeSettings& settings, const TomlSection& section) {
-    if (settings.sectors > 0) settings.factors = factors_of_sectors(section, "factors", settings.sectors, 1);
+    if (settings.sectors > 0)
+      settings.factors = factors_of_sectors(section, "factors", settings.sectors, 1, settings.pattern);
   };
   static const KeyTable<RingChangeSettings> keys{
       {ChangeKey::choice("part", &RingChangeSettings::on_base, changed_parts(), "what is mistuned", "",
@@ -204,8 +205,10 @@ std::vector<WeightRow> changed_motions(const TomlDocument& document, bool on_bas
   return all;
 }
 
-void read_changes(const TomlDocument& document, const SystemParameters& system, RingMake& ring) {
+void read_changes(const TomlDocument& document, const SystemParameters& system, Index pattern,
+                  RingMake& ring) {
   RingChangeSettings start;
+  start.pattern = pattern;
   start.sectors = ring.sectors;
   if (ring.structures == nullptr) {
     start.has_elements = true;

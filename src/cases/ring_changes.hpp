@@ -17,6 +17,7 @@ struct RingChangeSettings {
   double mass = 0;                   ///< of one
   std::vector<double> factors = {};  ///< of a mistuning, on these in each sector
   std::vector<Index> after = {};     ///< of a cut: behind which sectors, from 0
+  Index pattern = 1;                 ///< which a scatter gives
   Index sectors = 0;                 ///< N, known beforehand
   Index size = 0;                    ///< dofs that there are, the same; 0: not known
   bool has_elements = false;         ///< whether they are rods and beams
@@ -30,7 +31,9 @@ const KeyTable<RingChangeSettings>& cut_keys();
 /// InputError.
 std::vector<WeightRow> changed_motions(const TomlDocument& document, bool on_base, Index size);
 
-/// Adds all changes to a ring, and what rods and beams are asked for. Throws InputError.
-void read_changes(const TomlDocument& document, const SystemParameters& system, RingMake& ring);
+/// Adds all changes to a ring, scattered ones of one pattern, and what rods and beams are asked for. Throws
+/// InputError.
+void read_changes(const TomlDocument& document, const SystemParameters& system, Index pattern,
+                  RingMake& ring);
 
 }  // namespace arcslip

@@ -45,11 +45,13 @@ std::vector<std::vector<double>> number_rows_of(std::string_view text, const std
   return rows;
 }
 
-std::vector<double> scattered_factors(const TomlSection& section, Index sectors) {
+std::vector<double> scattered_factors(const TomlSection& section, Index sectors, Index pattern) {
   ScatterSettings settings;
   scatter_keys().read(settings, section);
-  std::vector<double> factors =
-      scattered(sectors, static_cast<std::uint64_t>(settings.seed), settings.correlation);
+  if (pattern == 0) return std::vector<double>(static_cast<std::size_t>(sectors), 1.0);
+  const std::uint64_t seed =
+      seed_of_pattern(static_cast<std::uint64_t>(settings.seed), static_cast<std::uint64_t>(pattern));
+  std::vector<double> factors = scattered(sectors, seed, settings.correlation);
   const double variance = std::log1p(settings.scatter * settings.scatter);
   for (double& one : factors) {
     one = settings.law == ScatterSettings::Law::normal ? 1 + settings.scatter * one
@@ -62,6 +64,16 @@ std::vector<double> scattered_factors(const TomlSection& section, Index sectors)
 }
 
 }  // namespace
+
+std::uint64_t seed_of_pattern(std::uint64_t seed, std::uint64_t pattern) {
+  if (pattern == 1) return seed;
+  const auto mixed = [](std::uint64_t x) {  // the finaliser of splitmix64
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
+  };
+  return mixed(mixed(seed + 0x9e3779b97f4a7c15) + pattern);
+}
 
 std::vector<double> scattered(Index count, std::uint64_t seed, double correlation) {
   std::mt19937_64 engine(seed);
@@ -108,12 +120,12 @@ std::vector<std::vector<double>> number_rows(const TomlSection& section, const s
 }
 
 std::vector<double> factors_of_sectors(const TomlSection& section, const std::string& key, Index sectors,
-                                       Index each) {
+                                       Index each, Index pattern) {
   const char* expected = "a list of numbers, a CSV file, or a table { scatter = ..., seed = ... }";
   const toml::node& node = section.require(key, expected);
   std::vector<double> numbers;
   if (node.is_table()) {
-    numbers = scattered_factors(section.inside(key, expected), sectors);
+    numbers = scattered_factors(section.inside(key, expected), sectors, pattern);
   } else if (node.is_string()) {
     for (const std::vector<double>& row : number_rows(section, key))
       numbers.insert(numbers.end(), row.begin(), row.end());

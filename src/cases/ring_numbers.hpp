@@ -14,6 +14,9 @@ namespace arcslip {
 /// normal, and correlated over the distance d between sectors as exp(-(d/L)^2/2), or not at all where L = 0.
 std::vector<double> scattered(Index count, std::uint64_t seed, double correlation);
 
+/// The seed of a pattern of the same scatter: of the pattern 1 the seed itself.
+std::uint64_t seed_of_pattern(std::uint64_t seed, std::uint64_t pattern);
+
 /// A table of numbers scatters about 1.
 struct ScatterSettings {
   /// How factors follow from z.
@@ -35,9 +38,9 @@ const KeyTable<ScatterSettings>& scatter_keys();
 std::vector<std::vector<double>> number_rows(const TomlSection& section, const std::string& key);
 
 /// Factors on something in each of N sectors, all > 0: `each` numbers a sector, which follow one another, or
-/// one for all of its. Throws InputError.
+/// one for all of its. A scatter gives those of one pattern, of the pattern 0 all 1. Throws InputError.
 std::vector<double> factors_of_sectors(const TomlSection& section, const std::string& key, Index sectors,
-                                       Index each);
+                                       Index each, Index pattern);
 
 /// Numbers of sectors, from 1 to N, as they count from 0. Throws InputError.
 std::vector<Index> listed_sectors(const TomlSection& section, const std::string& key, Index sectors);

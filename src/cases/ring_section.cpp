@@ -22,6 +22,7 @@ struct WholeSettings {
   Index sectors = 0;
   Index each = 1;  ///< contacts of a sector
   bool has_elements = false;
+  Index pattern = 1;
   WholeLoad load = {};
   std::vector<double> preload = {};  ///< factors
   std::vector<double> stiffness = {};
@@ -82,7 +83,7 @@ void read_course(WholeSettings& settings, const TomlSection& section) {
 WholeKey factors_key(const char* name, std::vector<double> WholeSettings::*member,
                      const std::string& meaning) {
   const auto read = [=](WholeSettings& settings, const TomlSection& section) {
-    settings.*member = factors_of_sectors(section, name, settings.sectors, settings.each);
+    settings.*member = factors_of_sectors(section, name, settings.sectors, settings.each, settings.pattern);
   };
   return WholeKey::special(name, "list, CSV file or table", meaning, read, otherwise("1 everywhere"));
 }
@@ -95,7 +96,11 @@ const KeyTable<WholeSettings>& whole_keys() {
     return settings.has_elements;
   };
   static const KeyTable<WholeSettings> keys{
-      {WholeKey::special(
+      {WholeKey(
+           "pattern", &WholeSettings::pattern, at_least(0, 9e15),
+           "which of the patterns that a scatter gives: 1 is that of its seed itself, 0 the equal ring, all "
+           "factors 1"),
+       WholeKey::special(
            "load", "text, list or CSV file",
            "round the ring: `travelling` with the wave, `standing` as cos(n theta), `point` on sector 1, "
            "or an amplitude, perhaps with a phase in radians, for each sector",
@@ -129,7 +134,6 @@ void check_ring_use(const TomlDocument& document, const TomlSection& section, co
   const SystemParameters& system = problem.system;
   const auto fail = [&](const std::string& why) { document.fail(section.table(), "ring", why); };
   if (use.is_free) fail("only of forced responses: limit cycles and nonlinear modes are those of one sector");
-  if (use.linear_passive) fail("not of studies, which are of one sector; expected [branch] alone");
   if (system.elements < 2)
     fail("expected a structure of sectors or nodes, as rods, beams, or model = \"sector\" with `sectors`");
   if (system.elements > most_sectors)
@@ -167,8 +171,14 @@ std::vector<KeyWords> ring_words() {
   return words;
 }
 
-void read_ring(const TomlDocument& document, const SystemUse& use, ProblemRequest& problem) {
-  const TomlSection section(document, "ring");
+std::vector<ListedKey> listed_ring_keys(const TomlDocument& document) {
+  if (!document.root().contains("ring")) return {};
+  return {{"pattern", "ring.pattern", ""}};
+}
+
+void read_ring(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
+               ProblemRequest& problem) {
+  const TomlSection section(document, "ring", &replacements);
   if (section.table() == nullptr) return;
   check_ring_use(document, section, use, problem);
   SystemParameters& system = problem.system;
@@ -188,7 +198,7 @@ void read_ring(const TomlDocument& document, const SystemUse& use, ProblemReques
   if (section.has("split") && system.fixed_damper) section.fail("split", "there is no damper that moves");
   RingMake ring{settings.sectors, system.structures, {}, settings.load};
   if (system.structures != nullptr) ring.contacts = system.contacts;
-  read_changes(document, system, ring);
+  read_changes(document, system, settings.pattern, ring);
   system.contacts = contacts.of(system.contacts, settings.sectors);
   system.structures = std::make_shared<const WholeRing>(std::move(ring));
   try {

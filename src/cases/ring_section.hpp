@@ -16,7 +16,11 @@ std::vector<KeyWords> ring_words();
 
 /// Puts the whole ring in the place of the request's one sector, where the section is given. Throws
 /// InputError.
-void read_ring(const TomlDocument& document, const SystemUse& use, ProblemRequest& problem);
+void read_ring(const TomlDocument& document, const Replacements& replacements, const SystemUse& use,
+               ProblemRequest& problem);
+
+/// What for_each may list of it, if it is given.
+std::vector<ListedKey> listed_ring_keys(const TomlDocument& document);
 
 /// The defaults that were taken.
 nlohmann::ordered_json ring_values();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
@@ -64,6 +65,9 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
   return resolved;
 }
 
+/// Whether the designs are whole rings.
+bool is_ring(const StudyCase& study) { return structures_of(study.design(0).system).whole() != nullptr; }
+
 }  // namespace
 
 ProblemRequest StudyDesign::problem() const {
@@ -120,6 +124,7 @@ StudyCase read_study(const CaseFile& file) {
   for (const std::size_t index : source->for_each->samples()) study.design(index);
   if (const auto& scale = study.design(0).physical) study.preload_unit = scale->preload_unit();
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
+  if (is_ring(study)) study.objective = "Y_max";
   if (section.has("objective"))
     study.objective = section.text("objective", tracked_observables(study.design(0).problem(), false));
   study.resolved = resolve(*source, study);

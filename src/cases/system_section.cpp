@@ -88,7 +88,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   complete_orders(section, problem.system);
   check_balanced(document, problem);
   check_waves(section, problem.system);
-  read_ring(document, use, problem);
+  read_ring(document, replacements, use, problem);
 }
 
 Key<LibrarySettings> key_of(const Setting& setting, std::size_t i) {
@@ -240,6 +240,8 @@ std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryMo
   }
   const std::vector<ListedKey> of_load = listed_excitation_keys(document);
   keys.insert(keys.end(), of_load.begin(), of_load.end());
+  const std::vector<ListedKey> of_ring = listed_ring_keys(document);
+  keys.insert(keys.end(), of_ring.begin(), of_ring.end());
   return keys;
 }
 

@@ -117,12 +117,13 @@ class HarmonicProblem : public continuation::Problem {
     largest,
     least,
     wave,
-    slipping
+    slipping,
+    losses
   };
   /// Forces have none, and of a whole ring what may be zero.
   static bool has_gradient(Measure measure) {
     return measure != Measure::force && measure != Measure::least && measure != Measure::wave &&
-           measure != Measure::slipping;
+           measure != Measure::slipping && measure != Measure::losses;
   }
   enum class Body { contact, base, damper, output };
   struct Quantity {

@@ -1,0 +1,57 @@
+#pragma once
+
+// A problem whose pieces join with one derivative, F and dF/du being the same on both sides of every border,
+// taken as a single piece: the regime of a point follows from its unknowns, and a branch passes borders as
+// it finds them, without a point on each. Where dozens of switches change state one after the other, this
+// takes a fraction of the steps; what is lost is where they do.
+
+#include <memory>
+
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Its unknowns, parameters and observables are those of the problem that it is made of. Regimes that it is
+/// given are where the search for a point's own one begins.
+class OnePiece final : public Problem {
+ public:
+  /// Throws std::invalid_argument without a problem.
+  explicit OnePiece(std::shared_ptr<const Problem> pieces);
+
+  /// The regime that no border of is crossed at a point, from `start` on. Where none is found within as many
+  /// rounds as there are switches, the last one that was tried.
+  Regime regime_at(const Vector& u, const Vector& p, Regime start) const;
+
+  Index size() const override { return pieces_->size(); }
+  std::vector<std::string> parameter_names() const override { return pieces_->parameter_names(); }
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                              const Evaluation& out) const override {
+    return pieces_->evaluate(u, p, regime_at(u, p, regime), out);
+  }
+  [[nodiscard]] bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                            const Vector& du, const Vector& dp, Vector& out) const override {
+    return pieces_->second(u, p, regime_at(u, p, regime), w, du, dp, out);
+  }
+  bool sparse() const override { return pieces_->sparse(); }
+  long revision() const override { return pieces_->revision(); }
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    pieces_->scale(u, p, unknowns, parameters);
+  }
+  std::string reason_of_end() const override { return pieces_->reason_of_end(); }
+  std::vector<Observable> observables() const override { return pieces_->observables(); }
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override {
+    pieces_->observe(u, p, regime_at(u, p, regime), values);
+  }
+  double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
+                 Gradient& gradient) const override {
+    return pieces_->observe(u, p, regime_at(u, p, regime), which, gradient);
+  }
+  std::vector<double> landmarks(Index parameter, double from, double to) const override {
+    return pieces_->landmarks(parameter, from, to);
+  }
+
+ private:
+  std::shared_ptr<const Problem> pieces_;
+};
+
+}  // namespace arcslip::continuation
