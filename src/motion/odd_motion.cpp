@@ -76,6 +76,12 @@ Angles OddMotion::turning_points() const {
     third += std::pow(orders_[a], 3) * std::abs(coefficients_(static_cast<Index>(a)));
   Angles found;
   if (!(third > 0)) return found;
+  if (orders_.size() == 1) {
+    const double apart = pi / orders_.front();
+    const double first = std::fmod(-std::arg(coefficients_(0)) / orders_.front(), apart);
+    for (int i = 0; i < orders_.front(); ++i) found.push(first + (first < 0 ? i + 1 : i) * apart);
+    return found;
+  }
   const auto slope = [&](double theta) {
     const Slopes here = slopes(theta);
     return std::pair(here.first, here.second);
