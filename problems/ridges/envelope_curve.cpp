@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace arcslip::problems {
@@ -77,6 +78,33 @@ EnvelopeCurve::EnvelopeCurve(const PreloadStudy& study) {
   if (!study.failure.empty()) throw std::runtime_error(study.failure);
   for (const PeakBranch& branch : study.branches) add(branch);
   resolve();
+}
+
+EnvelopeCurve EnvelopeCurve::over_gaps(const std::vector<PeakBranch>& branches) {
+  EnvelopeCurve curve;
+  std::map<double, const Peak*> highest;  // by preload
+  for (const PeakBranch& branch : branches) {
+    curve.add_stretch(apart(branch.begin(), branch.end()));
+    for (const Peak& peak : branch) {
+      if (peak.is_global) highest.emplace(peak.preload, &peak);
+    }
+  }
+  const std::vector<EnvelopePiece> known = curve.pieces_;
+  for (auto to = highest.begin(); to != highest.end() && ++to != highest.end();) {
+    const Peak& a = *std::prev(to)->second;
+    const Peak& b = *to->second;
+    const double middle = 0.5 * (std::log(a.preload) + std::log(b.preload));
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const EnvelopePiece& piece) {
+      return piece.from.x < middle && middle < piece.to.x;
+    });
+    if (is_known) continue;
+    EnvelopePiece line{node_of(a), node_of(b)};
+    line.from.slope = line.to.slope = (line.to.value - line.from.value) / (line.to.x - line.from.x);
+    curve.pieces_.push_back(line);
+    curve.errors_.push_back(std::abs(line.to.value - line.from.value));
+  }
+  curve.resolve();
+  return curve;
 }
 
 void EnvelopeCurve::add(const PeakBranch& branch) {

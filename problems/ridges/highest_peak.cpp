@@ -287,8 +287,7 @@ bool HighestPeak::settle_flat(Lowest& lowest) {
   return true;
 }
 
-HighestPeak::Lowest HighestPeak::lowest() {
-  constexpr double precise = 1e-6;  // of the range within a factor 2
+HighestPeak::Lowest HighestPeak::lowest(double precise) {
   Lowest lowest;
   // On the way to one minimum a lower one may show, in a valley between samples.
   constexpr int most_valleys = 10;

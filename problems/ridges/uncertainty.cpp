@@ -68,9 +68,10 @@ double Scatter::log_quantile(double u) const {
 
 PeakDistribution::PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity inhomogeneity) {
   if (uncertainty.samples == 0) throw std::invalid_argument("PeakDistribution: no samples");
+  int scattered = 0;
   Uniform uniform(uncertainty.seed);
   const auto logarithms = [&](const Scatter& factor) {
-    if (factor.kind != Scatter::Kind::none) ++factors_;
+    if (factor.kind != Scatter::Kind::none) ++scattered;
     std::vector<double> numbers = uniform.strata(uncertainty.samples);
     for (double& number : numbers) number = factor.log_quantile(number);
     return numbers;
@@ -78,6 +79,7 @@ PeakDistribution::PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity
   const std::vector<double> friction = logarithms(uncertainty.friction);
   const std::vector<double> preload = logarithms(uncertainty.preload);
   const std::vector<double> force = logarithms(uncertainty.force);
+  is_stratified_ = scattered <= 1;
   for (std::size_t i = 0; i < uncertainty.samples; ++i) {
     const double scale = inhomogeneity.has_springs ? 0 : force[i];
     const DesignFactors factors{inhomogeneity.grows ? friction[i] - scale : 0, force[i] - scale,
@@ -87,6 +89,14 @@ PeakDistribution::PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity
   }
   std::sort(samples_.begin(), samples_.end(),
             [](const Sample& a, const Sample& b) { return a.shift < b.shift; });
+}
+
+PeakDistribution PeakDistribution::of_patterns(std::size_t count) {
+  Uncertainty plain;
+  plain.samples = count;
+  PeakDistribution all(plain);
+  all.is_stratified_ = false;
+  return all;
 }
 
 std::vector<DesignFactors> PeakDistribution::factors() const {
@@ -123,7 +133,7 @@ std::vector<PeakDistribution::Quantile> PeakDistribution::quantiles(
   std::vector<Quantile> quantiles;
   for (const double p : probabilities) {
     // The strata of one factor alone hold one sample each.
-    const double deviation = factors_ > 1 ? std::max(1.0, std::sqrt(count * p * (1 - p))) : 1;
+    const double deviation = is_stratified_ ? 1 : std::max(1.0, std::sqrt(count * p * (1 - p)));
     const double below = ranked(all, p * count - deviation);
     const double above = ranked(all, p * count + deviation);
     quantiles.push_back({ranked(all, p * count), 0.5 * (above - below)});
@@ -271,7 +281,44 @@ Sufficient sufficient_family(const PeakDistribution& peaks, Envelopes& envelopes
   }
 }
 
+/// Fills what a distribution tells of the range.
+void read_quantiles(const PeakDistribution& peaks, const EnvelopeFamily& family, const PreloadRange& range,
+                    double optimum, const std::vector<double>& probabilities, UncertainPeaks& result) {
+  const auto quantiles = [&](double preload, const std::vector<double>& of) {
+    return peaks.quantiles(family, std::log(preload), of);
+  };
+  constexpr double p = UncertainPeaks::probability;
+  const double lowest = peaks.lowest_quantile(family, std::log(range.from), std::log(range.to), p);
+  result.preload = std::clamp(std::exp(lowest), range.from, range.to);
+  const PeakDistribution::Quantile best = quantiles(result.preload, {p}).front();
+  result.Y = std::exp(best.log_value);
+  result.sampling_error = best.error;
+  result.Y_nominal = std::exp(quantiles(optimum, {p}).front().log_value);
+  std::vector<double> preloads = row_preloads(range, optimum);
+  preloads.push_back(result.preload);
+  std::sort(preloads.begin(), preloads.end());
+  preloads.erase(std::unique(preloads.begin(), preloads.end()), preloads.end());
+  for (const double preload : preloads) {
+    QuantileRow& row = result.rows.emplace_back(QuantileRow{preload, {}, {}});
+    for (const PeakDistribution::Quantile& quantile : quantiles(preload, probabilities)) {
+      row.Y.push_back(std::exp(quantile.log_value));
+      row.errors.push_back(quantile.error);
+    }
+  }
+}
+
 }  // namespace
+
+UncertainPeaks study_patterns(const PreloadRange& range, const std::vector<EnvelopeFamily::Curve>& rings,
+                              const std::vector<double>& quantiles, double optimum) {
+  const PeakDistribution peaks = PeakDistribution::of_patterns(rings.size());
+  auto next = rings.begin();
+  const EnvelopeFamily family(peaks.factors(), [&next](const DesignFactors&) { return *next++; });
+  UncertainPeaks result;
+  read_quantiles(peaks, family, range, optimum, quantiles, result);
+  for (const EnvelopeFamily::Curve& ring : rings) result.error = std::max(result.error, ring->error());
+  return result;
+}
 
 SystemParameters scaled(SystemParameters system, const DesignFactors& factors) {
   system.preload_growth *= std::exp(factors.log_growth);
@@ -306,7 +353,7 @@ UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& u
   result.failure = nominal.failure;
   if (!nominal.optimum) return result;
   const double optimum = nominal.optimum->peak.preload;
-  std::vector<double> preloads = row_preloads(range, optimum);
+  const std::vector<double> preloads = row_preloads(range, optimum);
   std::optional<Sufficient> found;
   try {
     Envelopes envelopes(range, peaks, envelope_over);
@@ -317,31 +364,13 @@ UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& u
     return result;
   }
 
-  const auto quantiles = [&](double preload, const std::vector<double>& probabilities) {
-    return peaks.quantiles(found->family, std::log(preload), probabilities);
-  };
   constexpr double p = UncertainPeaks::probability;
-  const double lowest = peaks.lowest_quantile(found->family, std::log(range.from), std::log(range.to), p);
-  result.preload = std::clamp(std::exp(lowest), range.from, range.to);
-  const PeakDistribution::Quantile best = quantiles(result.preload, {p}).front();
-  result.Y = std::exp(best.log_value);
-  result.sampling_error = best.error;
-  result.Y_nominal = std::exp(quantiles(optimum, {p}).front().log_value);
+  read_quantiles(peaks, found->family, range, optimum, uncertainty.quantiles, result);
   if (found->coarser) {
     const auto change = [&](double preload, double Y) {
       return std::abs(peaks.log_quantiles(*found->coarser, std::log(preload), {p}).front() - std::log(Y));
     };
     result.error += std::max(change(result.preload, result.Y), change(optimum, result.Y_nominal));
-  }
-  preloads.push_back(result.preload);
-  std::sort(preloads.begin(), preloads.end());
-  preloads.erase(std::unique(preloads.begin(), preloads.end()), preloads.end());
-  for (const double preload : preloads) {
-    QuantileRow& row = result.rows.emplace_back(QuantileRow{preload, {}, {}});
-    for (const PeakDistribution::Quantile& quantile : quantiles(preload, uncertainty.quantiles)) {
-      row.Y.push_back(std::exp(quantile.log_value));
-      row.errors.push_back(quantile.error);
-    }
   }
   return result;
 }

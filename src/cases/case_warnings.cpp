@@ -188,7 +188,7 @@ std::vector<std::string> warnings_of(const CasePlan& plan) {
 std::vector<std::string> warnings_of(const StudyCase& study) {
   Slips slips;
   for (std::size_t i = 0; i < std::min(study.count, most_looked_at); ++i) {
-    const StudyDesign design = study.design(i);
+    const StudyDesign design = study.design(i * study.each());
     const problems::PreloadRange& range = design.range;
     slips.look(design.problem(), {Range(range.eta_low, range.eta_high), Range(range.from, range.to)});
   }

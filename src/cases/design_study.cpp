@@ -119,7 +119,10 @@ void complete_orders(const StudyCase& study, const StudyDesign& design, double p
 
 PreloadStudy study_with(const StudyCase& study, const StudyDesign& design, const std::vector<int>& orders) {
   problems::ResponsePeaks peaks = responses(study, design, orders);
-  return problems::study_response(peaks, design.range, contacts_of(design.system));
+  problems::StudyPrecision precision;
+  if (study.patterns > 0) precision.envelope = 1e-3;  // well below what samples of the scatter tell
+  if (design.pattern > 0) precision.range = 0.05;     // of which nothing is told
+  return problems::study_response(peaks, design.range, contacts_of(design.system), precision);
 }
 
 /// The study in as many harmonics as the response at its own best preload asks for.

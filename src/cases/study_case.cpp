@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "cases/continuation_section.hpp"
@@ -24,6 +26,7 @@ struct Source {
   problems::PreloadRange range;
   std::string preload_as;
   std::string frequency_as;
+  std::size_t patterns = 0;
 
   ProblemRequest problem(const Replacements& replacements) const {
     ProblemRequest problem;
@@ -33,10 +36,18 @@ struct Source {
   }
 
   StudyDesign design(std::size_t index) const {
-    auto [values, replacements, made] = for_each->at(index);
+    auto [values, replacements, made] = for_each->at(index / (patterns + 1));
+    const std::size_t pattern = index % (patterns + 1);
+    const toml::value<std::int64_t> number(static_cast<std::int64_t>(pattern));
+    if (patterns > 0) replacements["ring.pattern"] = {&number, "study.uncertain.patterns", for_patterns()};
+    if (pattern > 0) values["pattern"] = pattern;
     const ProblemRequest problem = this->problem(replacements);
-    return {std::move(values),           problem.system,    problem.geometry, problem.physical,
-            problem.harmonics_tolerance, problem.structure, range_of(problem)};
+    return {std::move(values),           problem.system,    problem.geometry,  problem.physical,
+            problem.harmonics_tolerance, problem.structure, range_of(problem), pattern};
+  }
+
+  const toml::node* for_patterns() const {
+    return TomlSection(*file, "study").table()->at_path("uncertain.patterns").node();
   }
 
   /// In the model's units.
@@ -63,6 +74,36 @@ ordered_json resolve(const Source& source, const StudyCase& study) {
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
   resolved["continuation"].update(continuation_keys().values(study.options));
   return resolved;
+}
+
+/// Adds the patterns of each design.
+void take_patterns(const TomlDocument& document, Source& source, StudyCase& study) {
+  constexpr std::size_t most = 1'000'000'000;
+  const TomlSection section(document, "study.uncertain");
+  if (!document.root().contains("ring"))
+    section.fail("patterns", "only of whole rings, whose sectors scatter as a section [ring] says");
+  if (source.for_each->sets("pattern"))
+    TomlSection(document, "study").fail("for_each", "pattern cannot be listed beside uncertain.patterns");
+  study.patterns = source.patterns = study.uncertain->patterns;
+  if (study.each() > most / study.count)
+    section.fail("patterns", fmt::format("with {} designs there are more than {:g} rings", study.count, 1e9));
+}
+
+/// Refuses patterns that are all the equal ring.
+void check_scatter(const TomlDocument& document, const StudyCase& study) {
+  const SystemParameters equal = study.design(0).system;
+  const SystemParameters other = study.design(1).system;
+  const auto same = [](const SectorContact& a, const SectorContact& b) {
+    return a.stiffness == b.stiffness && a.slip_per_preload == b.slip_per_preload;
+  };
+  const bool alike = std::equal(equal.contacts.begin(), equal.contacts.end(), other.contacts.begin(), same) &&
+                     structures_of(equal).whole()->make().changes.size() ==
+                         structures_of(other).whole()->make().changes.size();
+  if (alike)
+    TomlSection(document, "study.uncertain")
+        .fail("patterns",
+              "nothing in [ring] scatters: expected { scatter = ... } of preload, friction, "
+              "stiffness or mistuning");
 }
 
 /// Whether the designs are whole rings.
@@ -118,10 +159,12 @@ StudyCase read_study(const CaseFile& file) {
   }
   study.keys = source->for_each->keys();
   study.count = source->for_each->count();
+  if (study.uncertain && study.uncertain->patterns > 0) take_patterns(document, *source, study);
   study.design = [source](std::size_t index) { return source->design(index); };
   // Each key's rule is an interval that at most the largest value of another key narrows; what a combination
   // beyond the samples may still be, sizes that a double does not hold, ends the study when it is met.
-  for (const std::size_t index : source->for_each->samples()) study.design(index);
+  for (const std::size_t index : source->for_each->samples()) study.design(index * study.each());
+  if (study.patterns > 0) check_scatter(document, study);
   if (const auto& scale = study.design(0).physical) study.preload_unit = scale->preload_unit();
   source->problem(source->for_each->lacking().replacements);  // values that for_each takes the place of
   if (is_ring(study)) study.objective = "Y_max";

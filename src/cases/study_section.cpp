@@ -45,7 +45,8 @@ Key<Uncertainty> factor(const std::string& name, Scatter Uncertainty::*member, c
     if (given.has("lognormal") == given.has("uniform"))
       section.fail(name, "expected { lognormal = ... } or { uniform = [...] }");
   };
-  return Key<Uncertainty>::table(name, member, scatter_keys(), "at least one of mu, preload and force",
+  return Key<Uncertainty>::table(name, member, scatter_keys(),
+                                 "at least one of mu, preload and force, or patterns of a whole ring",
                                  "a table", "distribution of the factor on its nominal value", unresolved,
                                  then(check), otherwise("1"), term...);
 }
@@ -56,20 +57,33 @@ void check_quantiles(const Uncertainty& uncertainty, const TomlSection& section)
     section.mismatch("quantiles", "an array of rising numbers > 0 and < 1");
 }
 
+void check_patterns(const Uncertainty& uncertainty, const TomlSection& section) {
+  for (const char* other : {"mu", "preload", "force", "samples", "seed"}) {
+    if (uncertainty.patterns > 0 && section.has(other))
+      section.fail(other, "not beside patterns, which the seeds in [ring] give");
+  }
+}
+
 }  // namespace
 
 const KeyTable<Uncertainty>& uncertain_keys() {
   using UncertainKey = Key<Uncertainty>;
   static const KeyTable<Uncertainty> keys{
       {factor("mu", &Uncertainty::friction,
-              needed("1; one of the three is needed", lacks("preload", "force"))),
+              needed("1; one of these three, or patterns, is needed", lacks("preload", "force", "patterns"))),
        factor("preload", &Uncertainty::preload), factor("force", &Uncertainty::force),
        UncertainKey("samples", &Uncertainty::samples, within(100, 1e6, " >= 100 and <= 1e6"),
                     "of a Latin hypercube"),
        UncertainKey("seed", &Uncertainty::seed, at_least(0),
                     "the same one gives the same samples everywhere"),
        UncertainKey("quantiles", &Uncertainty::quantiles, inside(0, 1),
-                    "of the highest peak, at every preload", then(check_quantiles))}};
+                    "of the highest peak, at every preload", then(check_quantiles)),
+       UncertainKey("patterns", &Uncertainty::patterns, within(10, 1e6, " >= 10 and <= 1e6"),
+                    "of whole rings: so many are made as `[ring]` scatters, and nothing else is sampled",
+                    otherwise("none"), then(check_patterns), resolved([](const Uncertainty& uncertainty) {
+                      return uncertainty.patterns > 0 ? nlohmann::ordered_json(uncertainty.patterns)
+                                                      : nlohmann::ordered_json();
+                    }))}};
   return keys;
 }
 

@@ -176,6 +176,7 @@ std::string describe(const problems::Scatter& scatter) {
 }
 
 std::string describe(const problems::Uncertainty& uncertainty) {
+  if (uncertainty.patterns > 0) return fmt::format("{} patterns of each whole ring", uncertainty.patterns);
   return fmt::format("scatter of mu: {}; of the preload: {}; of the force: {}; {} samples, seed {}",
                      describe(uncertainty.friction), describe(uncertainty.preload),
                      describe(uncertainty.force), uncertainty.samples, uncertainty.seed);
@@ -201,7 +202,7 @@ void check_study(const CaseFile& file, CaseCheck& check) {
     }
   }
   for (const std::size_t i : {std::size_t{0}, study.count - 1}) {
-    const StudyDesign design = study.design(i);
+    const StudyDesign design = study.design(i * study.each());
     const ProblemRequest problem = design.problem();
     file.named("system", [&] { build(problem); });
     text += fmt::format("design {}{}{}\n  {}\n", i, design.values.empty() ? "" : ": ",

@@ -97,7 +97,10 @@ void Statement::write_csv(int column, std::string& row) const {
     case SQLITE_NULL: row += "nan"; return;
     default: break;
   }
-  const std::string value = text(column);
+  append_csv(text(column), row);
+}
+
+void append_csv(const std::string& value, std::string& row) {
   if (value.find_first_of(",\"\n") == std::string::npos) {
     row += value;
     return;

@@ -78,4 +78,7 @@ class Database {
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> connection_;
 };
 
+/// Appends a text as it stands in a CSV file, in quotes where it needs them.
+void append_csv(const std::string& value, std::string& row);
+
 }  // namespace arcslip

@@ -32,8 +32,8 @@ class StudyExtras {
            const problems::UncertainPeaks* uncertain);
 
   bool has_harmonics() const { return has_harmonics_; }
-  bool has_robust() const { return study_.uncertain.has_value(); }
-  bool has_quantiles() const { return study_.uncertain && study_.sweep; }
+  bool has_robust() const { return study_.uncertain && study_.patterns == 0; }
+  bool has_quantiles() const { return has_robust() && study_.sweep; }
 
   /// Columns in SI units, none of a study without them, and what joins `units` to designs d.
   std::vector<ExtraColumn> optimum_columns() const;

@@ -57,7 +57,7 @@ std::vector<HarmonicsCheck> check_best_preloads(const StudyCase& study, const St
   std::vector<HarmonicsCheck> checks;
   for (const StoredDesign& stored : chosen) {
     if (!go_on()) break;
-    const StudyDesign design = study.design(stored.curve);
+    const StudyDesign design = study.design(stored.item);
     HarmonicsCheck check = check_harmonics(study, design, orders_of(stored, design), stored.preload);
     check.curve = stored.curve;
     checks.push_back(std::move(check));
@@ -129,7 +129,7 @@ ordered_json harmonics_of(const StudyCase& study, const StudyStore& store) {
   ordered_json list = ordered_json::array();
   store.visit(StudyStore::Which::all, [&](const StoredDesign& stored) {
     if (!stored.harmonics.empty())
-      list.push_back({{"curve", stored.curve}, {"orders", orders_of(stored, study.design(stored.curve))}});
+      list.push_back({{"curve", stored.curve}, {"orders", orders_of(stored, study.design(stored.item))}});
     return true;
   });
   return list;

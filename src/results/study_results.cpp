@@ -10,6 +10,7 @@
 
 #include "arcslip/version.hpp"
 #include "results/atomic_file.hpp"
+#include "results/pattern_results.hpp"
 #include "results/summary_file.hpp"
 
 namespace arcslip {
@@ -37,7 +38,7 @@ std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store
   std::vector<std::size_t> without_resonance, at_end;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
     if (design.kind == "failed") return true;
-    const problems::PreloadRange own = is_same ? range : study.design(design.curve).range;
+    const problems::PreloadRange own = is_same ? range : study.design(design.item).range;
     const bool on_edge = design.free_eta == own.eta_low || design.free_eta == own.eta_high;
     if (on_edge) without_resonance.push_back(design.curve);
     if (design.kind == "end") at_end.push_back(design.curve);
@@ -61,15 +62,15 @@ std::vector<std::string> remarks(const StudyCase& study, const StudyStore& store
 ordered_json summarize(const StudyCase& study, const StudyStore& store, const StudyWork& work) {
   ordered_json failed = ordered_json::array();
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
-    failed.push_back({{"curve", design.curve},
-                      {"values", study.design(design.curve).values},
-                      {"failure", design.failure}});
+    failed.push_back(
+        {{"curve", design.curve}, {"values", study.design(design.item).values}, {"failure", design.failure}});
     return true;
   });
   return {{"arcslip", release},
           {"title", study.title},
           {"case", study.resolved},
           {"designs", study.count},
+          {"patterns", study.patterns},
           {"failed", failed},
           {"harmonics", harmonics_of(study, store)},
           {"more_harmonics", to_json(work.checks)},
@@ -99,6 +100,13 @@ void write_results(const std::string& folder, const StudyCase& study, const Stud
   if (study.sweep) write("sweep.csv", [&](const Sink& sink) { store.write_sweep(sink); });
   if (store.has_quantiles()) write("quantiles.csv", [&](const Sink& sink) { store.write_quantiles(sink); });
   if (store.has_robust()) write("robust.csv", [&](const Sink& sink) { store.write_robust(sink); });
+  if (study.patterns > 0) {
+    const std::vector<DesignPatterns> designs = design_patterns(study, store);
+    write("patterns.csv", [&](const Sink& sink) { store.write_patterns(sink); });
+    write("robust.csv", [&](const Sink& sink) { write_pattern_robust(study, designs, sink); });
+    if (study.sweep)
+      write("quantiles.csv", [&](const Sink& sink) { write_pattern_quantiles(study, designs, sink); });
+  }
   write("optimum.csv", [&](const Sink& sink) { store.write_optimum(sink); });
   write("summary.json", [&](const Sink& sink) {
     ordered_json summary = summarize(study, store, work);
@@ -121,7 +129,7 @@ std::string study_table(const StudyCase& study, const StudyStore& store, const S
   text += "  kind\n";
   std::size_t rows = 0;
   store.visit(StudyStore::Which::all, [&](const StoredDesign& design) {
-    const StudyDesign made = study.design(design.curve);
+    const StudyDesign made = study.design(design.item);
     text += fmt::format("{:>6}", design.curve);
     for (const auto& [key, value] : made.values.items())
       text += fmt::format(" {:>{}}", shown(value), width(key));

@@ -8,12 +8,33 @@
 
 namespace arcslip {
 
+namespace {
+
+/// Of the branches the stretches on which they are the highest, with a point more on both sides.
+void keep_highest(problems::PreloadStudy& study) {
+  std::vector<problems::PeakBranch> kept;
+  for (const problems::PeakBranch& branch : study.branches) {
+    bool goes_on = false;
+    for (std::size_t i = 0; i < branch.size(); ++i) {
+      const bool counts = branch[i].is_global || (i > 0 && branch[i - 1].is_global) ||
+                          (i + 1 < branch.size() && branch[i + 1].is_global);
+      if (counts && !goes_on) kept.emplace_back();
+      if (counts) kept.back().push_back(branch[i]);
+      goes_on = counts;
+    }
+  }
+  study.branches = std::move(kept);
+}
+
+}  // namespace
+
 FinishedDesign study_design(const StudyCase& study, std::size_t curve) {
   StudyDesign design = study.design(curve);
   FinishedDesign finished{curve, std::move(design.values), {}, {}};
   try {
     finished.result = study_preload(study, design);
-    if (study.uncertain && finished.result.failure.empty())
+    if (design.pattern > 0) keep_highest(finished.result);
+    if (study.uncertain && study.patterns == 0 && finished.result.failure.empty())
       finished.uncertain = study_uncertainty(study, design, finished.result);
   } catch (const std::bad_alloc&) {
     throw;  // no property of the design

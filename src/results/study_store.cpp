@@ -74,8 +74,8 @@ const std::vector<ExtraColumn> sweep_columns = {{"curve", "s.curve"},
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
 
 /// The column of a design that has its number, and those of for_each.
-std::vector<ExtraColumn> key_columns(const std::vector<std::string>& keys) {
-  std::vector<ExtraColumn> columns = {{"curve", "d.curve"}};
+std::vector<ExtraColumn> key_columns(const std::vector<std::string>& keys, std::size_t each) {
+  std::vector<ExtraColumn> columns = {{"curve", fmt::format("d.curve/{}", each)}};
   for (const std::string& key : keys) columns.push_back({key, "d." + quoted(key)});
   return columns;
 }
@@ -101,7 +101,7 @@ void create(Database& database, const StudyCase& study) {
   database.prepare("INSERT INTO study VALUES (?, ?, ?, NULL)")
       .bind(release)
       .bind(study.resolved.dump())
-      .bind(static_cast<std::int64_t>(study.count))
+      .bind(static_cast<std::int64_t>(study.items()))
       .run();
   database.prepare("UPDATE study SET checksum = ?").bind(input_checksum(database)).run();
   database.execute("COMMIT");
@@ -175,6 +175,9 @@ void bind_failed(Statement& row, double free_Y) {
   bind_nothing(row, static_cast<int>(optimum_columns.size()) - 8);
 }
 
+/// The equal rings among designs that have patterns.
+std::string of_equal_rings(std::size_t each) { return fmt::format(" WHERE d.curve % {} = 0", each); }
+
 /// All rows of a query as CSV, below the names of its columns.
 void write_table(const Database& database, const std::vector<ExtraColumn>& columns, const std::string& tables,
                  const Sink& sink) {
@@ -204,8 +207,9 @@ StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool r
     : folder_(folder),
       path_(folder + "/study.sqlite"),
       keys_(study.keys),
-      count_(study.count),
-      sweep_(study.sweep),
+      count_(study.items()),
+      each_(study.each()),
+      sweep_(study.sweep || study.patterns > 0),
       extras_(study) {
   if (resume && is_there(path_)) {
     check_same(study);
@@ -240,7 +244,7 @@ void StudyStore::begin(const StudyCase& study) {
   }
   // What the former study gave is no longer what the folder holds.
   forget_study(folder_);
-  for (const char* name : {"optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv"})
+  for (const char* name : {"optimum.csv", "sweep.csv", "robust.csv", "quantiles.csv", "patterns.csv"})
     remove(folder_ + "/" + name);
 }
 
@@ -262,7 +266,7 @@ void StudyStore::check_same(const StudyCase& study) const {
     if (!other.empty()) refuse(fmt::format("it was begun with another {}", other));
     Database model;
     create(model, study);
-    const std::string wrong = damage(database, model, static_cast<std::int64_t>(study.count));
+    const std::string wrong = damage(database, model, static_cast<std::int64_t>(study.items()));
     if (!wrong.empty()) refuse(wrong);
   } catch (const NoDatabase&) {
     refuse("it holds no study");
@@ -337,33 +341,35 @@ void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&
       robust ? "r.P, r.Y/d.Y_nd_max" : "NULL, NULL", extras_.has_harmonics() ? "h.orders" : "''",
       extras_.has_harmonics() ? "LEFT JOIN harmonics h ON h.curve = d.curve" : "",
       robust ? "LEFT JOIN robust r ON r.curve = d.curve" : "",
-      which == Which::failed ? "WHERE d.failure <> ''" : ""));
+      which == Which::failed ? "WHERE d.failure <> ''" : of_equal_rings(each_)));
   while (row.step()) {
-    if (!visitor({static_cast<std::size_t>(row.integer(0)), row.text(1), row.text(2), row.real(3),
-                  row.real(4), row.real(5), row.real(6), row.real(7), row.real(8), row.real(9),
-                  row.text(10)}))
+    const auto item = static_cast<std::size_t>(row.integer(0));
+    if (!visitor({item / each_, item, row.text(1), row.text(2), row.real(3), row.real(4), row.real(5),
+                  row.real(6), row.real(7), row.real(8), row.real(9), row.text(10)}))
       return;
   }
 }
 
 void StudyStore::write_optimum(const Sink& sink) const {
-  std::vector<ExtraColumn> columns = key_columns(keys_);
+  std::vector<ExtraColumn> columns = key_columns(keys_, each_);
   for (const char* name : optimum_columns) columns.push_back({name, fmt::format("d.{}", name)});
   for (const ExtraColumn& column : extras_.optimum_columns()) columns.push_back(column);
-  write_table(*database_, columns, "designs d" + extras_.join_units() + " ORDER BY d.curve", sink);
+  write_table(*database_, columns,
+              "designs d" + extras_.join_units() + of_equal_rings(each_) + " ORDER BY d.curve", sink);
 }
 
 void StudyStore::write_sweep(const Sink& sink) const {
   std::vector<ExtraColumn> columns = sweep_columns;
+  columns.front().value = fmt::format("s.curve/{}", each_);
   for (const ExtraColumn& column : extras_.sweep_columns()) columns.push_back(column);
   write_table(*database_, columns,
               "sweep s CROSS JOIN designs d ON d.curve = s.curve" + extras_.join_units() +
-                  " ORDER BY s.curve, s.peak_branch, s.point",
+                  of_equal_rings(each_) + " ORDER BY s.curve, s.peak_branch, s.point",
               sink);
 }
 
 void StudyStore::write_robust(const Sink& sink) const {
-  std::vector<ExtraColumn> columns = key_columns(keys_);
+  std::vector<ExtraColumn> columns = key_columns(keys_, each_);
   for (const ExtraColumn& column : extras_.robust_columns()) columns.push_back(column);
   write_table(
       *database_, columns,
@@ -375,6 +381,34 @@ void StudyStore::write_quantiles(const Sink& sink) const {
               "quantiles q CROSS JOIN designs d ON d.curve = q.curve" + extras_.join_units() +
                   " ORDER BY q.curve, q.point",
               sink);
+}
+
+void StudyStore::write_patterns(const Sink& sink) const {
+  std::vector<ExtraColumn> columns = key_columns(keys_, each_);
+  columns.push_back({"pattern", fmt::format("d.curve % {}", each_)});
+  for (const char* name : {"P_opt", "eta_opt", "Y_opt", "kind"})
+    columns.push_back({name, fmt::format("d.{}", name)});
+  write_table(*database_, columns, "designs d ORDER BY d.curve", sink);
+}
+
+std::vector<problems::PeakBranch> StudyStore::branches(std::size_t curve) const {
+  Statement row = database_->prepare(
+      fmt::format("SELECT peak_branch, P, Y_max, by_P, is_global, site FROM sweep WHERE curve = {} ORDER BY "
+                  "peak_branch, point",
+                  curve));
+  std::vector<problems::PeakBranch> all;
+  while (row.step()) {
+    if (static_cast<std::size_t>(row.integer(0)) == all.size()) all.emplace_back();
+    Peak peak;
+    peak.preload = row.real(1);
+    peak.Y = row.real(2);
+    peak.sensitivity.preload = row.real(3);
+    peak.is_global = row.integer(4) != 0;
+    peak.site = row.text(5) == to_string(problems::PeakSite::stick) ? problems::PeakSite::stick
+                                                                    : problems::PeakSite::slip;
+    all.back().push_back(peak);
+  }
+  return all;
 }
 
 void StudyStore::tidy() {

@@ -20,7 +20,8 @@ namespace arcslip {
 
 /// What a table on the screen shows of a design.
 struct StoredDesign {
-  std::size_t curve = 0;
+  std::size_t curve = 0;      ///< which of the designs
+  std::size_t item = 0;       ///< which of the study's items, that and a pattern of it
   std::string kind;           ///< of the optimum, or "failed"
   std::string failure;        ///< why, or empty
   double preload = 0;         ///< P_opt
@@ -49,7 +50,13 @@ class StudyStore {
   bool has_robust() const { return extras_.has_robust(); }
   bool has_quantiles() const { return extras_.has_quantiles(); }
 
+  /// Of a study of patterns, for the file of the same name and those of their quantiles.
+  void write_patterns(const Sink& sink) const;
+  /// The stored peaks of one of the designs.
+  std::vector<problems::PeakBranch> branches(std::size_t curve) const;
+
   enum class Which { all, failed };
+  /// Which designs: of patterns the equal rings and no others, or all that failed.
   /// In the order of the designs, until the visitor returns false.
   void visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const;
 
@@ -72,6 +79,7 @@ class StudyStore {
   std::string path_;
   std::vector<std::string> keys_;
   std::size_t count_;
+  std::size_t each_;  // rings of a design
   bool sweep_;
   StudyExtras extras_;
   std::int64_t run_ = 0;

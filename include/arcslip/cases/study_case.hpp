@@ -21,6 +21,7 @@ struct StudyDesign {
   std::optional<double> harmonics_tolerance = {};  ///< where harmonics are added as the best preload asks for
   const StructureKind* structure = nullptr;        ///< what base and damper are
   problems::PreloadRange range = {};               ///< that is swept, with the window
+  std::size_t pattern = 0;                         ///< of those of a whole ring, 0 being the equal one
 
   /// Its forced response.
   ProblemRequest problem() const;
@@ -40,7 +41,12 @@ struct StudyCase {
   std::optional<problems::Uncertainty> uncertain;  ///< what scatters, if anything does
   std::string preload_unit = {};                   ///< of designs in SI units, as PhysicalScale has it; or ""
   std::size_t count = 1;                           ///< of designs
-  std::function<StudyDesign(std::size_t)> design;  ///< the i-th
+  std::size_t patterns = 0;  ///< of whole rings: how many of each design are made, besides the equal ring
+  std::function<StudyDesign(std::size_t)> design;  ///< the i-th item
+
+  /// What is studied by itself: a design or, of one with patterns, the equal ring and after it each of them.
+  std::size_t each() const { return patterns + 1; }
+  std::size_t items() const { return count * each(); }
 };
 
 /// Checks the whole file, with all of its designs. Throws InputError.

@@ -45,11 +45,17 @@ std::string progress(std::size_t before, const StudyWork& work, std::size_t coun
                             duration(static_cast<double>(count - done) / work.rate()));
 }
 
+std::string designs_in_words(const StudyCase& study) {
+  const std::string designs = plural(study.count, "design");
+  return study.patterns > 0 ? fmt::format("{} of {} patterns", designs, study.patterns) : designs;
+}
+
 /// The tables beside optimum.csv.
 std::string list_of_files(const StudyCase& study) {
   std::string files;
   if (study.sweep) files += "sweep.csv, ";
   if (study.uncertain) files += study.sweep ? "robust.csv, quantiles.csv, " : "robust.csv, ";
+  if (study.patterns > 0) files += "patterns.csv, ";
   return files;
 }
 
@@ -58,7 +64,7 @@ std::size_t report_failures(const StudyCase& study, const StudyStore& store) {
   std::size_t failures = 0;
   store.visit(StudyStore::Which::failed, [&](const StoredDesign& design) {
     ++failures;
-    const std::string values = arcslip::describe(study.design(design.curve).values);
+    const std::string values = arcslip::describe(study.design(design.item).values);
     complain(fmt::format("arcslip: design {}{}: {}", design.curve, values.empty() ? "" : " (" + values + ")",
                          design.failure));
     return true;
@@ -80,10 +86,10 @@ int conclude(const StudyOptions& options, const StudyCase& study, const std::str
   write_results(folder, study, store, work);
   store.tidy();
   if (!options.quiet) {
-    const std::size_t before = study.count - work.computed;
+    const std::size_t before = study.items() - work.computed;
     print((study.title.empty() ? "" : printable(study.title) + "\n\n") + study_table(study, store, work) +
           fmt::format("\n{}, {:.3g} s, {:.3g} a second{}: {}/optimum.csv, {}summary.json\n",
-                      plural(study.count, "design"), work.seconds, work.rate(),
+                      designs_in_words(study), work.seconds, work.rate(),
                       before > 0 ? fmt::format(" ({} were done before)", before) : "", folder,
                       list_of_files(study)) +
           answer(folder, study));
@@ -98,11 +104,11 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
   const OutputFolder held(folder);
   StudyStore store(folder, study, options.resume);
   PendingDesigns pending(store.finished());
-  const std::size_t before = study.count - pending.left();
+  const std::size_t before = study.items() - pending.left();
   StudyWork work;
   const auto say_how_far = [&] {
     complain(fmt::format("arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}",
-                         before + work.computed, study.count, folder));
+                         before + work.computed, study.items(), folder));
   };
   const BeforeTheEnd finish_by_itself({});
   {
@@ -120,12 +126,12 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
         },
         [&] {
           work.seconds = seconds_since(start);
-          line.show([&] { return progress(before, work, study.count); });
+          line.show([&] { return progress(before, work, study.items()); });
           return !interrupted();
         });
   }
   work.seconds = seconds_since(start);
-  if (before + work.computed == study.count) return conclude(options, study, folder, store, work);
+  if (before + work.computed == study.items()) return conclude(options, study, folder, store, work);
   say_how_far();
   return status::incomplete_branch;
 }

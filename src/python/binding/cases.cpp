@@ -100,7 +100,7 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
   const OutputFolder held(options.folder);
   StudyStore store(options.folder, study, options.resume);
   PendingDesigns pending(store.finished());
-  const std::size_t before = study.count - pending.left();
+  const std::size_t before = study.items() - pending.left();
   StudyWork work;
   {
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
@@ -112,12 +112,12 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
           ++work.computed;
         },
         [&] {
-          return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.count); });
+          return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.items()); });
         });
   }
   work.seconds = seconds_since(start);
-  StudyOutcome outcome{interruption.is_stopped(), before + work.computed, study.count, {}, {}};
-  if (outcome.done < study.count) {
+  StudyOutcome outcome{interruption.is_stopped(), before + work.computed, study.items(), {}, {}};
+  if (outcome.done < study.items()) {
     store.tidy();
     return outcome;
   }

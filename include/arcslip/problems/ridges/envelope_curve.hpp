@@ -36,6 +36,10 @@ class EnvelopeCurve {
   /// The highest peaks of a study that is whole. Throws std::runtime_error for others.
   explicit EnvelopeCurve(const PreloadStudy& study);
 
+  /// The highest of all peaks of branches, which may leave gaps where one begins between two preloads: there
+  /// a line leads from the highest one to the next, of which all that it rises or falls by is its error.
+  static EnvelopeCurve over_gaps(const std::vector<PeakBranch>& branches);
+
   double from() const { return spans_.front().from; }  ///< in x
   double to() const { return spans_.back().to; }       ///< the same
 
@@ -67,6 +71,8 @@ class EnvelopeCurve {
   std::vector<double> places_wanted(double tolerance) const;
 
  private:
+  EnvelopeCurve() = default;
+
   struct Span {
     double from;
     double to;

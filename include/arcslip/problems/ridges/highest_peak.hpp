@@ -30,8 +30,9 @@ class HighestPeak {
     double low = 0;                    ///< M <= M(x) + ln 2 from here, in x, ...
     double high = 0;                   ///< ... to here; an end of the range where it holds beyond it
   };
-  /// Takes further samples as it needs them. Throws std::runtime_error where a response cannot be traced.
-  Lowest lowest();
+  /// Takes further samples as it needs them, the ends of the range within a factor 2 being known to `precise`
+  /// in x. Throws std::runtime_error where a response cannot be traced.
+  Lowest lowest(double precise = 1e-6);
 
   /// Takes samples where two peaks change places as the highest.
   void settle_exchanges();

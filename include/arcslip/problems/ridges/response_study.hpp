@@ -19,11 +19,17 @@ struct StudiedContacts {
   std::vector<std::string> others = {};  ///< names of the elements beside these that rub
 };
 
+/// How well a study knows what lies between the preloads at which it solves the response.
+struct StudyPrecision {
+  double envelope = 0;  ///< of ln Y_max by cubics between them; 0: as well as the optimum asks for
+  double range = 1e-6;  ///< of the preloads between which Y_max stays within a factor 2, relative
+};
+
 /// The peaks of the response, over eta, as P varies over the range. Of PreloadStudy `free_eta`, `free_Y` and
 /// the optimum's `damping` are left to be filled in; sensitivities to mass ratio and frequency ratio are nan.
 /// Births and deaths of peaks are known to the distance of preloads, all else is located. What cannot be
 /// traced is told by `failure`.
 PreloadStudy study_response(ResponsePeaks& responses, const PreloadRange& range,
-                            const StudiedContacts& contacts);
+                            const StudiedContacts& contacts, const StudyPrecision& precision = {});
 
 }  // namespace arcslip::problems

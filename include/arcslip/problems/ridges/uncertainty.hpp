@@ -54,6 +54,7 @@ struct Uncertainty {
   std::size_t samples = 4000;                         ///< N
   std::uint64_t seed = 1;                             ///< of the samples
   std::vector<double> quantiles = {0.05, 0.5, 0.95};  ///< each > 0 and < 1
+  std::size_t patterns = 0;  ///< of whole rings: how many are made, in place of all other samples
 };
 
 /// What a response is not proportional to force and preload together for.
@@ -70,6 +71,9 @@ class PeakDistribution {
   /// Throws std::invalid_argument without samples.
   explicit PeakDistribution(const Uncertainty& uncertainty, Inhomogeneity inhomogeneity = {});
 
+  /// Of so many rings, each with an envelope of its own, which no factor tells.
+  static PeakDistribution of_patterns(std::size_t count);
+
   /// The least and the largest of z - x, x = ln P of a nominal preload, with z of EnvelopeFamily: of
   /// ln(m q/f) without other factors.
   double lowest() const { return samples_.front().shift; }
@@ -85,8 +89,8 @@ class PeakDistribution {
 
   /// The same with the standard error that each has as one of so many samples: half the distance of the
   /// values one standard deviation of the rank, sqrt(N p (1 - p)), before and behind it, or one rank where
-  /// one factor scatters, of which each stratum has a sample. At a cliff of the envelope, where few samples
-  /// lie, these are far apart.
+  /// one factor alone scatters, of which each stratum has a sample. At a cliff of the envelope, where few
+  /// samples lie, these are far apart.
   struct Quantile {
     double log_value;  ///< ln Y
     double error;      ///< of log_value
@@ -109,7 +113,7 @@ class PeakDistribution {
   /// ln of the highest peaks of all samples.
   std::vector<double> values(const EnvelopeFamily& envelope, double x) const;
 
-  int factors_ = 0;              ///< that scatter
+  bool is_stratified_ = false;   ///< whether one factor alone scatters
   std::vector<Sample> samples_;  ///< by rising shift
 };
 
@@ -149,6 +153,11 @@ UncertainPeaks study_uncertainty(const PreloadRange& range, const Uncertainty& u
 UncertainPeaks study_uncertainty(const SystemParameters& system, const PreloadRange& range,
                                  const Uncertainty& uncertainty, const PreloadStudy& nominal,
                                  const continuation::TraceOptions& options = {});
+
+/// The quantiles of so many rings over a range of nominal preloads, each ring's highest peak by its envelope;
+/// `optimum` is the best preload of the equal ring.
+UncertainPeaks study_patterns(const PreloadRange& range, const std::vector<EnvelopeFamily::Curve>& rings,
+                              const std::vector<double>& quantiles, double optimum);
 
 /// The system with these factors.
 SystemParameters scaled(SystemParameters system, const DesignFactors& factors);
