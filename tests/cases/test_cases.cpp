@@ -6,6 +6,7 @@
 
 #include "arcslip/cases/study_case.hpp"
 #include "case_runs.hpp"
+#include "cases/design_study.hpp"
 #include "library_cases.hpp"
 #include "places.hpp"
 #include "temporary_folder.hpp"
@@ -46,7 +47,7 @@ TEST_CASE("Every study's case is read, and its last design has an optimum", "[ca
     ++cases;
     INFO(entry.path().stem());
     const StudyCase study = read_study(entry.path());
-    const auto result = problems::study_preload(study.design(study.count - 1).system, study.design(0).range);
+    const problems::PreloadStudy result = study_preload(study, study.design(study.items() - 1));
     CHECK(result.failure.empty());
     CHECK(result.optimum.has_value());
   }
