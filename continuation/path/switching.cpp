@@ -20,7 +20,10 @@ struct Way {
 class Map {
  public:
   Map(const Problem& problem, Index parameter, const Tolerances& tolerances)
-      : problem_(problem), parameter_(parameter), tolerances_(tolerances) {}
+      : problem_(problem),
+        parameter_(parameter),
+        tolerances_(tolerances),
+        symmetries_(problem.symmetries()) {}
 
   Way way(const Vector& unknowns, const Vector& parameters, const Vector& direction) const {
     const Index n = unknowns.size();
@@ -44,6 +47,17 @@ class Map {
     });
   }
 
+  /// Whether it or an image of it was gone.
+  bool gone(const Vector& unknowns, const Vector& parameters, const Vector& direction) const {
+    if (gone(way(unknowns, parameters, direction))) return true;
+    const Index n = unknowns.size();
+    return std::any_of(symmetries_.begin(), symmetries_.end(), [&](const Symmetry& symmetry) {
+      Vector image = direction;
+      image.head(n) = symmetry.map * direction.head(n);
+      return gone(way(symmetry.map * unknowns, parameters, image));
+    });
+  }
+
   void go(Way way) { gone_.push_back(std::move(way)); }
 
   /// Both ways through a special point, forward and back.
@@ -56,6 +70,7 @@ class Map {
   const Problem& problem_;
   Index parameter_;
   Tolerances tolerances_;
+  std::vector<Symmetry> symmetries_;
   std::vector<Way> gone_;
 };
 
@@ -122,9 +137,8 @@ class Network {
     while (!waiting_.empty() && branches_.size() < follow_options.max_branches && !interrupted_) {
       const Guess next = std::move(waiting_.front());
       waiting_.pop_front();
-      Way way = map_.way(next.unknowns, next.parameters, next.direction);
-      if (map_.gone(way)) continue;
-      map_.go(std::move(way));
+      if (map_.gone(next.unknowns, next.parameters, next.direction)) continue;
+      map_.go(map_.way(next.unknowns, next.parameters, next.direction));
       follow(next);
     }
     return std::move(branches_);

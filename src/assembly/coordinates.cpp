@@ -38,11 +38,14 @@ using UsualStiffness = std::function<double(const Coordinate&)>;
 void add_cubic_springs(const SystemParameters& parameters, const UsualStiffness& usual_stiffness,
                        std::vector<Coordinate>& all) {
   const Index dofs = std::max(Index{1}, static_cast<Index>(std::ssize(parameters.contacts)));
+  const WholeRing* whole = structures_of(parameters).whole();
+  const Index each = whole != nullptr ? dofs / whole->sectors() : dofs;
   SystemParameters unit = parameters;
   unit.cubic_stiffness = 1;
   const double share = cubic_coefficient(unit);
   for (Index i = 0; i < dofs; ++i) {
     Coordinate& one = all.emplace_back(Coordinate{1, 0, i, nullptr});
+    one.sector = i / each;
     const double usual = usual_stiffness(one);
     one.element = cubic_spring(cubic_coefficient(parameters), usual);
     one.follows_base = true;

@@ -119,6 +119,38 @@ ordered_json harmonics_of(const std::vector<int>& orders) {
 
 }  // namespace
 
+namespace {
+
+/// The symmetries that all points of a branch have, by the first shift and the first mirror that tell the
+/// others, and of how many images it is one.
+void add_symmetries(const TracedBranch& traced, ordered_json& summary) {
+  if (traced.branch.points.empty()) return;
+  const continuation::Problem& problem = traced.problem();
+  const std::vector<continuation::Symmetry> all = problem.symmetries();
+  if (all.empty()) return;
+  constexpr double same = 1e-6;
+  std::vector<bool> kept(all.size(), true);
+  for (const continuation::BranchPoint& point : traced.branch.points) {
+    Vector scale(point.unknowns.size());
+    Vector parameter_scale(point.parameters.size());
+    problem.scale(point.unknowns, point.parameters, scale, parameter_scale);
+    const std::vector<bool> here = continuation::kept_symmetries(all, point.unknowns, scale, same);
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && here[i];
+  }
+  const auto count = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
+  ordered_json& names = summary["symmetries"] = ordered_json::array();
+  for (const char* kind : {"shift", "mirror"}) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!kept[i] || !all[i].name.starts_with(kind)) continue;
+      names.push_back(all[i].name);
+      break;
+    }
+  }
+  summary["images"] = (all.size() + 1) / (count + 1);
+}
+
+}  // namespace
+
 ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   const ordered_json special = special_points(traced);
   const continuation::Work& work = traced.branch.work;
@@ -141,6 +173,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
     summary["power_cancellation"] = errors ? ordered_json(errors->cancellation) : ordered_json(nullptr);
     summary["motion_error"] = errors ? ordered_json(errors->motion) : ordered_json(nullptr);
   }
+  add_symmetries(traced, summary);
   summary["special"] = special;
   summary["peak"] = highest_peak(traced, special);
   summary["work"] = {{"evaluations", work.evaluations},

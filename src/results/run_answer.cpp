@@ -123,6 +123,24 @@ std::string count_answer(const ordered_json& branches) {
   return text + ".";
 }
 
+/// Which branches have lost symmetries of the whole ring.
+Sentences symmetries_answer(const ordered_json& branches) {
+  constexpr std::size_t most = 12;
+  Sentences sentences;
+  for (const ordered_json& branch : branches) {
+    const std::size_t images = branch.value("images", std::size_t{1});
+    if (images == 1 || sentences.size() == most) continue;
+    const ordered_json& kept = branch.at("symmetries");
+    std::string names;
+    for (const ordered_json& name : kept)
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : " and ", name.get<std::string>());
+    sentences.push_back(
+        fmt::format("Branch {} has {}, one of {} images.", branch.at("branch").get<std::size_t>(),
+                    names.empty() ? "lost all symmetries" : "kept of all symmetries " + names, images));
+  }
+  return sentences;
+}
+
 /// Which branches did not come to an end that is as good as any.
 Sentences ends_answer(const ordered_json& branches) {
   constexpr std::array ends = {"reached_end", "left_range", "closed_loop", "requested", "left_regime"};
@@ -163,7 +181,8 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
   if (response == "forced" || response == "one_way")
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
   sentences.push_back(count_answer(branches));
-  for (const Sentences& more : {ends_answer(branches), certificates_answer(branches)})
+  for (const Sentences& more :
+       {symmetries_answer(branches), ends_answer(branches), certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
   return sentences;

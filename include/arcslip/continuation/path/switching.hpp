@@ -22,8 +22,9 @@ struct FollowOptions {
   bool images = false;
 };
 
-/// A branch and all that can be reached from it through branch points and corners, each way once, in the
-/// order in which they are met. The first one is traced as `trace` does it.
+/// A branch and all that can be reached from it through branch points and corners, each way once and of those
+/// that are images of each other under the problem's symmetries one, in the order in which they are met. The
+/// first one is traced as `trace` does it.
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,
                                     const FollowOptions& follow = {}, const Observer& observer = {});
 

@@ -46,6 +46,7 @@ class OnePiece final : public Problem {
                  Gradient& gradient) const override {
     return pieces_->observe(u, p, regime_at(u, p, regime), which, gradient);
   }
+  std::vector<Symmetry> symmetries() const override { return pieces_->symmetries(); }
   std::vector<double> landmarks(Index parameter, double from, double to) const override {
     return pieces_->landmarks(parameter, from, to);
   }

@@ -10,6 +10,7 @@
 
 #include "arcslip/continuation/points/point_type.hpp"
 #include "arcslip/continuation/problem/regime.hpp"
+#include "arcslip/continuation/problem/symmetry.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -151,6 +152,9 @@ class Problem {
   [[nodiscard]] virtual std::optional<std::string> wrong_derivative(const Vector& u, const Vector& p,
                                                                     const Regime& regime, Index parameter,
                                                                     const std::vector<Index>& tracked) const;
+
+  /// Its symmetries but for the identity, at all parameters: a group.
+  virtual std::vector<Symmetry> symmetries() const { return {}; }
 
   /// Values of a parameter between `from` and `to` where the branch may have a feature narrower than any
   /// step. The tracer puts a point on each and refines towards it.

@@ -50,6 +50,9 @@ class HarmonicResponse : public HarmonicProblem {
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, in each harmonic.
   std::vector<double> landmarks(Index parameter, double from, double to) const override;
 
+  /// Of a whole ring: shifts round it and mirrors, each with the time by which its load is then later.
+  std::vector<continuation::Symmetry> symmetries() const override;
+
   /// The solution at (eta, P) on the branch that begins where all contacts stick: under a high preload or,
   /// where other elements act, under a small force. Throws std::invalid_argument where that cannot be traced,
   /// Unfinished where max_seconds or go_on of the limits end it.
@@ -160,6 +163,8 @@ class HarmonicResponse : public HarmonicProblem {
     return coordinates_.element(e).is_linear(slips(regime, e));
   }
   void add_outputs_in_time();
+  std::optional<SparseMatrix> image_map(const std::function<Index(Index)>& image, double turns) const;
+  [[nodiscard]] bool goes_with(const SparseMatrix& map) const;
   std::vector<double> ring_landmarks(double from, double to) const;
   bool is_odd_;  ///< whether all harmonics are odd
 

@@ -1,0 +1,116 @@
+// Symmetries of whole rings, and of the branches that lose them.
+
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "case_runs.hpp"
+#include "case_texts.hpp"
+#include "catch.hpp"
+#include "program.hpp"
+
+using namespace arcslip;
+using namespace arcslip::testing;
+
+namespace {
+
+/// One mass in each of N sectors, with a hardening spring to ground.
+std::string hardening_ring(const TemporaryFolder& folder, int sectors, const std::string& ring) {
+  folder.write("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 1\n");
+  folder.write("k.mtx",
+               "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1.05\n2 1 -0.05\n2 2 0.05\n");
+  return fmt::format(R"([system]
+model = "sector"
+wave_number = 1
+sectors = {}
+contact_stiffness = 0.2
+force = 0.02
+preload = 1.0
+[system.base]
+mass = "m.mtx"
+stiffness = "k.mtx"
+mass_factor = 0.01
+left = [1]
+right = [2]
+contact = [1]
+load = {{ dof = [1], value = [1.0] }}
+[[element]]
+kind = "cubic"
+at = "base"
+coefficient = 1.0
+[ring]
+{}
+[branch]
+parameter = "eta"
+from = 0.14
+to = 0.3
+)",
+                     sectors, ring);
+}
+
+std::vector<continuation::Symmetry> symmetries(int sectors, const std::string& ring) {
+  const TemporaryFolder folder;
+  const Case input = read_case(folder.write("case.toml", hardening_ring(folder, sectors, ring)));
+  return build(input.branches.front().problem).problem->symmetries();
+}
+
+std::vector<std::string> names(int sectors, const std::string& ring) {
+  std::vector<std::string> all;
+  for (const continuation::Symmetry& one : symmetries(sectors, ring)) all.push_back(one.name);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("A ring has the symmetries that its parts and its load have in common", "[ring symmetry]") {
+  using Names = std::vector<std::string>;
+  CHECK(names(8, "load = \"standing\"") == Names{"shift by 4 sectors, half a period later",
+                                                 "mirror at sector 1",
+                                                 "mirror at sector 3, half a period later"});
+  CHECK(names(3, "load = \"travelling\"") == Names{"shift by 1 sector, 0.333333 of a period later",
+                                                   "shift by 2 sectors, 0.666667 of a period later"});
+  CHECK(names(5, "load = \"point\"") == Names{"mirror at sector 1"});
+  CHECK(names(6, "load = [1, 0, 0, 1, 0, 0]") ==
+        Names{"shift by 3 sectors", "mirror at sector 1", "mirror between sectors 2 and 3"});
+  CHECK(names(6, "load = [1, 0, 0, 1, 0, 0]\nmissing = [1]") == Names{"mirror at sector 1"});
+  CHECK(names(6, "load = [1, 0, 0, 1, 0, 0]\npreload = { scatter = 0.1 }").empty());
+  CHECK(names(6, "load = [1, 2, 0, 0, 0, 0]").empty());
+}
+
+TEST_CASE("Branches that lose symmetries of a ring are followed once, and their images are solutions",
+          "[ring symmetry]") {
+  const TemporaryFolder folder;
+  std::string text = hardening_ring(folder, 4, "load = \"standing\"") + "switching = true\n";
+  text = replaced(text, "contact_stiffness = 0.2", "contact_stiffness = 0.0");
+  const std::string path = folder.write("case.toml", text);
+  const Case input = read_case(path);
+  const std::vector<TracedBranch> traced = trace(input.branches.front());
+  REQUIRE(traced.size() >= 2);
+  const continuation::Problem& problem = traced.front().problem();
+  const std::vector<continuation::Symmetry> all = problem.symmetries();
+  REQUIRE(all.size() == 3);
+  int lost = 0;
+  for (const TracedBranch& one : traced) {
+    const BranchPoint& point = one.branch.points[one.branch.points.size() / 12];
+    for (const continuation::Symmetry& symmetry : all) {
+      const Vector image = symmetry.map * point.unknowns;
+      if ((image - point.unknowns).norm() > 1e-6 * image.norm()) ++lost;
+      Vector residual(problem.size());
+      REQUIRE(problem.evaluate(image, point.parameters, point.regime, {&residual}));
+      CHECK(residual.norm() < 1e-9);
+      // No other branch is the image.
+      for (const TracedBranch& other : traced) {
+        if (&other == &one) continue;
+        for (const BranchPoint& there : other.branch.points) {
+          if (there.type == PointType::branch_point || there.type == PointType::start) continue;
+          CHECK((there.parameters != point.parameters || (there.unknowns - image).norm() > 1e-6));
+        }
+      }
+    }
+  }
+  CHECK(lost > 0);
+  arcslip_program("run " + path + " -o " + folder.path("results") + " --quiet");
+  const auto summary = nlohmann::json::parse(read(folder.path("results/summary.json")));
+  CHECK(summary.at("branches")[0].at("images") == 1);
+  CHECK(summary.at("branches")[1].at("images") == 2);
+  CHECK(summary.at("branches")[1].at("symmetries").size() == 1);
+}
