@@ -41,6 +41,10 @@ class PicturesOfModes:
         table = Table(os.path.join(folder, "modes.csv"), ["wave_number", "part", "mode", "eta"], "modes")
         self.column = "frequency_Hz" if table.has("frequency_Hz") else "eta"
         self.waves, self.parts, self.modes, self.values = table.read(["wave_number", "part", "mode", self.column])
+        self.damped = None
+        path = os.path.join(folder, "damping.csv")
+        if os.path.exists(path):
+            self.damped = Table(path, ["wave_number", "mode", "R", "zeta"], "modes --amplitude").read(["wave_number", "mode", "R", "zeta"])
         path = os.path.join(folder, "modes.json")
         about = json_of(path)
         try:
@@ -50,7 +54,26 @@ class PicturesOfModes:
             raise Refused(f"{path}: does not tell nodes and speed_per_minute; expected a file that arcslip has written") from error
 
     def pictures(self):
-        return {"modes": self._modes}
+        return {"modes": self._modes} | ({"damping": self._damping} if self.damped else {})
+
+    def _damping(self):
+        """Damping over nodal diameters, the first mode at each amplitude; below 0 of waves that run the other way."""
+        waves, modes, amplitudes, zetas = self.damped
+        given = np.unique(amplitudes)
+        curves = []
+        for i, amplitude in enumerate(given):
+            rows = np.flatnonzero((modes == 1) & (amplitudes == amplitude))
+            rows = rows[np.argsort(waves[rows])]
+            look = style.Look(i, len(given))
+            curves.append(Curve(waves[rows], zetas[rows], np.ones(len(rows), dtype=bool), {}, look, f"R = {words.number_text(amplitude)}"))
+        span = with_room(min(waves.min(), 0), max(waves.max(), 1), 0.04, 0.04, False)
+        sheet = _Sheet(self.options, self.measure, "nodal diameter", span)
+        quantity = Quantity(curves, "plain", words.axis_title("zeta"), is_linear=True, reference=(0, "gains below"), wide=100)
+        figure = sheet.panels([quantity], [])
+        for curve in curves:
+            figure.axes[0].plot(curve.x, curve.y, curve.look.mark, color=curve.look.colour, markersize=3.4, linestyle="none",
+                                markerfacecolor="white", markeredgewidth=0.7, zorder=2.6)
+        return figure
 
     def _curves(self):
         names = [name for name in PARTS if (self.parts == name).any()]

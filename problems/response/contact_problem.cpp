@@ -104,7 +104,8 @@ std::vector<double> ContactProblem::landmarks(Index parameter, double from, doub
   if (parameter != eta) return {};
   const double k = system_.contact_stiffness;
   std::vector<double> values;
-  for (const Mode& mode : system_.base.modes()) values.push_back(mode.frequency);
+  for (const Mode& mode : system_.base.modes())
+    values.push_back(std::sqrt(mode.influence.square(mode.frequency)));
   for (const Mode& mode : system_.damper.modes()) values.push_back(mode.frequency);
   for (const double value : joined_frequencies({&system_.base, &system_.damper}, k)) values.push_back(value);
   for (const double value : joined_frequencies({&system_.damper}, k)) values.push_back(value);

@@ -61,13 +61,16 @@ DisturbedRing::DisturbedRing(HarmonicSystem system, const RingWaves& waves)
   given_ = std::make_shared<const RingDisturbances>(system_, known);
 }
 
-RingDisturbances DisturbedRing::damped(double zeta) const {
-  const Loss loss = system_.base_loss_fixed + zeta * system_.base_loss_per_zeta;
+RingDisturbances DisturbedRing::at(std::optional<double> zeta, double influence) const {
+  const auto changed = [&](const ContactModes& base) {
+    const Loss loss = zeta ? system_.base_loss_fixed + *zeta * system_.base_loss_per_zeta : base.loss();
+    return influence == 1 ? base.with(loss) : base.varied({.loss = loss, .influence = influence});
+  };
   HarmonicSystem system = system_;
-  for (ContactModes& base : system.base) base = base.with(loss);
-  const RingWaves waves(waves_.wave_number(), waves_.nodes(), [this, &loss](Index wave) {
+  for (ContactModes& base : system.base) base = changed(base);
+  const RingWaves waves(waves_.wave_number(), waves_.nodes(), [&](Index wave) {
     RingWaves::Structures under = under_.at(wave);
-    under.base = under.base.with(loss);
+    under.base = changed(under.base);
     return under;
   });
   return {system, waves};
@@ -86,14 +89,21 @@ FloquetOf<Motion>::FloquetOf(const HarmonicSystem& system, const HarmonicSystem&
                              const RingWaves& waves, std::shared_ptr<const FloquetOf> finer)
     : Motion(system), ring_(in_modes, waves), is_in_modes_(false), finer_(std::move(finer)) {}
 
+/// The factor on what a flow does.
+template <class Motion>
+double FloquetOf<Motion>::influence(const Vector& p) const {
+  if (!this->is_varied() || this->system().varied->kind != SystemParameter::Kind::flow) return 1;
+  return this->system().varied->at(p(Motion::further)).here.base.influence;
+}
+
 /// Calls `use` with what disturbances run through at these parameters.
 template <class Motion>
 template <class Use>
 auto FloquetOf<Motion>::with_ring(const Vector& p, const Use& use) const {
   if constexpr (is_cycle) {
-    return use(ring_.damped(p(Motion::zeta)));
+    return use(ring_.at(p(Motion::zeta), influence(p)));
   } else {
-    return use(ring_.given());
+    return influence(p) == 1 ? use(ring_.given()) : use(ring_.at({}, influence(p)));
   }
 }
 

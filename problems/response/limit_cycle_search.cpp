@@ -42,7 +42,8 @@ class Search {
     for (const double w : joined_frequencies({&system_.base, &system_.damper}, system_.contact_stiffness))
       marks.push_back(w);
     for (const ModalModel* part : {&system_.base, &system_.damper}) {
-      for (const Mode& mode : part->modes()) marks.push_back(mode.frequency);
+      for (const Mode& mode : part->modes())
+        marks.push_back(std::sqrt(mode.influence.square(mode.frequency)));
     }
     std::erase_if(marks, [](double w) { return !(w > 0); });
     std::vector<double> etas;

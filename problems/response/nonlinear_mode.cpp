@@ -54,9 +54,9 @@ NonlinearMode::Modal NonlinearMode::modal(const Vector& u, const Vector& p,
     ContactVector on_dofs;
     coordinates_.forces_on(is_base, elements, 0, on_dofs);
     for (const ContactMode& mode : structure.modes()) {
-      const Complex d =
-          ModalDenominator(u(Unknown::frequency), mode.frequency, structure.loss() + Loss{.mass = mass})
-              .value;
+      const Complex d = ModalDenominator(u(Unknown::frequency), mode.frequency,
+                                         structure.loss() + Loss{.mass = mass}, mode.influence)
+                            .value;
       const Complex q = mode.shape.dot(on_dofs) / d;
       square += std::norm(q);
       load += std::conj(q) * mode.load;

@@ -87,7 +87,8 @@ void arcslip::add_settings(CLI::App* command, std::vector<std::string>& settings
   command->add_option("--set", settings, "Replace a value of the case file; may be repeated")
       ->type_name("section.key=value")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
 }
 
 void arcslip::warn(const std::vector<std::string>& warnings) {

@@ -36,7 +36,9 @@ std::string HarmonicSystem::name(Index order) const {
 }
 
 ContactSystem build_wave(const SystemParameters& parameters) {
-  return structures_of(parameters).wave(parameters);
+  ContactSystem wave = structures_of(parameters).wave(parameters);
+  add_influence(parameters, wave);
+  return wave;
 }
 
 ContactSystem turned(ContactSystem system, const Complex& turn) {

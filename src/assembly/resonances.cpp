@@ -13,8 +13,9 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
   const auto add = [&](const char* part, const ContactModes& structure) {
     std::vector<Resonance> own;
     for (const ContactMode& mode : structure.modes()) {
-      const double eta = mode.frequency;
-      own.push_back({part, eta, eta > 0 ? structure.loss().part(eta, eta) / (2 * eta * eta) : 0});
+      const double eta = std::sqrt(mode.influence.square(mode.frequency));
+      const double losses = structure.loss().part(eta, mode.frequency) + mode.influence.part(eta).imag();
+      own.push_back({part, eta, eta > 0 ? losses / (2 * eta * eta) : 0});
     }
     std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.eta < b.eta; });
     all.insert(all.end(), own.begin(), own.end());

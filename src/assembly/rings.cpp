@@ -157,6 +157,8 @@ std::vector<SystemParameter> Rings::parameters(const SystemParameters& system) c
       system_number("gamma", &S::frequency_ratio, change_frequency_ratio, Kind::ratio, system),
       system_number("cubic_stiffness", &S::cubic_stiffness, leave, Kind::element, system)};
   all.back().limits = any_value("", 0, "");
+  // Damping ratios of waves are told at the base's own frequencies.
+  if (system.influence && !system.influence->damping.empty()) all.erase(all.begin() + 1);
   return all;
 }
 

@@ -39,7 +39,7 @@ FrictionSystem Structures::one_contact(const SystemParameters& system) const {
   const auto in_modes = [](const ContactModes& structure) {
     std::vector<Mode> modes;
     for (const ContactMode& mode : structure.modes())
-      modes.push_back({mode.frequency, std::norm(mode.shape(0)), mode.shape(0) * mode.load});
+      modes.push_back({mode.frequency, std::norm(mode.shape(0)), mode.shape(0) * mode.load, mode.influence});
     return ModalModel(std::move(modes), structure.loss());
   };
   const PairLosses losses = this->losses(system);

@@ -108,7 +108,9 @@ double cubic_coefficient(const SystemParameters& parameters) {
 
 FrictionSystem build_system(const SystemParameters& parameters) {
   const int p = parameters.periods();
-  FrictionSystem system = structures_of(parameters).one_contact(in_order(parameters, p));
+  const SystemParameters wave = in_order(parameters, p);
+  FrictionSystem system = structures_of(parameters).one_contact(wave);
+  add_influence(wave, system);
   const Complex turn = parameters.excitation.turn(1);
   if (turn == 1.0) return system;
   system.base = system.base.turned(turn);

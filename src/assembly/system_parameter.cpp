@@ -61,6 +61,11 @@ void change_growth(At& at, double value, const SystemParameters& /*system*/) {
   at.rate.preload_growth = 1;
 }
 
+void change_influence(At& at, double value, const SystemParameters& system) {
+  at.here.base.influence = value / system.influence_factor;
+  at.rate.base.influence = 1 / system.influence_factor;
+}
+
 using Kind = SystemParameter::Kind;
 
 /// One of contacts that has so much of the one concerned or, of all, of the first.
@@ -119,7 +124,8 @@ SystemParameter system_number(const char* name, double SystemParameters::*member
 
 double SystemParameter::scale(double other, double preload, double eta) const {
   constexpr double small = 1e-4;  // of the system's own value: what crosses zero has no size of its own there
-  const bool may_vanish = kind == Kind::damping || (kind == Kind::element && limits.low < 0);
+  const bool may_vanish =
+      kind == Kind::damping || kind == Kind::flow || (kind == Kind::element && limits.low < 0);
   const double least = kind == Kind::growth ? preload / (eta * eta)
                        : may_vanish         ? small * std::abs(value)
                                             : 0;
@@ -128,7 +134,7 @@ double SystemParameter::scale(double other, double preload, double eta) const {
 }
 
 std::vector<std::string> system_parameter_names() {
-  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma", "cubic_stiffness"};
+  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma", "cubic_stiffness", "influence"};
 }
 
 std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
@@ -143,6 +149,8 @@ std::vector<SystemParameter> system_parameters(const SystemParameters& system) {
                {system_number("zeta_B", &S::base_damping, change_base_damping, Kind::damping, system),
                 system_number("zeta_D", &S::damper_damping, change_damper_damping, Kind::damping, system)});
   }
+  if (system.influence)
+    all.push_back(system_number("influence", &S::influence_factor, change_influence, Kind::flow, system));
   for (std::size_t i = 0; i < system.others.size(); ++i) {
     for (std::size_t k = 0; k < system.others[i].settings.size(); ++k)
       all.push_back(of_element(i, k, system));

@@ -62,10 +62,11 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
     section.fail("stability", "not of whole rings, whose disturbances are not of one wave");
   using Kind = SystemParameter::Kind;
   const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
-  if (kind != Kind::load && kind != Kind::growth)
-    section.fail("stability", fmt::format("over eta, P, F and P_2, not over {}, with which the disturbances' "
-                                          "own waves would change",
-                                          system.varied));
+  if (kind != Kind::load && kind != Kind::growth && kind != Kind::flow)
+    section.fail("stability",
+                 fmt::format("over eta, P, F, P_2 and influence, not over {}, with which the disturbances' "
+                             "own waves would change",
+                             system.varied));
   if (const std::string& why = problem.response->not_disturbed; !why.empty())
     section.fail("stability", fmt::format("not of {}, {}", problem.response->title, why));
   for (const PlacedElement& one : system.others) {

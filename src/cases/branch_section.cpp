@@ -188,7 +188,7 @@ std::vector<BranchKey> keys_of_request() {
       BranchKey::special(
           "parameter", "name",
           "what varies: eta, P, in SI units frequency_Hz, preload_N_per_m or preload_N; F, zeta_B, zeta_D, "
-          "K_FD, P_2, M*, gamma or cubic_stiffness, of sectors L, "
+          "K_FD, P_2, M*, gamma or cubic_stiffness, of [flutter] influence, of sectors L, "
           "of one contact of several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear "
           "modes R in place of "
           "eta, of limit "

@@ -21,7 +21,8 @@
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title", "system", "geometry", "element", "excitation", "ring", "branch", "study", "continuation"};
+  return {"title",   "system", "geometry", "element", "excitation",
+          "flutter", "ring",   "branch",   "study",   "continuation"};
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "cases/continuation_section.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
+#include "cases/flutter_section.hpp"
 #include "cases/ring_section.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/study_section.hpp"
@@ -66,7 +67,7 @@ std::vector<KeySection> key_catalogue() {
   const auto section = [&](const std::string& name, const std::string& note,
                            const std::vector<KeyWords>& keys) {
     add(sections.emplace_back(KeySection{name, note, {}}).keys, keys, "",
-        name == "system" || name == "geometry");
+        name == "system" || name == "geometry" || name == "flutter");
   };
   for (const StructureKind& kind : structure_kinds()) {
     section("system", kind.title, kind.keys());
@@ -78,6 +79,7 @@ std::vector<KeySection> key_catalogue() {
   sections.back().repeats = true;
   section("excitation", "the load",
           words_of_kinds(excitation_kinds(), 1, "what its course is", excitation_keys));
+  section("flutter", "a flow round the base", flutter_words());
   section("ring", "all sectors in place of one", ring_words());
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());

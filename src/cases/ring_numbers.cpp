@@ -119,6 +119,26 @@ std::vector<std::vector<double>> number_rows(const TomlSection& section, const s
                 [](const std::string& text, const std::string& path) { return number_rows_of(text, path); });
 }
 
+std::vector<std::vector<double>> listed_rows(const TomlSection& section, const std::string& key,
+                                             const std::string& expected) {
+  const toml::node& node = section.require(key, expected);
+  if (node.is_string() && node.value<std::string>()->ends_with(".csv")) return number_rows(section, key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr) section.mismatch(key, expected);
+  std::vector<std::vector<double>> rows;
+  for (const toml::node& one : *array) {
+    std::vector<double> row;
+    const toml::array* several = one.as_array();
+    for (std::size_t i = 0; i < (several == nullptr ? 1 : several->size()); ++i) {
+      const std::optional<double> number = exact_number(several == nullptr ? one : *several->get(i));
+      if (!number || !std::isfinite(*number)) section.mismatch(key, expected);
+      row.push_back(*number);
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 std::vector<double> factors_of_sectors(const TomlSection& section, const std::string& key, Index sectors,
                                        Index each, Index pattern) {
   const char* expected = "a list of numbers, a CSV file, or a table { scatter = ..., seed = ... }";

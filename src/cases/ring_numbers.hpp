@@ -37,6 +37,11 @@ const KeyTable<ScatterSettings>& scatter_keys();
 /// InputError.
 std::vector<std::vector<double>> number_rows(const TomlSection& section, const std::string& key);
 
+/// The same from a file, or from a list of rows or of single numbers, which are `expected`. Throws
+/// InputError.
+std::vector<std::vector<double>> listed_rows(const TomlSection& section, const std::string& key,
+                                             const std::string& expected);
+
 /// Factors on something in each of N sectors, all > 0: `each` numbers a sector, which follow one another, or
 /// one for all of its. A scatter gives those of one pattern, of the pattern 0 all 1. Throws InputError.
 std::vector<double> factors_of_sectors(const TomlSection& section, const std::string& key, Index sectors,

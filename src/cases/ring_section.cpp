@@ -40,21 +40,6 @@ Complex amplitude(const std::vector<double>& row) {
   return row.size() > 1 ? std::polar(row[0], row[1]) : Complex(row[0]);
 }
 
-std::vector<std::vector<double>> listed_amplitudes(const TomlSection& section, const toml::array& array) {
-  std::vector<std::vector<double>> rows;
-  for (const toml::node& one : array) {
-    std::vector<double> row;
-    const toml::array* pair = one.as_array();
-    for (std::size_t i = 0; i < (pair == nullptr ? 1 : pair->size()); ++i) {
-      const std::optional<double> number = exact_number(pair == nullptr ? one : *pair->get(i));
-      if (!number || !std::isfinite(*number)) section.mismatch("load", courses);
-      row.push_back(*number);
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 void read_course(WholeSettings& settings, const TomlSection& section) {
   using Course = WholeLoad::Course;
   const toml::node& node = section.require("load", courses);
@@ -63,10 +48,7 @@ void read_course(WholeSettings& settings, const TomlSection& section) {
     settings.load.course = course;
     return;
   }
-  const bool is_file = node.is_string() && node.value<std::string>()->ends_with(".csv");
-  if (!is_file && !node.is_array()) section.mismatch("load", courses);
-  const std::vector<std::vector<double>> rows =
-      is_file ? number_rows(section, "load") : listed_amplitudes(section, *node.as_array());
+  const std::vector<std::vector<double>> rows = listed_rows(section, "load", courses);
   if (std::ssize(rows) != settings.sectors)
     section.fail("load", fmt::format("expected {} amplitudes, one for each sector, got {}", settings.sectors,
                                      rows.size()));

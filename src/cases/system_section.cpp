@@ -11,6 +11,7 @@
 #include "arcslip/motion/swing.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
+#include "cases/flutter_section.hpp"
 #include "cases/geometry_section.hpp"
 #include "cases/given_structure.hpp"
 #include "cases/harmonics_section.hpp"
@@ -88,6 +89,7 @@ void read_friction(const TomlDocument& document, const Replacements& replacement
   complete_orders(section, problem.system);
   check_balanced(document, problem);
   check_waves(section, problem.system);
+  read_flutter(document, replacements, use, problem);
   read_ring(document, replacements, use, problem);
 }
 
@@ -242,6 +244,8 @@ std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryMo
   keys.insert(keys.end(), of_load.begin(), of_load.end());
   const std::vector<ListedKey> of_ring = listed_ring_keys(document);
   keys.insert(keys.end(), of_ring.begin(), of_ring.end());
+  const std::vector<ListedKey> of_flow = listed_flutter_keys(document);
+  keys.insert(keys.end(), of_flow.begin(), of_flow.end());
   return keys;
 }
 
@@ -310,12 +314,10 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   if (model == nullptr) return read_friction(document, replacements, section, use, problem);
   if (has_geometry(document))
     document.fail(document.root().get("geometry"), "geometry", "only for systems with friction");
-  if (document.root().contains("element"))
-    document.fail(document.root().get("element"), "element", "only for systems with friction");
-  if (document.root().contains("excitation"))
-    document.fail(document.root().get("excitation"), "excitation", "only for systems with friction");
-  if (document.root().contains("ring"))
-    document.fail(document.root().get("ring"), "ring", "only for systems with friction");
+  for (const char* name : {"element", "excitation", "flutter", "ring"}) {
+    if (document.root().contains(name))
+      document.fail(document.root().get(name), name, "only for systems with friction");
+  }
   LibrarySettings settings{problems::defaults(*model), use.parameter};
   library_keys(*model).read(settings, section);
   problem.settings = std::move(settings.values);
@@ -356,6 +358,7 @@ void resolve_system(const ProblemRequest& problem, ordered_json& file) {
     return fill(section, library_keys(*problem.model).values({problem.settings, ""}));
   fill(section, problem.structure->resolved(of_one_sector(problem), section));
   if (file.contains("ring")) fill(file["ring"], ring_values());
+  if (file.contains("flutter")) resolve_flutter(problem.system, file["flutter"]);
   const Excitation& excitation = problem.system.excitation;
   if (excitation.kind != nullptr)
     fill(file["excitation"], excitation_keys(*excitation.kind).values(excitation));

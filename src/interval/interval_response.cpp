@@ -89,10 +89,12 @@ EnclosedResponse enclose_response(const ModalModel& model, const Interval& eta) 
   EnclosedResponse response;
   for (const Mode& mode : model.modes()) {
     const Interval frequency(mode.frequency);
-    const Interval by_eta =
-        Interval(loss.viscous) * square(frequency) + Interval(loss.modal) * frequency + Interval(loss.mass);
-    const ComplexInterval d{(frequency - eta) * (frequency + eta),
-                            by_eta * eta + Interval(loss.structural) * square(frequency)};
+    const ModeInfluence& influence = mode.influence;
+    const Interval by_eta = Interval(loss.viscous) * square(frequency) + Interval(loss.modal) * frequency +
+                            Interval(loss.mass) + Interval(influence.damping);
+    const ComplexInterval d{
+        (frequency - eta) * (frequency + eta) - Interval(influence.stiffness.real()),
+        by_eta * eta + Interval(loss.structural) * square(frequency) - Interval(influence.stiffness.imag())};
     const ComplexInterval reciprocal = inverse(d);
     const ComplexInterval slope = reciprocal * reciprocal * ComplexInterval{Interval(2) * eta, -by_eta};
     const ComplexInterval load{mode.load_residue.real(), mode.load_residue.imag()};

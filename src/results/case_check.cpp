@@ -14,6 +14,7 @@
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/results/results.hpp"
 #include "cases/case_warnings.hpp"
+#include "cases/flutter_section.hpp"
 #include "cases/ring_section.hpp"
 #include "cases/structure_kind.hpp"
 #include "keys/printable.hpp"
@@ -28,8 +29,10 @@ std::string describe(const ProblemRequest& problem) {
       text += fmt::format(", {} = {:g}", problem.model->settings[i].name, problem.settings[i]);
     return text;
   }
-  const std::string ring = ring_in_words(problem.system);
-  return problem.structure->describe(of_one_sector(problem)) + (ring.empty() ? "" : "\n  " + ring);
+  std::string text = problem.structure->describe(of_one_sector(problem));
+  for (const std::string& more : {flutter_in_words(problem.system), ring_in_words(problem.system)})
+    text += more.empty() ? "" : "\n  " + more;
+  return text;
 }
 
 /// What is held while the branch's parameter runs.

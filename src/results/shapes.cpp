@@ -117,7 +117,7 @@ bool RingShapes::fits(const FiniteSector& sector, const Part& part, double sense
 }
 
 std::vector<ShapeFile> RingShapes::modes() const {
-  const ContactSystem wave = system_.structures->wave(system_);
+  const ContactSystem wave = build_wave(system_);
   const Index contacts = wave.base.contacts();
   const auto shape_of = [&](std::size_t part, const ContactModes& structure,
                             const ComplexVector& amplitudes) {
@@ -184,8 +184,7 @@ std::vector<ContactSystem> RingShapes::waves_at(const std::vector<int>& orders,
           ? system_
           : with_parameter(system_, system_.varied, parameters(problems::HarmonicResponse::further));
   std::vector<ContactSystem> waves;
-  for (const int h : orders)
-    waves.push_back(turned(system_.structures->wave(in_order(system, h)), system.load_turn(h)));
+  for (const int h : orders) waves.push_back(turned(build_wave(in_order(system, h)), system.load_turn(h)));
   return waves;
 }
 

@@ -123,7 +123,7 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
   if (shapes_.size() > 0) return add_many(eta, sum);
   for (const ContactMode& mode : modes_) {
     if (drifts(mode, eta)) continue;
-    const ModalDenominator d(eta, mode.frequency, loss_);
+    const ModalDenominator d(eta, mode.frequency, loss_, mode.influence);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
     for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
@@ -144,7 +144,7 @@ void ContactModes::add_many(double eta, ContactReceptance& sum) const {
   for (Index k = 0; k < shapes_.cols(); ++k) {
     const ContactMode& mode = modes_[static_cast<std::size_t>(k)];
     if (drifts(mode, eta)) continue;
-    const ModalDenominator d(eta, mode.frequency, loss_);
+    const ModalDenominator d(eta, mode.frequency, loss_, mode.influence);
     inverse(k) = std::conj(d.value) / std::norm(d.value);
     slope(k) = -inverse(k) * inverse(k) * d.by_eta;
     load(k) = mode.load;
@@ -160,7 +160,7 @@ CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
   CycleWork sum;
   for (const ContactMode& mode : modes_) {
     if (drifts(mode, eta)) continue;
-    const Complex d = ModalDenominator(eta, mode.frequency, loss_).value;
+    const Complex d = ModalDenominator(eta, mode.frequency, loss_, mode.influence).value;
     const Complex by_contacts = mode.shape.dot(forces);
     const Complex motion = (mode.load + by_contacts) / d;
     sum.load += pi * std::imag(mode.load * std::conj(motion));
@@ -187,10 +187,11 @@ VariedReceptance ContactModes::varied(double eta, const Variation& at, const Var
   for (const ContactMode& mode : modes_) {
     if (drifts(mode, eta)) continue;
     const double frequency = stretch * mode.frequency;
-    const ModalDenominator d(eta, frequency, at.loss);
+    const ModalDenominator d(eta, frequency, at.loss, at.influence * mode.influence);
     const Complex by_frequency(2 * frequency, 2 * frequency * at.loss.at(eta) + at.loss.modal * eta);
-    const Complex d_rate =
-        by_frequency * (frequency * stretch_rate) + Complex(0, rate.loss.part(eta, frequency));
+    const Complex d_rate = by_frequency * (frequency * stretch_rate) +
+                           Complex(0, rate.loss.part(eta, frequency)) +
+                           rate.influence * mode.influence.part(eta);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex over_mass = inverse / at.mass;
     const Complex by_eta = -over_mass * inverse * d.by_eta;
@@ -215,6 +216,7 @@ ContactModes ContactModes::varied(const Variation& at) const {
     mode.frequency *= std::sqrt(at.stiffness) * smaller;
     mode.shape *= smaller;
     mode.load *= at.load * smaller;
+    mode.influence = at.influence * mode.influence;
   }
   ContactModes structure(contacts_, std::move(modes), at.loss);
   if (!receptance_) return structure;
@@ -257,7 +259,7 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
   for (const ContactModes* structure : structures) {
     for (const ContactMode& mode : structure->modes()) {
       relative.col(column) = moved(mode.shape, structure == structures.front());
-      squares(column++) = mode.frequency * mode.frequency;
+      squares(column++) = mode.influence.square(mode.frequency);
     }
   }
   ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
@@ -271,7 +273,8 @@ std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& str
     Index row = 0;
     for (const ContactModes* structure : structures) {
       for (const ContactMode& mode : structure->modes())
-        losses += std::norm(motion(row++)) * structure->loss().part(frequency, mode.frequency);
+        losses += std::norm(motion(row++)) *
+                  (structure->loss().part(frequency, mode.frequency) + mode.influence.part(frequency).imag());
     }
     modes.push_back(
         {frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion, motion});

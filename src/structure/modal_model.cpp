@@ -158,7 +158,7 @@ ModalModel ModalModel::unyielding() const {
 ContactResponse ModalModel::at(double eta) const {
   ContactResponse response{};
   for (const Mode& mode : modes_) {
-    const ModalDenominator d(eta, mode.frequency, loss_);
+    const ModalDenominator d(eta, mode.frequency, loss_, mode.influence);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
     response.compliance += mode.residue * inverse;
@@ -172,7 +172,7 @@ ContactResponse ModalModel::at(double eta) const {
 ContactCurvature ModalModel::curvature(double eta) const {
   ContactCurvature curvature{};
   for (const Mode& mode : modes_) {
-    const ModalDenominator d(eta, mode.frequency, loss_);
+    const ModalDenominator d(eta, mode.frequency, loss_, mode.influence);
     const Complex inverse = 1.0 / d.value;
     const Complex bend = 2.0 * inverse * inverse * (inverse * d.by_eta * d.by_eta + 1.0);  // d2d/deta2 = -2
     curvature.compliance += mode.residue * bend;
@@ -186,7 +186,7 @@ DampedCompliance ModalModel::compliance(double eta, double zeta, const Loss& per
   DampedCompliance compliance{};
   const Loss loss = fixed + zeta * per_zeta;
   for (const Mode& mode : modes_) {
-    const ModalDenominator d(eta, mode.frequency, loss);
+    const ModalDenominator d(eta, mode.frequency, loss, mode.influence);
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -mode.residue * inverse * inverse;  // dc/dd
     compliance.value += mode.residue * inverse;
@@ -204,7 +204,7 @@ std::vector<double> joined_frequencies(const std::vector<const ModalModel*>& mod
   std::vector<Pole> poles;
   for (const ModalModel* model : models) {
     for (const Mode& mode : model->modes()) {
-      if (k * mode.residue > 0) poles.push_back({mode.frequency * mode.frequency, k * mode.residue});
+      if (k * mode.residue > 0) poles.push_back({mode.influence.square(mode.frequency), k * mode.residue});
     }
   }
   std::sort(poles.begin(), poles.end(), [](const Pole& a, const Pole& b) { return a.square < b.square; });

@@ -149,8 +149,12 @@ void DisturbanceFlow::add_modes(double eta, Flow& flow) const {
     const Index v = p + both;
     for (Index part = 0; part < both; ++part) {
       matrix(p + part, v + part) += scale;
-      matrix(v + part, p + part) -= mode.frequency * mode.frequency / scale;
+      matrix(v + part, p + part) -= mode.stiffness().real() / scale;
       matrix(v + part, v + part) -= mode.damping;
+    }
+    if (both == 2) {
+      matrix(v, p + 1) += mode.stiffness().imag() / scale;
+      matrix(v + 1, p) -= mode.stiffness().imag() / scale;
     }
     for (const Index row : {p, v}) {  // -jh eta
       if (both == 1) continue;

@@ -57,7 +57,8 @@ struct Collocation {
 
 bool LinearLeap::pays(const Ring& ring, const VaryingForces& forces, double length) {
   constexpr double fading = 5;
-  return forces.are_linear() && 10 * std::ssize(forces.rows) <= ring.coordinates() &&
+  return forces.are_linear() && ring.coupling.size() == 0 &&
+         10 * std::ssize(forces.rows) <= ring.coordinates() &&
          ring.damping.cwiseAbs().maxCoeff() * length < fading;
 }
 

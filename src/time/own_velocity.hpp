@@ -27,7 +27,7 @@ inline Complex own_velocity(const Oscillator& mode, int h, double eta,
     }
   }
   if (h == 0 || force == 0.0) return 0;
-  const Complex rate(mode.frequency * mode.frequency - turns * turns, turns * mode.damping);
+  const Complex rate = mode.stiffness() + Complex(-turns * turns, turns * mode.damping);
   return -Complex(0, h) * force / rate;
 }
 

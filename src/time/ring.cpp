@@ -15,10 +15,11 @@
 namespace arcslip {
 namespace {
 
-/// Modes of one frequency and damping, as elements, load and the base's contact see them.
+/// Modes of one frequency, damping and influence, as elements, load and the base's contact see them.
 struct Group {
   double frequency;
   double damping;
+  Complex influence;     ///< as in Oscillator
   ComplexMatrix shapes;  ///< coordinates x modes
   ComplexVector base;    ///< modes: of the first contact dof
   ComplexVector load;    ///< modes
@@ -32,12 +33,13 @@ void add_modes(const ContactModes& structure, bool is_base, const Rows& rows, st
   if (structure.is_solved() || loss.structural != 0)
     throw std::invalid_argument("motion in time needs modes, with viscous or modal damping");
   for (const ContactMode& mode : structure.modes()) {
-    const double damping = two_pi * loss.part_eta(mode.frequency);
+    const double damping = two_pi * (loss.part_eta(mode.frequency) + mode.influence.damping);
+    const Complex influence = mode.influence.stiffness;
     auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
       return std::abs(one.frequency - mode.frequency) <= alike * mode.frequency &&
-             std::abs(one.damping - damping) <= alike * std::abs(damping);
+             std::abs(one.damping - damping) <= alike * std::abs(damping) && one.influence == influence;
     });
-    if (group == groups.end()) group = groups.insert(group, {mode.frequency, damping, {}, {}, {}});
+    if (group == groups.end()) group = groups.insert(group, {mode.frequency, damping, influence, {}, {}, {}});
     const Index last = group->load.size();
     group->shapes.conservativeResize(std::ssize(rows), last + 1);
     for (Index c = 0; c < std::ssize(rows); ++c) {
@@ -121,15 +123,17 @@ class Builder {
     for (const Group& group : groups) {
       const Axes found = axes_of(group, is_real(wave));
       const ComplexVector base = found.parts(group.shapes).conjugate() * group.base;
-      known_[wave].push_back({group.frequency, group.damping, found, base, size_});
+      known_[wave].push_back({group.frequency, group.damping, group.influence, found, base, size_});
       const Kept& kept = known_[wave].back();
       // Rigid motions that move no element would be defective; others by themselves tell of stability.
       const Index axes = group.frequency > 0 ? group.load.size() : kept.axes.shapes.cols();
       for (Index k = 0; k < axes; ++k) {
         const Index count = is_real(wave) ? 1 : 2;
         for (Index part = 0; part < count; ++part) {
-          stiffness_.push_back(std::pow(two_pi * group.frequency, 2));
+          const Complex stiffness = stiffness_of(group);
+          stiffness_.push_back(stiffness.real());
           damping_.push_back(group.damping);
+          coupling_.push_back(count == 1 ? 0 : part == 0 ? stiffness.imag() : -stiffness.imag());
           ring_.wave.push_back(wave);
           ring_.beside.push_back(count == 1 ? size_ : size_ + 1 - 2 * part);
           ++size_;
@@ -142,6 +146,8 @@ class Builder {
   void finish() {
     ring_.stiffness = Vector::Map(stiffness_.data(), size_);
     ring_.damping = Vector::Map(damping_.data(), size_);
+    if (std::any_of(coupling_.begin(), coupling_.end(), [](double one) { return one != 0; }))
+      ring_.coupling = Vector::Map(coupling_.data(), size_);
     const Index nodes = ring_.nodes();
     ring_.motion = Matrix::Zero(nodes * std::ssize(rows_), size_);
     ring_.base = Matrix::Zero(nodes, size_);
@@ -173,7 +179,8 @@ class Builder {
       const auto& all = known_[wave];
       const auto kept = std::find_if(all.begin(), all.end(), [&](const Kept& one) {
         return std::abs(one.frequency - group.frequency) <= 1e-8 * group.frequency &&
-               std::abs(one.damping - group.damping) <= 1e-8 * std::abs(group.damping);
+               std::abs(one.damping - group.damping) <= 1e-8 * std::abs(group.damping) &&
+               (backward ? std::conj(one.influence) : one.influence) == group.influence;
       });
       ComplexMatrix parts(0, group.load.size());
       if (kept != all.end()) {
@@ -185,7 +192,7 @@ class Builder {
       const ComplexVector rest = group.load - parts.adjoint() * (parts * group.load);
       const Complex residue = group.base.transpose() * rest;
       if (std::abs(residue) > 1e-14 * group.base.norm() * group.load.norm())
-        ring_.unseen.push_back({order, residue, std::pow(two_pi * group.frequency, 2), group.damping});
+        ring_.unseen.push_back({order, residue, stiffness_of(group), group.damping});
     }
     ring_.loads.push_back(std::move(load));
   }
@@ -194,10 +201,15 @@ class Builder {
   struct Kept {
     double frequency;
     double damping;
+    Complex influence;
     Axes axes;
     ComplexVector base;  ///< of each axis
     Index first;         ///< coordinate
   };
+
+  static Complex stiffness_of(const Group& group) {
+    return std::pow(two_pi, 2) * (group.frequency * group.frequency - group.influence);
+  }
 
   bool is_real(Index wave) const { return 2 * wave % ring_.nodes() == 0; }
 
@@ -235,6 +247,7 @@ class Builder {
   std::map<Index, std::vector<Kept>> known_;
   std::vector<double> stiffness_;
   std::vector<double> damping_;
+  std::vector<double> coupling_;
   Index size_ = 0;
 };
 
@@ -283,6 +296,9 @@ Ring build_ring(const SystemParameters& given) {
   const SystemParameters parameters = in_modes(given);
   if (!structures_of(parameters).has_equations())
     throw std::invalid_argument("structures that are known by their responses alone have no motion in time");
+  if (parameters.influence && parameters.influence->is_complex())
+    throw std::invalid_argument(
+        "complex influence coefficients, which are meant at one frequency, have no motion in time");
   if (parameters.one_way)
     throw std::invalid_argument("contacts that do not act back on the base have no motion in time here");
   const HarmonicSystem system = build_harmonic_system(parameters);

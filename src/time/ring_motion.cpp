@@ -73,7 +73,8 @@ RingMotion::RingMotion(const Ring& ring, double eta, double preload)
   }
   const double drag = dragged_.rows() > 0 ? bound_of(dragged_) : 0;
   const double half = (ring_.damping.cwiseAbs().maxCoeff() + drag) / 2;
-  rate_ = half + std::sqrt(half * half + ring_.stiffness.maxCoeff() + springs);
+  const double coupled = ring_.coupling.size() > 0 ? ring_.coupling.cwiseAbs().maxCoeff() : 0;
+  rate_ = half + std::sqrt(half * half + ring_.stiffness.maxCoeff() + coupled + springs);
   longest_step_ = std::min(reach / rate_, period_ / steps_per_period);
   for (const RingLoad& one : ring_.loads) fastest_load_ = std::max(fastest_load_, one.order * frequency_);
   branches_.resize(static_cast<std::size_t>(elements()));
@@ -255,6 +256,7 @@ bool RingMotion::expands(const RingState& state, double length) {
     const auto next = static_cast<double>(m + 1);
     forces =
         -ring_.stiffness.cwiseProduct(p.col(m)) - (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
+    if (ring_.coupling.size() > 0) forces += ring_.coupled(p.col(m));
     for (std::size_t h = 0; h < phases_.size(); ++h) {
       const RingLoad& load = ring_.loads[h];
       if (load.order > 0 || m == 0)

@@ -76,7 +76,7 @@ ComplexVector HarmonicRecord::base() const {
     for (std::size_t h = 0; h < orders_.size(); ++h) {
       const double w = one.order * motion_.frequency();
       if (orders_[h] == one.order)
-        all(static_cast<Index>(h)) += one.residue / Complex(one.stiffness - w * w, w * one.damping);
+        all(static_cast<Index>(h)) += one.residue / (one.stiffness + Complex(-w * w, w * one.damping));
     }
   }
   return all;
@@ -93,6 +93,10 @@ void EnergyRecord::follow(const RingSegment& segment, const RingState& /*state*/
       input_ += weight * (load.amplitude * phase).real().dot(velocity);
     }
     damping_ += weight * ring.damping.dot(velocity.cwiseAbs2());
+    if (ring.coupling.size() > 0) {
+      const Vector position = RingSegment::value(segment.position, t / segment.scale);
+      damping_ -= weight * ring.coupled(position).col(0).dot(velocity);
+    }
     const Vector x = RingSegment::value(segment.motion, t / segment.scale);
     const Vector rate = ring.motion * velocity;
     elements_ += weight * motion_.forces(segment, t / segment.scale, x, rate).dot(rate);

@@ -20,7 +20,12 @@ void RingMotion::add_harmonic(int order, const ComplexVector& load, RingState& s
   for (Index c = 0; c < ring_.coordinates(); ++c) {
     const Complex stiffness(ring_.stiffness(c) - w * w, w * ring_.damping(c));
     if (stiffness == 0.0) continue;  // a drift
-    const Complex p = load(c) / stiffness;
+    Complex p = load(c) / stiffness;
+    if (ring_.coupling.size() > 0) {  // with the coordinate beside
+      const Index b = ring_.beside[static_cast<std::size_t>(c)];
+      p = (stiffness * load(c) + ring_.coupling(c) * load(b)) /
+          (stiffness * stiffness - ring_.coupling(c) * ring_.coupling(b));
+    }
     state.position(c) += p.real();
     state.velocity(c) += (Complex(0, w) * p).real();
   }

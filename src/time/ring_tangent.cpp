@@ -162,6 +162,10 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
       if (forces.rows.empty()) force.setZero();
       force.noalias() += (up / h) * motion_.dragged().transpose() * (motion_.dragged() * next);
     }
+    if (ring.coupling.size() > 0) {
+      if (forces.rows.empty() && motion_.dragged().rows() == 0) force.setZero();
+      force -= ring.coupled(now);
+    }
     // now becomes the term after `next`: in one pass through memory.
     const double step = -h * h / (up * (up + 1));
     for (Index c = 0; c < now.cols(); ++c) {
@@ -268,6 +272,11 @@ Matrix RingTangent::wave_by_wave() const {
     }
     Matrix stiffness = rows.transpose() * gains;
     stiffness.diagonal() += ring.stiffness(which);
+    for (Index c = 0; c < count && ring.coupling.size() > 0; ++c) {
+      const auto beside =
+          std::find(which.begin(), which.end(), ring.beside[static_cast<std::size_t>(which[c])]);
+      stiffness(c, beside - which.begin()) -= ring.coupling(which[c]);
+    }
     const Matrix dragged = motion_.dragged()(Eigen::all, which);
     Matrix damping = dragged.transpose() * dragged;
     damping.diagonal() += ring.damping(which);

@@ -52,7 +52,7 @@ std::vector<Oscillator> made_real(std::vector<Oscillator> modes) {
             [](const Oscillator& a, const Oscillator& b) { return a.frequency < b.frequency; });
   for (std::size_t first = 0; first < modes.size();) {
     std::size_t next = first + 1;
-    while (next < modes.size() &&
+    while (next < modes.size() && modes[next].influence == modes[first].influence &&
            modes[next].frequency - modes[next - 1].frequency <= alike * modes[next].frequency)
       ++next;
     Matrix parts(modes[first].shape.size(), 2 * static_cast<Index>(next - first));
@@ -76,6 +76,7 @@ ContactModes conjugate(const ContactModes& structure) {
   for (ContactMode& mode : modes) {
     mode.shape = mode.shape.conjugate().eval();
     mode.load = 0;
+    mode.influence = mode.influence.conjugate();
   }
   return {structure.contacts(), std::move(modes), structure.loss()};
 }
@@ -110,7 +111,8 @@ std::vector<Oscillator> oscillators(const ContactModes& base, const ContactModes
         const Coordinate& one = others[static_cast<std::size_t>(i)];
         shape(mode.shape.size() + i) = entry(one) * mode.shape(one.dof);
       }
-      of_structure.push_back({mode.frequency, loss.part_eta(mode.frequency), std::move(shape)});
+      of_structure.push_back({mode.frequency, loss.part_eta(mode.frequency) + mode.influence.damping,
+                              std::move(shape), mode.influence.stiffness});
     }
     if (real) of_structure = made_real(std::move(of_structure));
     for (Oscillator& one : of_structure) (one.frequency > 0 ? all : rigid).push_back(std::move(one));

@@ -20,8 +20,7 @@ constexpr double forgotten = 1e-13;  // of what grows most: less is nothing, or 
 
 /// Exponents of an oscillator by itself.
 std::array<Complex, 2> roots(const Oscillator& mode) {
-  const Complex root =
-      std::sqrt(Complex(0.25 * mode.damping * mode.damping - mode.frequency * mode.frequency));
+  const Complex root = std::sqrt(0.25 * mode.damping * mode.damping - mode.stiffness());
   return {-0.5 * mode.damping + root, -0.5 * mode.damping - root};
 }
 
@@ -69,8 +68,9 @@ TurnedFlow::TurnedFlow(Kind kind, Index nodes, const std::vector<Wave>& waves, c
 }
 
 bool TurnedFlow::is_passive() const {
-  return std::all_of(coordinates_.begin(), coordinates_.end(),
-                     [](const Coordinate& one) { return one.mode.damping >= 0; });
+  return std::all_of(coordinates_.begin(), coordinates_.end(), [](const Coordinate& one) {
+    return one.mode.damping >= 0 && one.mode.influence == 0.0;
+  });
 }
 
 double TurnedFlow::step(double eta) const { return turn_ / (static_cast<double>(nodes_) * eta); }

@@ -220,8 +220,8 @@ class TurnedMap {
     for (Index i = 0; i < n; ++i) {
       const Oscillator& mode = coordinates_[static_cast<std::size_t>(i)].mode;
       rates(i, n + i) = scale_(i);
-      rates(n + i, i) = -mode.frequency * mode.frequency / scale_(i);
       rates(n + i, n + i) = -mode.damping;
+      add_stiffness(i, -mode.stiffness() / scale_(i), rates);
     }
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       for (Index node = 0; node < nodes_; ++node) {
@@ -244,6 +244,18 @@ class TurnedMap {
       }
     }
     return rates;
+  }
+
+  /// What the motion of a coordinate does to v of its wave, of two conjugate ones both parts.
+  void add_stiffness(Index i, const Complex& by_motion, Dense<Scalar>& rates) const {
+    const Part part = coordinates_[static_cast<std::size_t>(i)].part;
+    if constexpr (std::is_same_v<Scalar, Complex>) {
+      rates(size() + i, i) += by_motion;
+    } else {
+      rates(size() + i, i) += by_motion.real();
+      if (part == Part::real) rates(size() + i, i + 1) -= by_motion.imag();
+      if (part == Part::imaginary) rates(size() + i, i - 1) += by_motion.imag();
+    }
   }
 
   /// What unit forces do to v.

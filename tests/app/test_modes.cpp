@@ -1,6 +1,7 @@
 // arcslip modes: natural frequencies over the number of waves.
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -62,6 +63,44 @@ TEST_CASE("modes gives rods the frequencies of their finite elements, for every 
     CHECK_THAT(found.at({n, "stuck"}), WithinRel(std::sqrt(square) / (2 * pi), 1e-12));
   }
   CHECK(found.size() == 15);
+}
+
+TEST_CASE("modes --amplitude tells what structure, flow and friction take of each wave, either way round") {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      arcslip_program("modes --amplitude 0.5 --amplitude 1.7 " + source_folder() +
+                      "/problems/flutter.toml --set system.harmonics=1 -o " + folder.path("m"));
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK_THAT(outcome.out, ContainsSubstring("Damping ratio of the first stuck mode") &&
+                              ContainsSubstring("R = 0.5") && ContainsSubstring("damping.csv"));
+  std::istringstream lines(read(folder.path("m/damping.csv")));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "wave_number,mode,R,eta,zeta");
+  int rows = 0;
+  for (int n = -5; n <= 6; ++n) {
+    for (const double R : {0.5, 1.7}) {
+      REQUIRE(std::getline(lines, line));
+      double wave = 0, mode = 0, amplitude = 0, eta = 0, zeta = 0;
+      REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &wave, &mode, &amplitude, &eta, &zeta) == 5);
+      CAPTURE(n, R);
+      CHECK(wave == n);
+      CHECK(mode == 1);
+      CHECK(amplitude == R);
+      // 2 zeta w^2 = c w - Im A + k Im phi, w^2 = K(a) + k Re phi, with S = 1.
+      const double x = R > 1 ? 1 / R : 1;
+      const double turn = std::acos(1 - 2 * x);
+      const double real = R > 1 ? (turn - std::sin(2 * turn) / 2) / pi : 1;
+      const double w = std::sqrt(1.1 - 0.1 * std::cos(pi * n / 6) + 0.2 * real);
+      const double taken = 0.005 * w - 0.02 * std::sin(pi * n / 6) + 0.2 * 4 / pi * x * (1 - x);
+      CHECK_THAT(2 * pi * eta, WithinRel(w, 1e-9));
+      CHECK_THAT(2 * zeta * w * w, WithinAbs(taken, 1e-10));
+      ++rows;
+    }
+  }
+  CHECK(rows == 24);
+  CHECK(arcslip_program("modes --amplitude -1 " + source_folder() + "/problems/flutter.toml").status == 2);
 }
 
 TEST_CASE("modes refuses what has none and says why") {

@@ -389,6 +389,20 @@ def test_modes_without_speed_or_units_have_no_engine_orders(tmp_path):
         figures_of(tmp_path)
 
 
+def test_damping_is_drawn_over_nodal_diameters_both_ways_round(tmp_path):
+    write_modes(tmp_path, None)
+    rows = [f"{n},{mode},{R},0.2,{zeta}" for R in (0.5, 2) for mode in (1, 2) for n, zeta in ((-1, 0.01 * R), (1, -0.01 * mode), (0, 0))]
+    (tmp_path / "damping.csv").write_text("wave_number,mode,R,eta,zeta\n" + "\n".join(rows) + "\n")
+    figures = figures_of(tmp_path)
+    assert list(figures) == ["modes", "damping"]
+    figure = figures["damping"]
+    check_layout(figure)
+    assert {"R = 0.5", "R = 2", "nodal diameter"} <= {text for text, _ in texts_of(figure)}
+    curves = [np.column_stack(line.get_data()) for line in figure.axes[0].lines if len(line.get_xdata()) == 3]
+    for R in (0.5, 2):  # first modes alone, in the order of the diameters
+        assert any(np.allclose(curve, [[-1, 0.01 * R], [0, 0], [1, -0.01]]) for curve in curves)
+
+
 def test_modes_are_drawn_beside_a_run(results, tmp_path):
     for name in ("branches.csv", "curves.csv", "summary.json"):
         os.link(results["pp2"] / name, tmp_path / name)

@@ -26,6 +26,8 @@ SystemParameters some_rings(StructureModel model, DampingKind kind) {
   s.base_damping_kind = kind;
   s.cubic_stiffness = 0.4;
   s.preload_growth = 0.02;
+  s.influence = std::make_shared<const Influence>(Influence{{{0, -0.4}, {1, 3.0}, {-1, -2.0}}, {}, {}});
+  s.influence_factor = 1.5;
   return s;
 }
 

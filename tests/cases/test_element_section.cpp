@@ -77,7 +77,7 @@ TEST_CASE("A parameter of the system may be continued in place of eta and P") {
       ContainsSubstring("force cannot be listed where F is the continuation parameter"));
   CHECK_THAT(
       case_texts::error_of(system_text + replaced(over_force, "\"F\"", "\"K_FD\"") + "stability = true\n"),
-      ContainsSubstring("branch.stability: over eta, P, F and P_2, not over K_FD"));
+      ContainsSubstring("branch.stability: over eta, P, F, P_2 and influence, not over K_FD"));
   CHECK_THAT(case_texts::error_of(system_text +
                                   replaced(over_force, "[branch]\n", "[branch]\nresponse = \"one_way\"\n") +
                                   "stability = true\n"),

@@ -66,8 +66,9 @@ PreciseResponse precise_response(const ModalModel& model, const PreciseReal& eta
   const Loss& loss = model.loss();
   for (const Mode& mode : model.modes()) {
     const PreciseReal f = mode.frequency;
-    const PreciseReal by_eta = loss.viscous * f * f + loss.modal * f + loss.mass;
-    const PreciseComplex d(f * f - eta * eta, by_eta * eta + loss.structural * f * f);
+    const PreciseReal by_eta = loss.viscous * f * f + loss.modal * f + loss.mass + mode.influence.damping;
+    const PreciseComplex d(f * f - eta * eta - mode.influence.stiffness.real(),
+                           by_eta * eta + loss.structural * f * f - mode.influence.stiffness.imag());
     const PreciseComplex reciprocal = PreciseComplex(1) / d;
     const PreciseComplex slope = -reciprocal * reciprocal * PreciseComplex(-2 * eta, by_eta);
     const PreciseComplex load(PreciseReal(mode.load_residue.real()), PreciseReal(mode.load_residue.imag()));
@@ -162,6 +163,9 @@ TEST_CASE("Enclosed response, equation and gradient hold fifty digits", "[interv
     s.base_damping *= draw.integer(0, 1) == 0 ? 1 : -1;
     s.base_damping_kind = draw.integer(0, 1) == 0 ? DampingKind::viscous : DampingKind::structural;
     s.preload_growth = draw.integer(0, 1) == 0 ? 0 : 0.1 * s.preload;
+    if (draw.integer(0, 1) == 0)
+      s.influence = std::make_shared<const Influence>(
+          Influence{{{1, draw.uniform(-1, 1)}}, {{s.wave_number, draw.uniform(-0.01, 0.01)}}, {}});
     const FrictionSystem system = build_system(s);
     const auto [from, to] = resonance_range(s);
     const Sample eta = around(draw, draw.log_uniform(from, to));

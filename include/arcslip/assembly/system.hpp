@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arcslip/assembly/excitation.hpp"
+#include "arcslip/assembly/influence.hpp"
 #include "arcslip/elements/element_kind.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
@@ -87,6 +88,9 @@ struct SystemParameters {
   std::vector<PlacedElement> others = {};  ///< beside contacts and cubic springs
   std::vector<WantedOutput> wanted = {};   ///< of rods and beams the dofs of an element, else the masses
   Excitation excitation = {};              ///< the load's harmonics, of which the balanced ones act
+
+  std::shared_ptr<const Influence> influence = {};  ///< of a flow on the base; null: none
+  double influence_factor = 1;                      ///< on all of it
 
   std::string varied = {};  ///< a parameter of system_parameter.hpp that may be continued
   bool tells_lag = false;   ///< whether the lag of the motion that the load does work on is wanted

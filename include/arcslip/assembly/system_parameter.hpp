@@ -12,6 +12,7 @@
 //   P_2           growth of the preload P + P_2 eta^2
 //   L             all contacts' limit_per_preload
 //   K_FD_2, L_2   of the second of several contacts; so of each
+//   influence     all that a flow does to the base
 //   stops.gap     a setting of an element, see setting_name
 //
 // M*, gamma and cubic_stiffness belong to rods and beams; of the load goes F K*, of the contacts' slip P
@@ -54,6 +55,7 @@ struct SystemParameter {
     damping,  ///< a damping ratio
     contact,  ///< a stiffness or a limit of contacts
     growth,   ///< of the preload, with eta^2
+    flow,     ///< what a flow does
     element,  ///< a setting of an element beside the contacts
     ratio     ///< of base to damper, which sectors do not have
   };
@@ -76,7 +78,7 @@ struct SystemParameter {
   bool allows(double other) const {
     if (kind == Kind::element)
       return other <= limits.high && (limits.may_be_low ? other >= limits.low : other > limits.low);
-    return kind == Kind::damping || kind == Kind::growth || other > 0;
+    return kind == Kind::damping || kind == Kind::growth || kind == Kind::flow || other > 0;
   }
 };
 

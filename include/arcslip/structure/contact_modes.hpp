@@ -41,8 +41,9 @@ struct Variation {
   double mass = 1;       ///< factor on M
   double load = 1;       ///< factor on F
   Loss loss = {};        ///< in place of its own; proportional to these K and M
+  double influence = 1;  ///< factor on what a flow does
 
-  static Variation none() { return {0, 0, 0, {}}; }  ///< of rates
+  static Variation none() { return {0, 0, 0, {}, 0}; }  ///< of rates
 };
 
 /// Response of such a structure, with its derivatives along the rates of a variation.
@@ -66,9 +67,10 @@ using ReceptanceWork = std::function<CycleWork(double eta, double load, const Co
 
 /// One mode v_k as contacts and load see it.
 struct ContactMode {
-  double frequency;     ///< eta_k
-  ContactVector shape;  ///< s_k, m
-  Complex load;         ///< l_k
+  double frequency;              ///< eta_k
+  ContactVector shape;           ///< s_k, m
+  Complex load;                  ///< l_k
+  ModeInfluence influence = {};  ///< of a flow
 
   /// Whether it moves the structure without deforming it.
   bool is_rigid() const { return !(frequency > 0); }

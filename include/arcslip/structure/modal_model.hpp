@@ -12,6 +12,8 @@
 //
 // where mu belongs to C = 2 pi mu M, and zeta is that of modal damping, the same for every mode.
 //
+// A flow round the structure adds -A_k + j g_k eta to d_k, see ModeInfluence.
+//
 // The difference eta_k - eta is exact, so that the sums are accurate to rounding on the sharpest peak.
 
 #include <numbers>
@@ -79,12 +81,40 @@ struct MatrixFactors {
   std::complex<Real> m;  ///< of M
 };
 
+/// What acts on a mode as it moves beside its own structure, as a flow does: the force stiffness q -
+/// damping q', over its modal mass. An imaginary part of the stiffness is one of a wave, which neighbours lag
+/// behind, and where it is positive feeds energy in.
+struct ModeInfluence {
+  Complex stiffness = 0;  ///< A_k, in units of eta^2
+  double damping = 0;     ///< g_k, in units of eta
+
+  /// What d_k has more.
+  Complex part(double eta) const { return {-stiffness.real(), damping * eta - stiffness.imag()}; }
+  Complex part_eta() const { return {0, damping}; }  ///< its derivative in eta
+
+  /// The square of the frequency of a mode that moves under it, without damping; no less than 0.
+  double square(double frequency) const {
+    const double moved = frequency * frequency - stiffness.real();
+    return moved > 0 ? moved : 0;
+  }
+
+  /// Under the wave that runs the other way.
+  ModeInfluence conjugate() const { return {std::conj(stiffness), damping}; }
+  friend ModeInfluence operator*(double factor, const ModeInfluence& one) {
+    return {factor * one.stiffness, factor * one.damping};
+  }
+  friend bool operator==(const ModeInfluence& a, const ModeInfluence& b) {
+    return a.stiffness == b.stiffness && a.damping == b.damping;
+  }
+};
+
 /// d_k of a mode of frequency eta_k, with its derivative in eta.
 struct ModalDenominator {
   /// At eta.
-  ModalDenominator(double eta, double frequency, const Loss& loss)
-      : value((frequency - eta) * (frequency + eta), loss.part(eta, frequency)),
-        by_eta(-2 * eta, loss.part_eta(frequency)) {}
+  ModalDenominator(double eta, double frequency, const Loss& loss, const ModeInfluence& influence = {})
+      : value(Complex((frequency - eta) * (frequency + eta), loss.part(eta, frequency)) +
+              influence.part(eta)),
+        by_eta(Complex(-2 * eta, loss.part_eta(frequency)) + influence.part_eta()) {}
 
   Complex value;   ///< d_k
   Complex by_eta;  ///< dd_k/deta
@@ -99,9 +129,10 @@ struct DampedCompliance {
 
 /// One mode; frequencies are in units of eta.
 struct Mode {
-  double frequency;      ///< eta_k
-  double residue;        ///< a_k >= 0
-  Complex load_residue;  ///< b_k
+  double frequency;              ///< eta_k
+  double residue;                ///< a_k >= 0
+  Complex load_residue;          ///< b_k
+  ModeInfluence influence = {};  ///< of a flow
 };
 
 /// The modes of a structure, in ascending order of frequency.

@@ -13,7 +13,8 @@
 //
 //   p'' + D p' + W p + X^T f = Re(sum_h L_h e^{jhw*t}),   x = X p
 //
-// and make of the motion in which each node does what the next one did a turn of a and b by 2 pi l/N.
+// but for a flow's, under which a and b push each other, and
+// make of the motion in which each node does what the next one did a turn of a and b by 2 pi l/N.
 // Of modes of one frequency and damping, as rigid motions of base and damper, elements feel sum v v^H alone:
 // what moves no element is left out, and told apart where the load moves it.
 
@@ -43,16 +44,17 @@ struct RingLoad {
 
 /// What a harmonic of the load moves of the base's contact dof without any element's knowing.
 struct UnseenMotion {
-  int order;         ///< h
-  Complex residue;   ///< of y_h = residue/(stiffness - (h w*)^2 + jh w* damping), at node 1
-  double stiffness;  ///< square of the circular frequency
-  double damping;    ///< as in D
+  int order;          ///< h
+  Complex residue;    ///< of y_h = residue/(stiffness - (h w*)^2 + jh w* damping), at node 1
+  Complex stiffness;  ///< square of the circular frequency, less what a flow does
+  double damping;     ///< as in D
 };
 
 /// Modal form of the ring; D coordinates, N nodes. Time is nondimensional: one period is p/eta.
 struct Ring {
   Vector stiffness;           ///< D: diagonal of W, squares of the circular frequencies 2 pi eta_k
   Vector damping;             ///< D: diagonal of D
+  Vector coupling;            ///< D: by what the coordinate beside pushes; empty where no flow does
   std::vector<Index> wave;    ///< D: l <= N/2
   std::vector<Index> beside;  ///< D: the coordinate b that stands to an a or a to a b; itself where N | 2 l
 
@@ -78,6 +80,9 @@ struct Ring {
   double periods_of_turn() const {
     return wave_number == 0 ? 1 : static_cast<double>(wave_number) / static_cast<double>(node_count);
   }
+
+  /// What the coordinates beside push with, columns of D rows; of a ring with `coupling`.
+  Matrix coupled(const Matrix& columns) const { return coupling.asDiagonal() * columns(beside, Eigen::all); }
 
   /// Columns of D rows, turned so that each node does what the next one did.
   Matrix turned(const Matrix& columns) const;

@@ -45,8 +45,10 @@ class EnergyRecord : public RingObserver {
   explicit EnergyRecord(const RingMotion& motion) : motion_(motion) {}
   void follow(const RingSegment& segment, const RingState& state) override;
 
-  double input() const { return input_; }        ///< of the load
-  double damping() const { return damping_; }    ///< lost to viscous damping; negative where it drives
+  double input() const { return input_; }  ///< of the load
+  double damping() const {
+    return damping_;
+  }  ///< lost to viscous damping and to a flow; negative where they drive
   double elements() const { return elements_; }  ///< done on the elements, which lose or store it
 
  private:

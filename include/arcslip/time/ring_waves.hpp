@@ -2,7 +2,7 @@
 
 // Base and damper as disturbances of l = 0, 1, ..., N - 1 waves round the ring meet them: oscillators
 //
-//   p'' + damping p' + frequency^2 p = -shape^H F,   x = sum shape p
+//   p'' + damping p' + (frequency^2 - influence) p = -shape^H F,   x = sum shape p
 //
 // in time in units of 1/(2 pi), x the coordinates in which elements act (coordinates.hpp) of the node whose
 // phase is 0, F the forces against them. Waves of l and N - l lengths are each other's conjugates.
@@ -19,9 +19,12 @@ struct SystemParameters;
 
 /// One mode of base or damper under a wave.
 struct Oscillator {
-  double frequency;     ///< in units of eta
-  double damping;       ///< in the same units
-  ContactVector shape;  ///< of the contacts, then of further coordinates
+  double frequency;       ///< in units of eta
+  double damping;         ///< in the same units
+  ContactVector shape;    ///< of the contacts, then of further coordinates
+  Complex influence = 0;  ///< of a flow, in units of eta^2; complex of a wave that is not its own conjugate
+
+  Complex stiffness() const { return frequency * frequency - influence; }  ///< of p
 };
 
 /// The oscillators of both structures under one wave, rigid ones at the end. Left out is what moves the

@@ -15,6 +15,7 @@
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
 #include "results/shapes.hpp"
+#include "results/wave_damping.hpp"
 
 namespace arcslip {
 namespace {
@@ -25,6 +26,7 @@ struct ModesOptions {
   std::vector<std::string> settings;  ///< "section.key=value"
   Index highest = 50;                 ///< number of waves
   double speed = 0;                   ///< revolutions a minute, of engine-order lines; 0: none
+  std::vector<double> amplitudes;     ///< R, at which damping is wanted
   bool quiet = false;
   bool shapes = false;  ///< write those of the system's own wave
 };
@@ -54,15 +56,19 @@ int modes(const ModesOptions& options) {
   std::vector<ShapeFile> shapes;
   if (options.shapes) file.named("system", [&] { shapes = RingShapes(problem.system).modes(); });
   file.named("system", [&] { waves = modes_of(problem, options.highest); });
+  std::vector<DampedWave> damped;
+  if (!options.amplitudes.empty())
+    file.named("system", [&] { damped = damping_of_waves(problem, options.highest, options.amplitudes); });
   const OutputFolder folder(results_folder(options.folder, options.case_path));
   const nlohmann::ordered_json about = {
       {"arcslip", release},
       {"nodes", problem.system.elements},
       {"speed_per_minute",
        options.speed > 0 ? nlohmann::ordered_json(options.speed) : nlohmann::ordered_json()}};
-  for (const auto& [name, text] :
-       {std::pair<std::string, std::string>("modes.csv", modes_csv(problem, waves)),
-        {"modes.json", about.dump(2) + "\n"}}) {
+  std::vector<std::pair<std::string, std::string>> files{{"modes.csv", modes_csv(problem, waves)},
+                                                         {"modes.json", about.dump(2) + "\n"}};
+  if (!damped.empty()) files.emplace_back("damping.csv", damping_csv(problem, damped));
+  for (const auto& [name, text] : files) {
     AtomicFile written(folder.path() + "/" + name);
     written.write(text);
     written.sync();
@@ -70,7 +76,9 @@ int modes(const ModesOptions& options) {
   }
   if (options.shapes) write_shapes(folder.path(), shapes);
   if (options.quiet) return status::done;
-  print(modes_text(problem, waves) + fmt::format("\n{0}/modes.csv", folder.path()) +
+  print(modes_text(problem, waves) + (damped.empty() ? "" : damping_text(damped, options.amplitudes)) +
+        fmt::format("\n{0}/modes.csv", folder.path()) +
+        (damped.empty() ? "" : fmt::format(", {}/damping.csv", folder.path())) +
         (options.shapes ? fmt::format(", {} shapes in {}/shapes\n", shapes.size(), folder.path()) : "\n"));
   return status::done;
 }
@@ -94,6 +102,15 @@ Command::Action add_modes(CLI::App& app) {
   command
       ->add_option("--speed", options->speed, "Revolutions a minute, for engine-order lines in the picture")
       ->type_name("RPM")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--amplitude", options->amplitudes,
+                   "An amplitude R of the first contact; may be repeated. Writes DIR/damping.csv, what each "
+                   "stuck mode loses at it to structure, flow and friction")
+      ->type_name("R")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
   add_settings(command, options->settings);
   command->add_flag("--shapes", options->shapes,

@@ -53,7 +53,7 @@ class Floquet {
 };
 
 /// What disturbances of a motion run through: the same at every point of a forced response, and with the
-/// base's damping zeta_B of a limit cycle.
+/// base's damping zeta_B of a limit cycle; or as strong as the flow that acts on the base is.
 class DisturbedRing {
  public:
   /// Of the motion in the harmonics of `system`; asks `waves` for all structures at once.
@@ -62,8 +62,8 @@ class DisturbedRing {
   /// As they were given.
   const RingDisturbances& given() const { return *given_; }
 
-  /// With another zeta_B.
-  RingDisturbances damped(double zeta) const;
+  /// With another zeta_B, or its own, under so many times the flow.
+  RingDisturbances at(std::optional<double> zeta, double influence) const;
 
  private:
   HarmonicSystem system_;
@@ -126,6 +126,7 @@ class FloquetOf : public Motion, public Floquet {
   RingDisturbances::Disturbances found(const RingDisturbances& ring, const Vector& u, const Vector& p,
                                        const continuation::Regime& regime,
                                        std::span<const StickPattern> contacts, bool active) const;
+  double influence(const Vector& p) const;
   template <class Use>
   auto with_ring(const Vector& p, const Use& use) const;
   struct Last;
