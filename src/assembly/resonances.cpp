@@ -12,6 +12,11 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
   std::vector<Resonance> all;
   const auto add = [&](const char* part, const ContactModes& structure) {
     std::vector<Resonance> own;
+    if (structure.turning_modes() != nullptr) {
+      for (const JoinedMode& mode : joined_modes({&structure}, Vector::Zero(structure.contacts())))
+        all.push_back({part, mode.frequency, mode.damping});
+      return;
+    }
     for (const ContactMode& mode : structure.modes()) {
       const double eta = mode.frequency;
       own.push_back({part, eta, eta > 0 ? structure.loss().part(eta, eta) / (2 * eta * eta) : 0});

@@ -283,6 +283,8 @@ Ring build_ring(const SystemParameters& given) {
   const SystemParameters parameters = in_modes(given);
   if (!structures_of(parameters).has_equations())
     throw std::invalid_argument("structures that are known by their responses alone have no motion in time");
+  if (feels_rotation(parameters))
+    throw std::invalid_argument("structures that turn have no motion in time here");
   if (parameters.one_way)
     throw std::invalid_argument("contacts that do not act back on the base have no motion in time here");
   const HarmonicSystem system = build_harmonic_system(parameters);

@@ -13,6 +13,7 @@
 //   L             all contacts' limit_per_preload
 //   K_FD_2, L_2   of the second of several contacts; so of each
 //   stops.gap     a setting of an element, see setting_name
+//   speed         of rotation, in revolutions, of sectors that feel it
 //
 // M*, gamma and cubic_stiffness belong to rods and beams; of the load goes F K*, of the contacts' slip P
 // K*/K_FD. L and what is of one contact belong to sectors, of which K_FD is N k of the first contact and
@@ -55,6 +56,7 @@ struct SystemParameter {
     contact,  ///< a stiffness or a limit of contacts
     growth,   ///< of the preload, with eta^2
     element,  ///< a setting of an element beside the contacts
+    speed,    ///< of rotation
     ratio     ///< of base to damper, which sectors do not have
   };
 
@@ -76,7 +78,7 @@ struct SystemParameter {
   bool allows(double other) const {
     if (kind == Kind::element)
       return other <= limits.high && (limits.may_be_low ? other >= limits.low : other > limits.low);
-    return kind == Kind::damping || kind == Kind::growth || other > 0;
+    return kind == Kind::damping || kind == Kind::growth || kind == Kind::speed || other > 0;
   }
 };
 
