@@ -94,9 +94,9 @@ std::shared_ptr<const SectorSolves> SectorPair::solves(const Kept& kept, const S
   const Loss loss = kept.part.loss(zeta);
   if (path_ == SectorPath::reduced) {
     if (!turns) return nullptr;
+    const std::shared_ptr<const SectorModes> known = modes(kept, use, zeta);
     return found(kept, kept.solves, key_of(use, zeta), [&]() -> std::shared_ptr<const SectorSolves> {
-      return std::make_shared<const ModalSolves>(modes(kept, use, zeta),
-                                                 std::ssize(kept.part.sector.contacts), loss);
+      return std::make_shared<const ModalSolves>(known, std::ssize(kept.part.sector.contacts), loss);
     });
   }
   const std::vector<double> key{static_cast<double>(use.wave.wave_number),
@@ -118,9 +118,9 @@ std::shared_ptr<const SectorSolves> SectorPair::damper_solves(const SectorUse& u
 std::shared_ptr<const KnownTurning> SectorPair::turning(bool is_base, const SectorUse& use,
                                                         double zeta) const {
   const Kept& kept = is_base ? base_ : damper_.value();
+  const std::shared_ptr<const SectorModes> known = modes(kept, use, zeta);
   return found(kept, kept.turning, key_of(use, zeta), [&] {
-    return std::make_shared<const KnownTurning>(modes(kept, use, zeta),
-                                                std::ssize(kept.part.sector.contacts));
+    return std::make_shared<const KnownTurning>(known, std::ssize(kept.part.sector.contacts));
   });
 }
 
