@@ -106,3 +106,19 @@ TEST_CASE("What has no Campbell diagram is refused in one line", "[rotation]") {
   CHECK(wrong.status == 1);
   CHECK_THAT(wrong.err, ContainsSubstring("two speeds, 0 <= low < high"));
 }
+
+TEST_CASE("Rings that turn are written with their matrices, and run", "[rotation]") {
+  const TemporaryFolder folder;
+  const std::string sector =
+      "sector ring --elements 3 --ring-elements 3 --speed 40 -o '" + folder.path("r") + "' ";
+  const Outcome flat = arcslip_program(sector + "--contact axial");
+  CHECK(flat.status == 1);
+  CHECK_THAT(flat.err, ContainsSubstring("--speed: expected --contact radial or tangential"));
+  const Outcome made = arcslip_program(sector + "--contact radial --wave-number 3");
+  CAPTURE(made.err);
+  REQUIRE(made.status == 0);
+  CHECK_THAT(read(folder.path("r/case.toml")), ContainsSubstring("gyroscopic = \"base_gyroscopic.mtx\""));
+  CHECK(arcslip_program("run '" + folder.path("r/case.toml") + "' --set branch.for_each.preload=[1.0] -o '" +
+                        folder.path("o") + "'")
+            .status == 0);
+}

@@ -8,6 +8,7 @@
 
 #include "arcslip/sectors/sector_modes.hpp"
 #include "arcslip/sectors/sector_solver.hpp"
+#include "arcslip/time/ring_sector.hpp"
 #include "catch.hpp"
 #include "sectors/turning_modes.hpp"
 #include "turning_sectors.hpp"
@@ -307,4 +308,35 @@ TEST_CASE("A stiffness that rotation takes away has no modes, and says at which 
   const SectorModes modes = sector_modes(sector, {3, 24}, request);
   CHECK_THROWS_WITH(turning_modes(modes, 1, {1e4, 0}),
                     ContainsSubstring("not positive definite at a speed of 10000"));
+}
+
+TEST_CASE("Built-in rings in their plane split as they turn, by hardly more than slender ones") {
+  SolidRing ring{.radius = 0.2,
+                 .width = 0.01,
+                 .height = 0.002,
+                 .youngs_modulus = 2e11,
+                 .poisson_ratio = 0.3,
+                 .density = 7800,
+                 .contact = RingDirection::radial,
+                 .sectors = 12,
+                 .elements = 6,
+                 .turns = true};
+  const FiniteSector sector = ring_sector(ring);
+  for (const Index n : {2, 3, 4}) {
+    const auto m = static_cast<double>(n);
+    const double speed = 2;
+    const auto lowest = [&](Index wave, double at) {
+      return frequencies_of(sector, {wave, 12}, {at, 0}).front();
+    };
+    const double with = lowest(n, speed);
+    const double against = lowest(-n, speed);
+    const double rest = lowest(n, 0);
+    CAPTURE(n);
+    // Of (h/R)^2 = 1e-4 and n^2, and what is left of differences of frequencies found to 1e-12.
+    CHECK_THAT((against - with) / speed, WithinRel(4 * m / (m * m + 1), 1e-3));
+    CHECK_THAT((against * with - rest * rest) / (speed * speed),
+               WithinRel(m * m * (m * m - 3) / (m * m + 1), 5e-3));
+  }
+  ring.contact = RingDirection::axial;
+  CHECK_THROWS_AS(ring_sector(ring), std::invalid_argument);
 }
