@@ -8,6 +8,7 @@ from . import style, words
 from .axes import with_room
 from .curves import Curve, draw_marks
 from .draw import Quantity, Sheet
+from .of_campbell import Campbell, has_campbell
 from .page import line_entry, mark_entry
 from .tables import Refused, Table, json_of
 
@@ -53,8 +54,13 @@ class PicturesOfModes:
         except (KeyError, TypeError, ValueError) as error:
             raise Refused(f"{path}: does not tell nodes and speed_per_minute; expected a file that arcslip has written") from error
 
+        self.campbell = Campbell(folder, PARTS) if has_campbell(folder) else None
+
     def pictures(self):
-        return {"modes": self._modes} | ({"damping": self._damping} if self.damped else {})
+        found = {"modes": self._modes} | ({"damping": self._damping} if self.damped else {})
+        if self.campbell is not None:
+            found["campbell"] = lambda: self.campbell.figure(lambda title, x: _Sheet(self.options, self.measure, title, x))
+        return found
 
     def _damping(self):
         """Damping over nodal diameters, the first mode at each amplitude; below 0 of waves that run the other way."""
@@ -99,7 +105,7 @@ class PicturesOfModes:
             more = [line_entry(f"engine orders to {2 * self.nodes} at {words.number_text(self.speed)}/min", style.GREY, style.THIN),
                     mark_entry("crossing", "user")]
         title = words.axis_title(self.column)
-        sheet = _Sheet(self.options, self.measure, "nodal diameter", with_room(0, max(self.waves.max(), 1), 0.04, 0.04, False))
+        sheet = _Sheet(self.options, self.measure, "nodal diameter", with_room(min(self.waves.min(), 0), max(self.waves.max(), 1), 0.04, 0.04, False))
         figure = sheet.panels([Quantity(curves, "plain", title, wide=100)], more)
         (ax,) = figure.axes
         for curve in curves:

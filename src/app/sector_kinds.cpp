@@ -89,6 +89,7 @@ SectorCase with_damper(const PairOptions& options, const SolidOptions& solid, co
   load_outputs(result);
   thin_out(result.base.contacts, solid.contacts, "elements of the base's contact line");
   result.damper = ring_sector(ring);
+  result.speed = solid.speed;
   thin_out(result.damper.contacts, solid.contacts, "elements of the damper");
   const double shear = ring.youngs_modulus / (2 * (1 + ring.poisson_ratio));
   const double spacing = two_pi * ring.radius / static_cast<double>(result.sectors * solid.contacts);
@@ -154,6 +155,10 @@ SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, con
 }
 
 SectorCase ring_case(const PairOptions& options, const SolidRing& base, const SolidOptions& solid) {
+  if (base.turns && base.motion() != SolidRingMotion::in_plane)
+    throw SectorKindError(
+        "--speed: expected --contact radial or tangential, as what rotation adds is that of rings "
+        "in their plane");
   SectorCase result = shared(options, base.sectors);
   result.base = ring_sector(base);
   result.title = "Ring with a ring damper";

@@ -125,6 +125,12 @@ SystemParameters in_order(const SystemParameters& parameters, int h) {
   wave.force *= share.imag() == 0 ? share.real() : std::abs(share);
   if (h == p) return wave;
   wave.wave_number = h * parameters.first_wave() % parameters.elements;
+  if (parameters.rotation.per_eta != 0) {
+    if (h == 0 && structures_of(parameters).feels_rotation())
+      throw std::invalid_argument(
+          "the mean is not balanced beside engine_order, whose speed changes the stiffness at rest");
+    wave.rotation.per_eta *= static_cast<double>(p) / std::max(h, 1);
+  }
   wave.eta_low = h * parameters.eta_low / p;
   wave.eta_high = std::max(h, 1) * parameters.eta_high / p;
   wave.tells_lag = false;

@@ -12,6 +12,11 @@ std::vector<Resonance> resonances(const ContactSystem& wave) {
   std::vector<Resonance> all;
   const auto add = [&](const char* part, const ContactModes& structure) {
     std::vector<Resonance> own;
+    if (structure.turning_modes() != nullptr) {
+      for (const JoinedMode& mode : joined_modes({&structure}, Vector::Zero(structure.contacts())))
+        all.push_back({part, mode.frequency, mode.damping});
+      return;
+    }
     for (const ContactMode& mode : structure.modes()) {
       const double eta = std::sqrt(mode.influence.square(mode.frequency));
       const double losses = structure.loss().part(eta, mode.frequency) + mode.influence.part(eta).imag();

@@ -8,7 +8,8 @@
 #include <string>
 
 #include "arcslip/sectors/sector_reduction.hpp"
-#include "sectors/full_receptance.hpp"
+#include "assembly/system_numbers.hpp"
+#include "sectors/turning_modes.hpp"
 
 namespace arcslip {
 
@@ -42,49 +43,85 @@ const Value& SectorPair::found(const Kept& kept, Places<Key, Value>& places, con
   return place.value;
 }
 
-const SectorModes& SectorPair::modes(const Kept& kept, const SectorUse& use, double zeta) const {
+namespace {
+
+/// What a use is told from others by.
+std::vector<double> key_of(const SectorUse& use, double zeta) {
+  std::vector<double> key{static_cast<double>(use.wave.wave_number), static_cast<double>(use.wave.sectors),
+                          use.eta_low, use.eta_high, zeta};
+  for (const Rotation& one : use.rotations) key.insert(key.end(), {one.fixed, one.per_eta});
+  return key;
+}
+
+/// The same sector without what rotation adds.
+FiniteSector at_rest(FiniteSector sector) {
+  sector.gyroscopic = SparseMatrix();
+  sector.stiffness_speed2 = SparseMatrix();
+  return sector;
+}
+
+}  // namespace
+
+std::shared_ptr<const SectorModes> SectorPair::modes(const Kept& kept, const SectorUse& use,
+                                                     double zeta) const {
   // Of resonances that only show where to look: far within the peaks of any damping ratio.
   constexpr double close = 1e-6;
   constexpr Loss little{.structural = 2e-4};
   const bool full = path_ == SectorPath::full;
-  const double damping = full ? 0 : zeta;
-  const std::array<double, 5> key = {static_cast<double>(use.wave.wave_number),
-                                     static_cast<double>(use.wave.sectors), use.eta_low, use.eta_high,
-                                     damping};
-  return found(kept, kept.modes, key, [&] {
+  return found(kept, kept.modes, key_of(use, full ? 0 : zeta), [&] {
     ModesRequest request{use.eta_low, use.eta_high, tolerance_, kept.part.loss(zeta)};
+    request.rotations = use.rotations;
     if (full) {
       request.tolerance = std::max(tolerance_, close);
       request.loss = little;
       request.compared = false;
     }
-    return sector_modes(kept.part.sector, use.wave, request);
+    return std::make_shared<const SectorModes>(sector_modes(kept.part.sector, use.wave, request));
   });
 }
 
 const SectorModes& SectorPair::base_modes(const SectorUse& use, double zeta) const {
-  return modes(base_, use, zeta);
+  return *modes(base_, use, zeta);
 }
 
 const SectorModes& SectorPair::damper_modes(const SectorUse& use, double zeta) const {
-  return modes(damper_.value(), use, zeta);
+  return *modes(damper_.value(), use, zeta);
 }
 
-std::shared_ptr<const FullReceptance> SectorPair::solves(const Kept& kept, const SectorWave& wave,
-                                                         double zeta) const {
-  const std::array<double, 3> key = {static_cast<double>(wave.wave_number), static_cast<double>(wave.sectors),
-                                     zeta};
-  return found(kept, kept.solves, key, [&] {
-    return std::make_shared<const FullReceptance>(kept.part.sector, wave, kept.part.loss(zeta));
+std::shared_ptr<const SectorSolves> SectorPair::solves(const Kept& kept, const SectorUse& use,
+                                                       double zeta) const {
+  const bool turns = !use.rotations.empty() && kept.part.sector.feels_rotation();
+  const Loss loss = kept.part.loss(zeta);
+  if (path_ == SectorPath::reduced) {
+    if (!turns) return nullptr;
+    const std::shared_ptr<const SectorModes> known = modes(kept, use, zeta);
+    return found(kept, kept.solves, key_of(use, zeta), [&]() -> std::shared_ptr<const SectorSolves> {
+      return std::make_shared<const ModalSolves>(known, std::ssize(kept.part.sector.contacts), loss);
+    });
+  }
+  const std::vector<double> key{static_cast<double>(use.wave.wave_number),
+                                static_cast<double>(use.wave.sectors), zeta, turns ? 1.0 : 0.0};
+  return found(kept, kept.solves, key, [&]() -> std::shared_ptr<const SectorSolves> {
+    const FiniteSector& sector = kept.part.sector;
+    return std::make_shared<const FullReceptance>(turns ? sector : at_rest(sector), use.wave, loss);
   });
 }
 
-std::shared_ptr<const FullReceptance> SectorPair::base_solves(const SectorWave& wave, double zeta) const {
-  return solves(base_, wave, zeta);
+std::shared_ptr<const SectorSolves> SectorPair::base_solves(const SectorUse& use, double zeta) const {
+  return solves(base_, use, zeta);
 }
 
-std::shared_ptr<const FullReceptance> SectorPair::damper_solves(const SectorWave& wave, double zeta) const {
-  return solves(damper_.value(), wave, zeta);
+std::shared_ptr<const SectorSolves> SectorPair::damper_solves(const SectorUse& use, double zeta) const {
+  return solves(damper_.value(), use, zeta);
+}
+
+std::shared_ptr<const KnownTurning> SectorPair::turning(bool is_base, const SectorUse& use,
+                                                        double zeta) const {
+  const Kept& kept = is_base ? base_ : damper_.value();
+  const std::shared_ptr<const SectorModes> known = modes(kept, use, zeta);
+  return found(kept, kept.turning, key_of(use, zeta), [&] {
+    return std::make_shared<const KnownTurning>(known, std::ssize(kept.part.sector.contacts));
+  });
 }
 
 void SectorPair::check(const Kept& kept, const SectorWave& wave) const {
@@ -121,7 +158,17 @@ std::shared_ptr<const Structures> SectorPair::in_modes() const {
 }
 
 bool SectorPair::is_one_contact(const SystemParameters& system) const {
-  return system.contacts.size() == 1 && path_ == SectorPath::reduced;
+  return system.contacts.size() == 1 && path_ == SectorPath::reduced && !(system.turns() && feels_rotation());
+}
+
+std::vector<SystemParameter> SectorPair::parameters(const SystemParameters& system) const {
+  if (system.rotation.per_eta != 0 || !feels_rotation()) return {};
+  const auto change = [own = system.rotation.fixed](SystemParameter::At& at, double value) {
+    at.here.base.speed = at.here.damper.speed = value - own;
+    at.rate.base.speed = at.rate.damper.speed = 1;
+  };
+  const auto set = [](SystemParameters& other, double value) { other.rotation.fixed = value; };
+  return {system_number("speed", system.rotation.fixed, change, SystemParameter::Kind::speed, set, system)};
 }
 
 PairLosses SectorPair::losses(const SystemParameters& /*system*/) const {
@@ -130,157 +177,6 @@ PairLosses SectorPair::losses(const SystemParameters& /*system*/) const {
   losses.damper_per_zeta = damper_->part.loss_per_zeta();
   losses.damper_fixed = damper_->part.fixed;
   return losses;
-}
-
-namespace {
-
-/// One of the two with its modes and, on the full path, its sparse solves.
-struct Part {
-  const SectorPart& part;
-  const SectorModes& modes;
-  std::shared_ptr<const FullReceptance> solves;
-  Loss loss;
-  double force;  ///< factor of the load
-  bool is_base;
-  const char* letter;
-
-  using Terms = std::vector<SectorOutput::Term>;
-
-  /// The contacts and, if one is asked for, an output after them.
-  ContactModes contacts(const Terms& output = {}) const {
-    const bool is_seen = !output.empty();
-    const Index count = std::ssize(part.sector.contacts);
-    std::vector<ContactMode> list;
-    for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
-      const auto column = static_cast<Index>(k);
-      ContactMode mode{modes.frequencies[k], modes.shapes.col(column).head(count),
-                       force * modes.loads(column)};
-      if (is_seen) {
-        mode.shape.conservativeResize(count + 1);
-        mode.shape(count) = 0;
-        for (const auto& [place, weight] : output)
-          mode.shape(count) += weight * modes.shapes(count + place, column);
-      }
-      list.push_back(std::move(mode));
-    }
-    const ContactModes modal(count + (is_seen ? 1 : 0), std::move(list), loss);
-    if (solves == nullptr) return modal;
-    if (is_seen) {
-      return modal.solved_by(
-          [solves = solves, output](double eta, double load) { return combined(*solves, output, eta, load); },
-          force);
-    }
-    return modal.solved_by([solves = solves](double eta, double load) { return solves->at(eta, load); },
-                           force,
-                           [solves = solves](double eta, double load, const ContactVector& forces) {
-                             return solves->work(eta, load, forces);
-                           });
-  }
-
-  static ContactReceptance combined(const FullReceptance& solves, const Terms& terms, double eta,
-                                    double load) {
-    ContactReceptance sum;
-    for (std::size_t i = 0; i < terms.size(); ++i) {
-      ContactReceptance one = solves.with_output(terms[i].output, eta, load);
-      const Index m = one.free.size() - 1;
-      one.compliance.row(m) *= terms[i].weight;
-      one.compliance_eta.row(m) *= terms[i].weight;
-      one.free(m) *= terms[i].weight;
-      one.free_eta(m) *= terms[i].weight;
-      if (i == 0) {
-        sum = std::move(one);
-        continue;
-      }
-      sum.compliance.row(m) += one.compliance.row(m);
-      sum.compliance_eta.row(m) += one.compliance_eta.row(m);
-      sum.free(m) += one.free(m);
-      sum.free_eta(m) += one.free_eta(m);
-    }
-    return sum;
-  }
-
-  ContactModes driven() const {
-    const ContactModes modal = contacts().with_driven_motion();
-    if (solves == nullptr) return modal;
-    return modal.solved_by(
-        [solves = solves](double eta, double load) { return solves->with_driven_motion(eta, load); }, force);
-  }
-
-  void add_outputs(std::vector<ContactOutput>& outputs) const {
-    for (Index i = 0; i < std::ssize(part.sector.outputs) - part.untold; ++i) {
-      const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
-      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts({{i, 1}}), is_base});
-    }
-    for (const auto& [name, terms] : part.combinations)
-      outputs.push_back({fmt::format("{}_{}", letter, name), contacts(terms), is_base});
-  }
-};
-
-/// The use that a system makes of its sectors.
-SectorUse use_of(const SystemParameters& system) {
-  return {{system.wave_number, system.elements}, system.eta_low, system.eta_high};
-}
-
-Part base_part(const SectorPair& pair, const SystemParameters& system) {
-  const double zeta = system.base_damping;
-  const SectorUse use = use_of(system);
-  const bool full = pair.path() == SectorPath::full;
-  return {pair.base(),
-          pair.base_modes(use, zeta),
-          full ? pair.base_solves(use.wave, zeta) : nullptr,
-          pair.base().loss(zeta),
-          system.force,
-          true,
-          "Y"};
-}
-
-std::optional<Part> damper_part(const SectorPair& pair, const SystemParameters& system) {
-  if (pair.damper() == nullptr) return std::nullopt;
-  const double zeta = system.damper_damping;
-  const SectorUse use = use_of(system);
-  const bool full = pair.path() == SectorPath::full;
-  return Part{*pair.damper(),
-              pair.damper_modes(use, zeta),
-              full ? pair.damper_solves(use.wave, zeta) : nullptr,
-              pair.damper()->loss(zeta),
-              0,
-              false,
-              "U"};
-}
-
-PartModes told(const char* name, const Part& part, double tolerance) {
-  const SectorModes& modes = part.modes;
-  PartModes told{name, modes.dofs, static_cast<Index>(modes.frequencies.size()), modes.factorisations};
-  if (part.solves != nullptr) {
-    told.is_solved = true;
-    told.factorisations = part.solves->factorisations();
-    return told;
-  }
-  told.error = modes.error;
-  told.error_eta = modes.error_eta;
-  told.check_etas = modes.check_etas;
-  told.tolerance = tolerance;
-  return told;
-}
-
-}  // namespace
-
-ContactSystem SectorPair::wave(const SystemParameters& system) const {
-  const Part base = base_part(*this, system);
-  const std::optional<Part> damper = damper_part(*this, system);
-  const ContactModes held(std::ssize(system.contacts), {}, {});
-  ContactSystem wave{base.contacts(), damper ? damper->contacts() : held, system.contacts};
-  base.add_outputs(wave.outputs);
-  if (damper) damper->add_outputs(wave.outputs);
-  if (system.tells_lag) wave.outputs.push_back(driven_motion(base.driven()));
-  return wave;
-}
-
-std::vector<PartModes> SectorPair::modes(const SystemParameters& system) const {
-  std::vector<PartModes> parts{told("base", base_part(*this, system), tolerance_)};
-  if (const std::optional<Part> damper = damper_part(*this, system))
-    parts.push_back(told("damper", *damper, tolerance_));
-  return parts;
 }
 
 Loss proportional_loss(const SparseMatrix& damping, const SparseMatrix& mass, const SparseMatrix& stiffness) {

@@ -109,32 +109,43 @@ SystemParameter of_element(std::size_t i, std::size_t setting, const SystemParam
 
 SystemParameter system_number(const char* name, double SystemParameters::*member, Change change,
                               SystemParameter::Kind kind, const SystemParameters& system) {
-  const auto at = [start = unchanged(system), system, change](double value) {
+  return system_number(
+      name, system.*member, [=](At& at, double value) { change(at, value, system); }, kind,
+      [member](SystemParameters& other, double value) { other.*member = value; }, system);
+}
+
+SystemParameter system_number(const std::string& name, double own,
+                              const std::function<void(At&, double value)>& change, Kind kind,
+                              const std::function<void(SystemParameters&, double value)>& set,
+                              const SystemParameters& system) {
+  const auto at = [start = unchanged(system), change](double value) {
     At varied = start;
-    change(varied, value, system);
+    change(varied, value);
     return varied;
   };
-  const auto with = [system, member](double value) {
+  const auto with = [system, set](double value) {
     SystemParameters other = system;
-    other.*member = value;
+    set(other, value);
     return other;
   };
-  return {name, system.*member, at, kind, with};
+  return {name, own, at, kind, with};
 }
 
 double SystemParameter::scale(double other, double preload, double eta) const {
   constexpr double small = 1e-4;  // of the system's own value: what crosses zero has no size of its own there
   const bool may_vanish =
       kind == Kind::damping || kind == Kind::flow || (kind == Kind::element && limits.low < 0);
-  const double least = kind == Kind::growth ? preload / (eta * eta)
-                       : may_vanish         ? small * std::abs(value)
-                                            : 0;
+  const double least = kind == Kind::growth  ? preload / (eta * eta)
+                       : kind == Kind::speed ? eta
+                       : may_vanish          ? small * std::abs(value)
+                                             : 0;
   const double size = std::max(std::abs(other), least);
   return size > 0 ? size : 1;
 }
 
 std::vector<std::string> system_parameter_names() {
-  return {"F", "zeta_B", "zeta_D", "K_FD", "P_2", "L", "M*", "gamma", "cubic_stiffness", "influence"};
+  return {"F",  "zeta_B", "zeta_D",          "K_FD",      "P_2",  "L",
+          "M*", "gamma",  "cubic_stiffness", "influence", "speed"};
 }
 
 std::vector<SystemParameter> system_parameters(const SystemParameters& system) {

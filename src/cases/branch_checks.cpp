@@ -60,6 +60,8 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (branch.curve) section.fail("stability", "not beside curve");
   if (structures_of(system).whole() != nullptr)
     section.fail("stability", "not of whole rings, whose disturbances are not of one wave");
+  if (feels_rotation(system))
+    section.fail("stability", "not of sectors that turn, whose modes rotation couples");
   using Kind = SystemParameter::Kind;
   const Kind kind = system.varied.empty() ? Kind::load : system_parameter(system, system.varied).kind;
   if (kind != Kind::load && kind != Kind::growth && kind != Kind::flow)

@@ -62,7 +62,8 @@ void read_parameters(CaseBranch& branch, const TomlSection& section) {
       names_with(names, branch, section.texts("parameters", {}, expected));
   const std::vector<std::string> given = section.texts("parameters", allowed, expected);
   std::vector<std::string> pair;
-  std::transform(given.begin(), given.end(), std::back_inserter(pair), without_unit);
+  std::transform(given.begin(), given.end(), std::back_inserter(pair),
+                 [&](const std::string& name) { return parameter_named(name, section.document()); });
   if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
   const auto is_own = [&](const std::string& name) { return name == names[0] || name == names[1]; };
   if (branch.problem.model == nullptr && !is_own(pair[0]) && !is_own(pair[1]))
@@ -188,7 +189,8 @@ std::vector<BranchKey> keys_of_request() {
       BranchKey::special(
           "parameter", "name",
           "what varies: eta, P, in SI units frequency_Hz, preload_N_per_m or preload_N; F, zeta_B, zeta_D, "
-          "K_FD, P_2, M*, gamma or cubic_stiffness, of [flutter] influence, of sectors L, "
+          "K_FD, P_2, M*, gamma or cubic_stiffness, of [flutter] influence, of sectors L and the speed of "
+          "rotation, "
           "of one contact of several K_FD_2 or L_2, of an element its settings as stops.gap, of nonlinear "
           "modes R in place of "
           "eta, of limit "
@@ -198,7 +200,7 @@ std::vector<BranchKey> keys_of_request() {
             const toml::node& node = section.require("parameter", one_of(names));
             const std::string given = node.value<std::string>().value_or("");
             branch.named = section.text("parameter", names_with(names, branch, {given}));
-            branch.options.parameter = without_unit(branch.named);
+            branch.options.parameter = parameter_named(branch.named, section.document());
           },
           needed("required", lacks("parameters")), not_beside_curve),
       BranchKey::special(

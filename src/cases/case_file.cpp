@@ -115,9 +115,11 @@ std::pair<std::string, double> given_frequency(const TomlDocument& document,
   return {key, section.number(key, positive())};
 }
 
-/// Brings ranges that are given in SI units to the model's.
+/// Brings ranges that are given in SI units, or as the speed beside an engine order, to the model's.
 void take_units(const TomlSection& section, CaseBranch& branch) {
   const auto size = [&](const std::string& name, const char* key) {
+    const double per_eta = branch.problem.system.rotation.per_eta;
+    if (name == speed_name && per_eta != 0) return per_eta;
     return size_of_unit(name, branch.problem.physical, section, branch.curve ? "parameters" : key);
   };
   const double unit = size(branch.named, "parameter");
@@ -140,12 +142,30 @@ void take_units(const TomlSection& section, CaseBranch& branch) {
   for (double* value : {&curve.from, &curve.to, &curve.window.low, &curve.window.high}) *value /= across;
 }
 
+/// Ranges of eta that are given as such or, by `named`, as those of the speed under each engine order.
+std::pair<double, double> eta_of_speeds(const TomlDocument& document, const ForEach& for_each,
+                                        const std::string& named, std::pair<double, double> range) {
+  if (named != speed_name) return range;
+  std::pair<double, double> orders{std::numeric_limits<double>::infinity(), 0};
+  for (const std::size_t i : for_each.samples()) {
+    const ForEachSet set = for_each.at(i);
+    const double m = TomlSection(document, "system", &set.replacements).number("engine_order", positive());
+    orders = {std::min(orders.first, m), std::max(orders.second, m)};
+  }
+  return {orders.first * range.first, orders.second * range.second};
+}
+
 /// The eta that the branches pass; 0 where they are unknown beforehand.
 std::pair<double, double> eta_range(const TomlDocument& document, const ForEach& for_each,
                                     const CaseBranch& common, const std::string& parameter) {
+  const auto in_eta = [&](const std::string& named, const std::pair<double, double>& range) {
+    return eta_of_speeds(document, for_each, named, range);
+  };
   if (common.problem.response->has_own_frequency()) return {0, 0};
-  if (common.curve && parameter == "eta") return {common.curve->window.low, common.curve->window.high};
-  if (common.options.parameter == "eta") return std::minmax({common.options.from, common.options.to});
+  if (common.curve && parameter == "eta")
+    return in_eta(common.curve->named, {common.curve->window.low, common.curve->window.high});
+  if (common.options.parameter == "eta")
+    return in_eta(common.named, std::minmax({common.options.from, common.options.to}));
   std::pair<double, double> range{std::numeric_limits<double>::infinity(), 0};
   for (const std::size_t i : for_each.samples()) {
     const ForEachSet set = for_each.at(i);
@@ -153,6 +173,14 @@ std::pair<double, double> eta_range(const TomlDocument& document, const ForEach&
     range = {std::min(range.first, eta), std::max(range.second, eta)};
   }
   return range;
+}
+
+/// The speeds that the branches pass; 0 where it is not continued.
+std::pair<double, double> speed_range(const CaseBranch& common) {
+  if (common.options.parameter == speed_name) return std::minmax({common.options.from, common.options.to});
+  if (common.curve && common.curve->active == speed_name)
+    return {common.curve->window.low, common.curve->window.high};
+  return {0, 0};
 }
 
 /// Refuses a range with values that a parameter of the system may not have.
@@ -233,6 +261,7 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   use_.is_free = common_.problem.response->has_own_frequency();
   if (use_.structures)
     std::tie(use_.eta_low, use_.eta_high) = eta_range(*document_, *for_each_, common_, parameter_);
+  std::tie(use_.speed_low, use_.speed_high) = speed_range(common_);
 }
 
 CaseBranch BranchSource::branch(std::size_t index) const {

@@ -106,6 +106,8 @@ ordered_json rows_of_coefficients(const Influence& influence) {
 void check_flutter_use(const TomlDocument& document, const toml::table* table, const SystemUse& use,
                        const SystemParameters& system) {
   const auto fail = [&](const std::string& why) { document.fail(table, "flutter", why); };
+  if (feels_rotation(system))
+    fail("not of sectors that turn, whose modes are not those that a flow is told by");
   if (use.linear_passive) fail("not of studies, whose structures are passive; expected [branch] alone");
   if (document.root().contains("ring"))
     fail("not beside [ring]: influence coefficients are those of equal sectors, each with its own wave");

@@ -91,6 +91,11 @@ void complete_orders(const TomlSection& section, SystemParameters& system) {
 }
 
 void check_waves(const TomlSection& section, const SystemParameters& system) {
+  if (system.rotation.per_eta != 0 && feels_rotation(system) && !all_odd(system.harmonics) &&
+      place_of_mean(system.harmonics) < std::ssize(system.harmonics))
+    section.fail("engine_order",
+                 "the mean, which even harmonics call for, is not balanced at a speed that follows "
+                 "eta; expected `speed`, or odd harmonics alone");
   for (const int h : system.harmonics) {
     const Index wave = h * system.first_wave() % system.elements;
     try {

@@ -120,6 +120,7 @@ void check_ring_use(const TomlDocument& document, const TomlSection& section, co
     fail("expected a structure of sectors or nodes, as rods, beams, or model = \"sector\" with `sectors`");
   if (system.elements > most_sectors)
     fail(fmt::format("expected at most {} sectors, got {}", most_sectors, system.elements));
+  if (feels_rotation(system)) fail("not of sectors that turn, whose waves +n and -n differ");
   if (system.periods() > 1)
     fail("only of responses that repeat themselves with the load, not over `periods`");
 }

@@ -65,8 +65,8 @@ PartKey matrix(const char* name, SparseMatrix FiniteSector::*member, const std::
                const auto&... term) {
   const auto read = [=](PartSettings& part, const TomlSection& section) {
     section.require(name, "a Matrix Market file");
-    part.sector.*member =
-        parsed(section, name, largest_matrix, &part.fingerprint, read_matrix_market, check_banner);
+    const auto& parse = member == &FiniteSector::gyroscopic ? read_gyroscopic : read_matrix_market;
+    part.sector.*member = parsed(section, name, largest_matrix, &part.fingerprint, parse, check_banner);
   };
   return PartKey::special(name, "Matrix Market file", meaning, read, term...);
 }
@@ -158,6 +158,14 @@ KeyTable<PartSettings> keys_of_part(bool loaded) {
       matrix("stiffness", &F::stiffness, "K", required),
       matrix("damping", &F::damping,
              "C = alpha M + beta K; any other, also a gyroscopic one, with `path = \"full\"` alone",
+             otherwise("none")),
+      matrix(
+          "gyroscopic", &F::gyroscopic,
+          "G, skew-symmetric, or jG as a complex Hermitian matrix: at a speed Omega, radians in the unit of "
+          "time, C is C + Omega G",
+          otherwise("none")),
+      matrix("stiffness_speed2", &F::stiffness_speed2,
+             "K_2: K is K + Omega^2 K_2, stress stiffness less centrifugal softening at Omega = 1",
              otherwise("none")),
       dofs("left", &F::left, "the boundary to the sector before; dofs count from 1, in a file one a line",
            needed("none, with `right`: no symmetry", has("right"))),

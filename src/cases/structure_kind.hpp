@@ -19,6 +19,8 @@ struct SystemUse {
   std::shared_ptr<const Structures> structures = {};
   double eta_low = 0;
   double eta_high = 0;
+  double speed_low = 0;  ///< the speeds that are passed where it is continued
+  double speed_high = 0;
   bool is_free = false;  ///< whether eta is an unknown
 };
 

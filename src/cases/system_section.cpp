@@ -297,7 +297,8 @@ NumberRule poisson_rule() {
 NumberRule parameter_rule(const LibraryModel* model, const std::string& parameter) {
   if (model == nullptr) {
     if (parameter == "zeta_B") return damping_rule();
-    if (parameter == "P_2" || parameter == "cubic_stiffness" || parameter.find('.') != std::string::npos)
+    if (parameter == "P_2" || parameter == "cubic_stiffness" || parameter == "speed" ||
+        parameter.find('.') != std::string::npos)
       return any_number();  // of its own rule
     return parameter == "zeta_D" ? inside(0, 1) : positive();
   }

@@ -14,6 +14,10 @@ std::string without_unit(const std::string& name) {
   return is_preload ? "P" : name;
 }
 
+std::string parameter_named(const std::string& name, const TomlDocument& document) {
+  return name == speed_name && document.root().at_path("system.engine_order") ? "eta" : without_unit(name);
+}
+
 void add_unit_names(std::vector<std::string>& names) {
   const auto has = [&](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();

@@ -14,12 +14,17 @@ namespace arcslip {
 
 inline constexpr std::array preload_names = {"preload_N_per_m", "preload_N"};
 inline constexpr const char* frequency_name = "frequency_Hz";
+inline constexpr const char* speed_name = "speed";
 
 /// "N/m" of PhysicalScale's "N_per_m", and "N" of "N".
 std::string unit_in_words(const std::string& preload_unit);
 
 /// "eta" or "P" of a name with a unit; any other as it is.
 std::string without_unit(const std::string& name);
+
+/// The parameter of a case that a name stands for: that without its unit or, for the speed beside an engine
+/// order m, eta = m speed.
+std::string parameter_named(const std::string& name, const TomlDocument& document);
 
 /// Adds the names with units of those that are there.
 void add_unit_names(std::vector<std::string>& names);

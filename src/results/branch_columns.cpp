@@ -76,17 +76,21 @@ bool Columns::is_constant(const std::string& name) const {
 
 PhysicalColumns::PhysicalColumns(const TracedBranch& traced) {
   const ProblemRequest& problem = traced.request->problem;
-  if (!problem.physical) return;
   scale_ = problem.physical;
+  if (problem.model == nullptr) per_eta_ = problem.system.rotation.per_eta;
+  if (!scale_ && per_eta_ == 0) return;
   const Columns columns(traced);
   threshold_ = columns.find("S");
   const auto add = [&](const char* source, const std::string& name, Unit unit) {
     const Index place = columns.find(source);
     if (place < 0) return;
-    if (unit == Unit::frequency || std::string_view(source) == "Y") shown_.push_back(names_.size());
+    const bool is_shown = unit == Unit::frequency || unit == Unit::speed || std::string_view(source) == "Y";
+    if (is_shown) shown_.push_back(names_.size());
     sources_.push_back({static_cast<std::size_t>(place), unit});
     names_.push_back(name);
   };
+  if (per_eta_ != 0) add("eta", "speed", Unit::speed);
+  if (!scale_) return;
   add("eta", "frequency_Hz", Unit::frequency);
   add("frequency_2", "frequency_2_Hz", Unit::frequency);
   add("P", std::string("preload_") + scale_->preload_unit(), Unit::preload);
@@ -100,6 +104,7 @@ std::vector<double> PhysicalColumns::values(const std::vector<double>& row) cons
   for (const auto& [place, unit] : sources_) {
     const double value = row[place];
     switch (unit) {
+      case Unit::speed: values.push_back(per_eta_ * value); break;
       case Unit::frequency: values.push_back(scale_->frequency(value)); break;
       case Unit::preload: values.push_back(scale_->preload(value)); break;
       case Unit::force: values.push_back(scale_->force(value)); break;

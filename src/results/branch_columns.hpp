@@ -46,7 +46,8 @@ class Columns {
   std::vector<double> values_;
 };
 
-/// The columns in SI units that a system given in them has besides; none of any other.
+/// The columns in SI units that a system given in them has besides, and the speed that follows an engine
+/// order; none of any other.
 class PhysicalColumns {
  public:
   explicit PhysicalColumns(const TracedBranch& traced);
@@ -60,9 +61,10 @@ class PhysicalColumns {
   const std::vector<std::size_t>& shown() const { return shown_; }
 
  private:
-  enum class Unit { frequency, preload, length, energy, force };
+  enum class Unit { frequency, preload, length, energy, force, speed };
 
   std::optional<PhysicalScale> scale_;
+  double per_eta_ = 0;                                 ///< of the speed
   Index threshold_ = -1;                               ///< the column S, or -1
   std::vector<std::pair<std::size_t, Unit>> sources_;  ///< columns that those in SI units are made from
   std::vector<std::string> names_;

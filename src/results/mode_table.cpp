@@ -18,7 +18,7 @@ constexpr std::array part_names = {"base", "damper", "stuck"};
 /// From 0 or, of rings, from 1 to as many as N nodes tell apart.
 std::pair<Index, Index> waves_of(const SystemParameters& system) {
   if (system.structures == nullptr) return {1, (system.elements - 1) / 2};
-  return {0, system.elements / 2};
+  return {feels_rotation(system) ? -(system.elements - 1) / 2 : 0, system.elements / 2};
 }
 
 /// Calls `visit` with the number of each mode within its part, from 1.
@@ -33,9 +33,10 @@ void for_each_mode(const WaveModes& wave, const Visit& visit) {
 std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest) {
   SystemParameters system = problem.system;
   system.harmonics = {1};
+  system.rotation.per_eta = 0;  // an order has one wave: at rest
   const auto [first, last] = waves_of(system);
   std::vector<WaveModes> waves;
-  for (Index n = first; n <= std::min(last, highest); ++n) {
+  for (Index n = std::max(first, -highest); n <= std::min(last, highest); ++n) {
     system.wave_number = n;
     structures_of(system).check(n, system.elements);
     waves.push_back({n, resonances(system, build_wave(system))});

@@ -16,8 +16,8 @@ struct WaveModes {
   std::vector<Resonance> modes;  ///< part by part, ascending
 };
 
-/// Of the waves that the structure has, up to `highest`, of sectors below the end of their window, above
-/// which not all are known. Throws std::exception where one cannot be had.
+/// Of the waves that the structure has, up to `highest`, of what turns in both directions, of sectors below
+/// the end of their window, above which not all are known. Throws std::exception where one cannot be had.
 std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest);
 
 /// modes.csv: wave_number, part, mode (from 1 in each part), eta, frequency_Hz of systems in SI units, zeta.

@@ -50,6 +50,11 @@ std::string load_lines(const ComplexVector& load) {
 void add_files(Files& files, const std::string& name, const FiniteSector& sector) {
   files.add(name + "_mass.mtx", write_matrix_market(sector.mass, MatrixSymmetry::symmetric));
   files.add(name + "_stiffness.mtx", write_matrix_market(sector.stiffness, MatrixSymmetry::symmetric));
+  if (sector.feels_rotation()) {
+    files.add(name + "_gyroscopic.mtx", write_matrix_market(sector.gyroscopic, MatrixSymmetry::general));
+    files.add(name + "_stiffness_speed2.mtx",
+              write_matrix_market(sector.stiffness_speed2, MatrixSymmetry::symmetric));
+  }
   files.add(name + "_left.txt", lines(sector.left));
   files.add(name + "_right.txt", lines(sector.right));
 }
@@ -62,6 +67,9 @@ std::string section(const std::string& name, const FiniteSector& sector, const S
       "\"{0}_stiffness.mtx\"\n"
       "left = \"{0}_left.txt\"\nright = \"{0}_right.txt\"\ncontact = [{2}]\n",
       name, sector.mass.rows(), fmt::join(contacts, ", "));
+  if (sector.feels_rotation())
+    text += fmt::format(
+        "gyroscopic = \"{0}_gyroscopic.mtx\"\nstiffness_speed2 = \"{0}_stiffness_speed2.mtx\"\n", name);
   if (damping.reference > 0) {
     text += fmt::format("damping_kind = \"viscous\"\nreference_frequency = {}\n", damping.reference);
   } else {
@@ -78,6 +86,7 @@ std::string case_text(const SectorCase& input) {
       input.notes, input.title, input.si ? "units = \"SI\"\n" : "", input.wave_number, input.sectors,
       input.contact_stiffness, input.limit_per_preload, input.force, input.preload, input.base_damping.zeta,
       input.damper_damping.zeta);
+  if (input.speed > 0) text += fmt::format("speed = {}\n", input.speed);
   text += section("base", input.base, input.base_damping) + "load = \"base_load.txt\"\n";
   text += section("damper", input.damper, input.damper_damping);
   text += fmt::format(

@@ -28,11 +28,14 @@ struct SectorCase {
   double limit_per_preload = 1;
   double force = 1;
   double preload = 1;
+  double speed =
+      0;  ///< of rotation, in revolutions in the unit of time, whose matrices the sectors have then
   double eta_from = 0;  ///< of the branches and of the study's window
   double eta_to = 0;
 };
 
-/// Writes base_mass.mtx, base_stiffness.mtx, base_left.txt, base_right.txt and base_load.txt, the same of the
+/// Writes base_mass.mtx, base_stiffness.mtx, of what turns base_gyroscopic.mtx and
+/// base_stiffness_speed2.mtx, base_left.txt, base_right.txt and base_load.txt, the same of the
 /// damper but for the load, and case.toml, all of them or none. Throws OutputError.
 void write_sector_case(const std::string& folder, const SectorCase& input);
 

@@ -39,6 +39,7 @@ double apart(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[
 
 std::string why_no_shapes(const SystemParameters& system) {
   if (structures_of(system).whole() != nullptr) return "those of whole rings are not written";
+  if (feels_rotation(system)) return "those of sectors that turn are not written";
   const SectorPair* pair = pair_of(system);
   if (pair == nullptr) return "rods, beams and masses on springs have none";
   if (pair->base().places.empty()) return "system.base has no `coordinates`";

@@ -1,30 +1,37 @@
 #include "arcslip/sectors/chain_sector.hpp"
 
 namespace arcslip {
+namespace {
 
-FiniteSector chain_sector(const Matrix& mass, const Matrix& stiffness, Index node_dofs, Index count,
-                          Index contact) {
-  const Index step = mass.rows() - node_dofs;
-  const Index size = count * step + node_dofs;
-  using Triplets = std::vector<Eigen::Triplet<double>>;
-  Triplets masses;
-  Triplets stiffnesses;
-  FiniteSector sector;
+/// That of `count` elements, `step` dofs from one to the next.
+SparseMatrix of_chain(const Matrix& element, Index step, Index count) {
+  std::vector<Eigen::Triplet<double>> entries;
   for (Index e = 0; e < count; ++e) {
-    for (Index i = 0; i < mass.rows(); ++i) {
-      for (Index k = 0; k < mass.rows(); ++k) {
-        const auto row = static_cast<int>(e * step + i);
-        const auto column = static_cast<int>(e * step + k);
-        if (mass(i, k) != 0) masses.emplace_back(row, column, mass(i, k));
-        if (stiffness(i, k) != 0) stiffnesses.emplace_back(row, column, stiffness(i, k));
+    for (Index i = 0; i < element.rows(); ++i) {
+      for (Index k = 0; k < element.rows(); ++k) {
+        if (element(i, k) != 0)
+          entries.emplace_back(static_cast<int>(e * step + i), static_cast<int>(e * step + k), element(i, k));
       }
     }
-    sector.contacts.push_back(e * step + contact);
   }
-  sector.mass.resize(size, size);
-  sector.mass.setFromTriplets(masses.begin(), masses.end());
-  sector.stiffness.resize(size, size);
-  sector.stiffness.setFromTriplets(stiffnesses.begin(), stiffnesses.end());
+  const Index size = (count - 1) * step + element.rows();
+  SparseMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+FiniteSector chain_sector(const Matrix& mass, const Matrix& stiffness, Index node_dofs, Index count,
+                          Index contact, const Matrix& gyroscopic, const Matrix& stiffness_speed2) {
+  const Index step = mass.rows() - node_dofs;
+  const Index size = count * step + node_dofs;
+  FiniteSector sector;
+  for (Index e = 0; e < count; ++e) sector.contacts.push_back(e * step + contact);
+  sector.mass = of_chain(mass, step, count);
+  sector.stiffness = of_chain(stiffness, step, count);
+  if (gyroscopic.size() != 0) sector.gyroscopic = of_chain(gyroscopic, step, count);
+  if (stiffness_speed2.size() != 0) sector.stiffness_speed2 = of_chain(stiffness_speed2, step, count);
   for (Index dof = 0; dof < node_dofs; ++dof) {
     sector.left.push_back(dof);
     sector.right.push_back(size - node_dofs + dof);

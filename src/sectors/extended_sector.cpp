@@ -52,6 +52,14 @@ ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector&
   return fold(product(sector_.stiffness, unfolded));
 }
 
+ExtendedSector::NumberVector ExtendedSector::gyroscopic_times(const NumberVector& unfolded) const {
+  return fold(product(sector_.gyroscopic, unfolded));
+}
+
+ExtendedSector::NumberVector ExtendedSector::stiffness_speed2_times(const NumberVector& unfolded) const {
+  return fold(product(sector_.stiffness_speed2, unfolded));
+}
+
 ExtendedSector::Real ExtendedSector::stiffness_terms(const NumberVector& unfolded) const {
   const SparseMatrix& matrix = sector_.stiffness;
   Real sum = 0;

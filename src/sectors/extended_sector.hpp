@@ -22,9 +22,11 @@ class ExtendedSector {
   NumberVector unfold(const NumberVector& reduced) const;  ///< T v
   NumberVector fold(const NumberVector& of_sector) const;  ///< T^H f
 
-  /// A(a) v of M and K, from T v.
+  /// A(a) v of M, K, G and K_2, from T v.
   NumberVector mass_times(const NumberVector& unfolded) const;
   NumberVector stiffness_times(const NumberVector& unfolded) const;
+  NumberVector gyroscopic_times(const NumberVector& unfolded) const;
+  NumberVector stiffness_speed2_times(const NumberVector& unfolded) const;
 
   /// |v|^T |K| |v| of the sector's own entries, from T v: what cancels in v^H K(a) v.
   Real stiffness_terms(const NumberVector& unfolded) const;

@@ -27,6 +27,8 @@ void check_sizes(const FiniteSector& sector) {
   check(sector.mass, "mass");
   check(sector.stiffness, "stiffness");
   if (sector.damping.size() != 0) check(sector.damping, "damping");
+  if (sector.gyroscopic.size() != 0) check(sector.gyroscopic, "gyroscopic");
+  if (sector.stiffness_speed2.size() != 0) check(sector.stiffness_speed2, "stiffness_speed2");
   if (sector.load.size() != n) {
     fail("the load has {} entries, expected {}, one for each dof", sector.load.size(), n);
   }
@@ -106,11 +108,22 @@ void check_dofs(FiniteSector& sector) {
   check_contacts(sector, places);
 }
 
-/// Refuses asymmetry and puts the mean in its place.
-void symmetrise(SparseMatrix& matrix, const char* name, double tolerance) {
+/// Largest entry of each column, of matrices whose diagonal is no measure of them.
+Vector column_sizes(const SparseMatrix& matrix) {
+  Vector sizes = Vector::Zero(matrix.cols());
+  for (Index j = 0; j < matrix.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      sizes(j) = std::max(sizes(j), std::abs(entry.value()));
+  }
+  return sizes;
+}
+
+/// Refuses what is not symmetric, A_ji = A_ij, or with `sign` -1 not skew, A_ji = -A_ij, beside the `sizes`
+/// of the dofs, and puts the mean in its place.
+void symmetrise(SparseMatrix& matrix, const char* name, double tolerance, const Vector& sizes,
+                double sign = 1) {
   matrix.makeCompressed();
-  const SparseMatrix transposed = matrix.transpose();
-  const Vector diagonal = matrix.diagonal();
+  const SparseMatrix transposed = sign * SparseMatrix(matrix.transpose());
   const SparseMatrix difference = matrix - transposed;
   double worst = 0;
   Index row = 0;
@@ -122,7 +135,7 @@ void symmetrise(SparseMatrix& matrix, const char* name, double tolerance) {
         fail("the {} matrix is not finite at row {}, column {}", name, i + 1, j + 1);
       if (entry.value() == 0) continue;
       const double size = std::max({std::abs(matrix.coeff(i, j)), std::abs(matrix.coeff(j, i)),
-                                    std::sqrt(std::abs(diagonal(i)) * std::abs(diagonal(j)))});
+                                    std::sqrt(std::abs(sizes(i)) * std::abs(sizes(j)))});
       if (!(std::abs(entry.value()) > worst * size)) continue;
       worst = std::abs(entry.value()) / size;
       row = i;
@@ -130,9 +143,9 @@ void symmetrise(SparseMatrix& matrix, const char* name, double tolerance) {
     }
   }
   if (worst > tolerance) {
-    fail("the {} matrix is not symmetric: {:.17g} at row {}, column {}, but {:.17g} at row {}, column {}",
-         name, matrix.coeff(row, column), row + 1, column + 1, matrix.coeff(column, row), column + 1,
-         row + 1);
+    fail("the {} matrix is not {}symmetric: {:.17g} at row {}, column {}, but {:.17g} at row {}, column {}",
+         name, sign < 0 ? "skew-" : "", matrix.coeff(row, column), row + 1, column + 1,
+         matrix.coeff(column, row), column + 1, row + 1);
   }
   if (worst > 0) matrix = SparseMatrix(0.5 * (matrix + transposed));
 }
@@ -168,9 +181,13 @@ void check_diagonal(const SparseMatrix& matrix, const char* name, const FiniteSe
 FiniteSector checked(FiniteSector sector, double asymmetry) {
   check_sizes(sector);
   check_dofs(sector);
-  symmetrise(sector.mass, "mass", asymmetry);
-  symmetrise(sector.stiffness, "stiffness", asymmetry);
+  symmetrise(sector.mass, "mass", asymmetry, sector.mass.diagonal());
+  symmetrise(sector.stiffness, "stiffness", asymmetry, sector.stiffness.diagonal());
   if (sector.damping.size() != 0) check_finite(sector.damping, "damping");
+  SparseMatrix& gyroscopic = sector.gyroscopic;
+  SparseMatrix& by_speed = sector.stiffness_speed2;
+  if (gyroscopic.size() != 0) symmetrise(gyroscopic, "gyroscopic", asymmetry, column_sizes(gyroscopic), -1);
+  if (by_speed.size() != 0) symmetrise(by_speed, "stiffness_speed2", asymmetry, column_sizes(by_speed));
   check_diagonal(sector.mass, "mass", sector);
   check_diagonal(sector.stiffness, "stiffness", sector);
   return sector;

@@ -8,83 +8,108 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-SectorResponse not_finite(Index contacts, Index outputs) {
-  return {ComplexMatrix::Constant(contacts, contacts, unknown),
-          ComplexMatrix::Constant(contacts, contacts, unknown),
-          ComplexVector::Constant(contacts, unknown),
-          ComplexVector::Constant(contacts, unknown),
-          ComplexMatrix::Constant(outputs, contacts, unknown),
-          ComplexVector::Constant(outputs, unknown),
-          ComplexMatrix::Constant(outputs, contacts, unknown),
-          ComplexVector::Constant(outputs, unknown),
-          ComplexMatrix::Constant(contacts + 1, contacts + 1, unknown),
-          ComplexVector::Constant(contacts + 1, unknown),
-          ComplexVector::Constant(contacts + 1, unknown)};
+/// The m contacts, with room for `more` further motions.
+VariedReceptance receptance_of(const SectorResponse& found, double force, Index more,
+                               const Rotation& rotation) {
+  const Index m = found.free.size();
+  const auto matrix = [&](const ComplexMatrix& compliance) {
+    ContactMatrix all = ContactMatrix::Constant(m + more, m + more, unknown);
+    all.topLeftCorner(m, m) = compliance;
+    return all;
+  };
+  const auto vector = [&](const ComplexVector& free) {
+    ContactVector all = ContactVector::Constant(m + more, unknown);
+    all.head(m) = force * free;
+    return all;
+  };
+  VariedReceptance receptance{{matrix(found.compliance), matrix(found.by_eta.compliance), vector(found.free),
+                               vector(found.by_eta.free)},
+                              matrix(found.by_speed.compliance),
+                              vector(found.by_speed.free)};
+  if (rotation.per_eta == 0) return receptance;
+  receptance.compliance_eta += rotation.per_eta * receptance.compliance_rate;
+  receptance.free_eta += rotation.per_eta * receptance.free_rate;
+  return receptance;
 }
 
-/// With room for a further motion.
-ContactReceptance with_one_more(const SectorResponse& found, double force) {
+/// Fills the motion after the contacts, row by row of the same motions.
+template <class Row, class Free>
+void fill_last(const SectorResponse& found, const Rotation& rotation, const Row& row, const Free& free,
+               VariedReceptance& receptance) {
   const Index m = found.free.size();
-  ContactReceptance receptance{
-      ContactMatrix::Constant(m + 1, m + 1, unknown), ContactMatrix::Constant(m + 1, m + 1, unknown),
-      ContactVector::Constant(m + 1, unknown), ContactVector::Constant(m + 1, unknown)};
-  receptance.compliance.topLeftCorner(m, m) = found.compliance;
-  receptance.compliance_eta.topLeftCorner(m, m) = found.compliance_eta;
-  receptance.free.head(m) = force * found.free;
-  receptance.free_eta.head(m) = force * found.free_eta;
-  return receptance;
+  receptance.compliance.row(m).head(m) = row(found);
+  receptance.compliance_eta.row(m).head(m) = row(found.by_eta);
+  receptance.compliance_rate.row(m).head(m) = row(found.by_speed);
+  receptance.free(m) = free(found);
+  receptance.free_eta(m) = free(found.by_eta);
+  receptance.free_rate(m) = free(found.by_speed);
+  if (rotation.per_eta == 0) return;
+  receptance.compliance_eta.row(m).head(m) += rotation.per_eta * receptance.compliance_rate.row(m).head(m);
+  receptance.free_eta(m) += rotation.per_eta * receptance.free_rate(m);
+}
+
+/// Of a singular Z.
+SectorResponse not_finite(Index contacts, Index outputs) {
+  SectorResponse response;
+  for (SectorMotions* motions :
+       std::initializer_list<SectorMotions*>{&response, &response.by_eta, &response.by_speed})
+    motions->fill(contacts, outputs, unknown);
+  response.damping.setConstant(contacts + 1, contacts + 1, unknown);
+  return response;
 }
 
 }  // namespace
 
-SectorResponse FullReceptance::response(double eta) const {
-  constexpr std::size_t most = 10000;
-  const std::scoped_lock lock(mutex_);
-  const auto known = known_.find(eta);
-  if (known != known_.end()) return known->second;
-  if (known_.size() == most) known_.clear();
-  try {
-    return known_[eta] = solver_.at(eta);
-  } catch (const std::domain_error&) {  // as the sum over undamped modes at one of their frequencies
-    return known_[eta] = not_finite(solver_.contacts(), solver_.outputs());
-  }
+VariedReceptance SectorSolves::at(double eta, double force, const Rotation& rotation) const {
+  return receptance_of(response(eta, rotation), force, 0, rotation);
 }
 
-ContactReceptance FullReceptance::at(double eta, double force) const {
-  const SectorResponse found = response(eta);
-  return {found.compliance, found.compliance_eta, force * found.free, force * found.free_eta};
-}
-
-ContactReceptance FullReceptance::with_output(Index output, double eta, double force) const {
-  const SectorResponse found = response(eta);
-  const Index m = found.free.size();
-  ContactReceptance receptance = with_one_more(found, force);
-  receptance.compliance.row(m).head(m) = found.output_compliance.row(output);
-  receptance.compliance_eta.row(m).head(m) = found.output_compliance_eta.row(output);
-  receptance.free(m) = force * found.output_free(output);
-  receptance.free_eta(m) = force * found.output_free_eta(output);
+VariedReceptance SectorSolves::with_output(Index output, double eta, double force,
+                                           const Rotation& rotation) const {
+  const SectorResponse found = response(eta, rotation);
+  VariedReceptance receptance = receptance_of(found, force, 1, rotation);
+  fill_last(
+      found, rotation, [&](const SectorMotions& motions) { return motions.output_compliance.row(output); },
+      [&](const SectorMotions& motions) { return force * motions.output_free(output); }, receptance);
   return receptance;
 }
 
-ContactReceptance FullReceptance::with_driven_motion(double eta, double force) const {
-  const SectorResponse found = response(eta);
+VariedReceptance SectorSolves::with_driven_motion(double eta, double force, const Rotation& rotation) const {
+  const SectorResponse found = response(eta, rotation);
   const Index m = found.free.size();
-  ContactReceptance receptance = with_one_more(found, force);
-  receptance.compliance.row(m).head(m) = force * found.load_motion.head(m).transpose();
-  receptance.compliance_eta.row(m).head(m) = force * found.load_motion_eta.head(m).transpose();
-  receptance.free(m) = force * force * found.load_motion(m);
-  receptance.free_eta(m) = force * force * found.load_motion_eta(m);
+  VariedReceptance receptance = receptance_of(found, force, 1, rotation);
+  fill_last(
+      found, rotation,
+      [&](const SectorMotions& motions) -> ComplexMatrix {
+        return force * motions.load_motion.head(m).transpose();
+      },
+      [&](const SectorMotions& motions) { return force * force * motions.load_motion(m); }, receptance);
   return receptance;
 }
 
-CycleWork FullReceptance::work(double eta, double force, const ContactVector& forces) const {
-  const SectorResponse found = response(eta);
+CycleWork SectorSolves::work(double eta, double force, const ContactVector& forces,
+                             const Rotation& rotation) const {
+  const SectorResponse found = response(eta, rotation);
   ComplexVector all(forces.size() + 1);
   all << forces, force;
   const Complex load_motion = (found.load_motion.transpose() * all).value();
   const ComplexVector motion = found.compliance * forces + force * found.free;
   return {-pi * force * load_motion.imag(), pi * all.dot(found.damping * all).real(),
           pi * (force * std::abs(load_motion) + forces.cwiseAbs().dot(motion.cwiseAbs()))};
+}
+
+SectorResponse SectorSolves::response(double eta, const Rotation& rotation) const {
+  constexpr std::size_t most = 10000;
+  const std::scoped_lock lock(mutex_);
+  const std::pair<double, double> place(eta, rotation.at(eta));
+  const auto known = known_.find(place);
+  if (known != known_.end()) return known->second;
+  if (known_.size() == most) known_.clear();
+  try {
+    return known_[place] = solved(eta, place.second);
+  } catch (const std::domain_error&) {  // as the sum over undamped modes at one of their frequencies
+    return known_[place] = not_finite(contacts(), outputs());
+  }
 }
 
 int FullReceptance::factorisations() const {

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace arcslip {
 namespace {
@@ -133,9 +134,11 @@ void end_of_line(Lines& lines, std::string_view after) {
 
 /// What the first line says.
 struct Banner {
-  bool is_array = false;    ///< all entries by columns, without indices
-  bool is_complex = false;  ///< each with an imaginary part
-  double mirror = 0;        ///< A_ji over A_ij, of which the lower triangle is given; 0: all are given
+  bool is_array = false;      ///< all entries by columns, without indices
+  bool is_complex = false;    ///< each with an imaginary part
+  double mirror = 0;          ///< A_ji over A_ij, of which the lower triangle is given; 0: all are given
+  bool is_hermitian = false;  ///< as it is called
+  bool is_turned = false;     ///< what is read is A of a Hermitian jA, the imaginary parts
 
   bool has_diagonal() const { return mirror >= 0; }
 };
@@ -162,6 +165,7 @@ Banner read_banner(Lines& lines) {
   const std::string_view symmetry =
       require("a matrix that is", {"general", "symmetric", "skew-symmetric", "hermitian"});
   banner.mirror = symmetry == "general" ? 0 : symmetry == "skew-symmetric" ? -1 : 1;
+  banner.is_hermitian = symmetry == "hermitian";
   end_of_line(lines, "the banner");
   return banner;
 }
@@ -206,8 +210,8 @@ Sizes read_sizes(Lines& lines, const Banner& banner) {
 
 using Triplet = Eigen::Triplet<double, SparseMatrix::StorageIndex>;
 
-/// The next value of a line. Of a complex one the imaginary part must be zero: a structure moves in time by
-/// real matrices, and waves and losses make them complex later.
+/// The next value of a line. Of a complex one the imaginary part must be zero, or of jG the real one: a
+/// structure moves in time by real matrices, and waves and losses make them complex later.
 double read_value(Lines& lines, const Banner& banner) {
   const auto number = [&] {
     const std::string_view word = lines.word();
@@ -217,7 +221,13 @@ double read_value(Lines& lines, const Banner& banner) {
   };
   const double value = number();
   if (!banner.is_complex) return value;
-  if (const double imaginary = number(); imaginary != 0)
+  const double imaginary = number();
+  if (banner.is_turned) {
+    if (value != 0)
+      lines.fail("a real part that is 0, as a Hermitian matrix jG has", fmt::format("{:g}", value));
+    return imaginary;
+  }
+  if (imaginary != 0)
     lines.fail(
         "an imaginary part that is 0, as M, C and K are real (structural damping is damping_kind, a wave "
         "is wave_number)",
@@ -286,22 +296,40 @@ void check_banner(std::string_view beginning, const std::string& file) {
   read_banner(lines);
 }
 
-SparseMatrix read_matrix_market(std::string_view text, const std::string& file) {
+namespace {
+
+SparseMatrix read_matrix(std::string_view text, const std::string& file, bool may_be_turned) {
   Lines lines(text, file, "%");
-  const Banner banner = read_banner(lines);
+  Banner banner = read_banner(lines);
+  banner.is_turned = may_be_turned && banner.is_complex && banner.is_hermitian;
   const Sizes sizes = read_sizes(lines, banner);
   std::vector<Triplet> entries;
   (banner.is_array ? read_array : read_coordinates)(lines, sizes, banner, entries);
   SparseMatrix matrix(sizes.rows, sizes.rows);
   matrix.setFromTriplets(entries.begin(), entries.end());
   entries = std::vector<Triplet>();
-  if (banner.mirror > 0) matrix = SparseMatrix(matrix.selfadjointView<Eigen::Lower>());
-  if (banner.mirror < 0) matrix = SparseMatrix(matrix - SparseMatrix(matrix.transpose()));
+  if (banner.is_turned && !Vector(std::as_const(matrix).diagonal()).isZero(0))
+    lines.fail("no imaginary parts on the diagonal of a Hermitian matrix", "others");
+  if (banner.mirror < 0 || banner.is_turned) {
+    matrix = SparseMatrix(matrix - SparseMatrix(matrix.transpose()));
+  } else if (banner.mirror > 0) {
+    matrix = SparseMatrix(matrix.selfadjointView<Eigen::Lower>());
+  }
   for (Index k = 0; k < matrix.nonZeros(); ++k) {
     if (!std::isfinite(matrix.valuePtr()[k]))
       lines.fail("entries given twice to have a finite sum", "infinity");
   }
   return matrix;
+}
+
+}  // namespace
+
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file) {
+  return read_matrix(text, file, false);
+}
+
+SparseMatrix read_gyroscopic(std::string_view text, const std::string& file) {
+  return read_matrix(text, file, true);
 }
 
 std::vector<Index> read_dofs(std::string_view text, const std::string& file, Index size) {
@@ -360,25 +388,6 @@ std::vector<DofPlace> read_places(std::string_view text, const std::string& file
     throw MatrixTextError(fmt::format("{}: expected a line for each of {} dofs, dof {} has none", file, size,
                                       missing - known.begin() + 1));
   return places;
-}
-
-std::string write_matrix_market(const SparseMatrix& matrix, MatrixSymmetry symmetry) {
-  const bool lower_only = symmetry == MatrixSymmetry::symmetric;
-  if (lower_only && (SparseMatrix(matrix.transpose()) - matrix).norm() != 0) {
-    throw std::invalid_argument("write_matrix_market: the matrix is not symmetric");
-  }
-  fmt::memory_buffer entries;
-  Index count = 0;
-  for (Index j = 0; j < matrix.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
-      if (lower_only && entry.row() < j) continue;
-      fmt::format_to(std::back_inserter(entries), "{} {} {:.17g}\n", entry.row() + 1, j + 1, entry.value());
-      ++count;
-    }
-  }
-  return fmt::format("%%MatrixMarket matrix coordinate real {}\n{} {} {}\n{}",
-                     lower_only ? "symmetric" : "general", matrix.rows(), matrix.cols(), count,
-                     fmt::to_string(entries));
 }
 
 }  // namespace arcslip

@@ -8,16 +8,17 @@
 
 namespace arcslip {
 
-/// Fills the last row and column of V^H A V.
-void RitzSpace::widen(NumberMatrix& projection, Index column, const NumberVector& product) {
+/// Fills the last row and column of V^H A V, of A that is Hermitian or, with `sign` -1, skew.
+void RitzSpace::widen(NumberMatrix& projection, Index column, const NumberVector& product, Real sign) {
   projection.conservativeResize(column + 1, column + 1);
   for (Index i = 0; i <= column; ++i) {
     Number sum = 0;
     for (Index dof = 0; dof < product.size(); ++dof) sum += std::conj(Number(basis_(dof, i))) * product(dof);
     projection(i, column) = sum;
-    projection(column, i) = std::conj(sum);
+    projection(column, i) = sign * std::conj(sum);
   }
-  projection(column, column) = projection(column, column).real();
+  const Number& own = projection(column, column);
+  projection(column, column) = sign > 0 ? Number(own.real()) : Number(0, own.imag());
 }
 
 void RitzSpace::add(const ComplexMatrix& columns) {
@@ -30,6 +31,8 @@ void RitzSpace::add(const ComplexMatrix& columns) {
     const NumberVector unfolded = sector_.unfold(vector);
     widen(mass_, column, sector_.mass_times(unfolded));
     widen(stiffness_, column, sector_.stiffness_times(unfolded));
+    if (has_gyroscopic_) widen(gyroscopic_, column, sector_.gyroscopic_times(unfolded), -1);
+    if (has_stiffness_speed2_) widen(stiffness_speed2_, column, sector_.stiffness_speed2_times(unfolded));
     load_(column) = vector.dot(sector_.load());
   }
 }
@@ -77,6 +80,7 @@ SectorModes RitzSpace::modes(const ModesRequest& request) const {
   SectorModes found;
   found.shapes.resize(observed.rows(), size());
   found.loads.resize(size());
+  NumberMatrix all(size(), size());
   bool free = true;  // as the lowest modes alone may be
   for (Index k = 0; k < size(); ++k) {
     const Index place = size() - 1 - k;
@@ -88,7 +92,11 @@ SectorModes RitzSpace::modes(const ModesRequest& request) const {
     found.frequencies.push_back(free ? 0 : static_cast<double>(std::sqrt(square) / turn));
     found.shapes.col(k) = (observed * shape / turn).cast<Complex>();
     found.loads(k) = Complex(shape.dot(load_) / turn);
+    all.col(k) = shape;
   }
+  if (has_gyroscopic_) found.gyroscopic = (all.adjoint() * gyroscopic_ * all).cast<Complex>();
+  if (has_stiffness_speed2_)
+    found.stiffness_speed2 = (all.adjoint() * stiffness_speed2_ * all).cast<Complex>();
   return found;
 }
 

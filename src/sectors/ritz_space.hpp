@@ -8,9 +8,12 @@ namespace arcslip {
 
 class RitzSpace {
  public:
-  /// `sector` must outlive this.
-  RitzSpace(const FiniteSector& sector, const SectorWave& wave)
-      : sector_(sector, wave), basis_(sector_.size(), 0) {}
+  /// `sector` must outlive this. With what rotation adds where it `turns`.
+  RitzSpace(const FiniteSector& sector, const SectorWave& wave, bool turns)
+      : sector_(sector, wave),
+        has_gyroscopic_(turns && sector.gyroscopic.size() != 0),
+        has_stiffness_speed2_(turns && sector.stiffness_speed2.size() != 0),
+        basis_(sector_.size(), 0) {}
 
   /// Widens the space by the columns, vectors of reduced dofs.
   void add(const ComplexMatrix& columns);
@@ -27,14 +30,18 @@ class RitzSpace {
   using NumberVector = ExtendedSector::NumberVector;
   using NumberMatrix = ExtendedSector::NumberMatrix;
 
-  void widen(NumberMatrix& projection, Index column, const NumberVector& product);
+  void widen(NumberMatrix& projection, Index column, const NumberVector& product, Real sign = 1);
   NumberMatrix shifted(Real& shift) const;
   bool is_free(const NumberVector& shape, Real square, double eta_low) const;
 
   ExtendedSector sector_;
+  bool has_gyroscopic_;
+  bool has_stiffness_speed2_;
   ComplexMatrix basis_;
   NumberMatrix mass_;
   NumberMatrix stiffness_;
+  NumberMatrix gyroscopic_;
+  NumberMatrix stiffness_speed2_;
   NumberVector load_;
 };
 

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "arcslip/sectors/sector_reduction.hpp"
+#include "arcslip/sectors/sector_solver.hpp"
 #include "sectors/krylov_space.hpp"
 #include "sectors/refined_solve.hpp"
 #include "sectors/ritz_space.hpp"
+#include "sectors/turning_modes.hpp"
+#include "sectors/turning_space.hpp"
 
 namespace arcslip {
 namespace {
@@ -74,29 +78,91 @@ double change(const SectorModes& now, const SectorModes& before, Index contacts,
   return worst;
 }
 
+/// Whether the response at speeds is asked for.
+bool turns(const ModesRequest& request) { return !request.rotations.empty(); }
+
+/// Where a sector that turns resonates in the window.
+std::vector<double> turning_resonances(const SectorModes& modes, Index contacts, const ModesRequest& request,
+                                       const Rotation& rotation) {
+  std::vector<double> etas;
+  for (const ContactMode& mode : turning_modes(modes, contacts, rotation).resonances()) {
+    if (mode.frequency > request.eta_low && mode.frequency < request.eta_high) etas.push_back(mode.frequency);
+  }
+  return etas;
+}
+
+/// Some eta of the window at which it is looked at: the ends and the middles between resonances, at which no
+/// damping counts.
+std::vector<double> turning_places(const std::vector<double>& resonances, const ModesRequest& request) {
+  constexpr std::size_t most = 9;
+  std::vector<double> etas = {std::max(request.eta_low, 1e-3 * request.eta_high)};
+  for (std::size_t i = 0; i + 1 < resonances.size(); ++i)
+    etas.push_back(0.5 * (resonances[i] + resonances[i + 1]));
+  if (request.eta_high > etas.back()) etas.push_back(request.eta_high);
+  if (etas.size() <= most) return etas;
+  std::vector<double> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(etas[i * (etas.size() - 1) / (most - 1)]);
+  return some;
+}
+
+/// Contacts and outputs (rows) under contacts and load (columns) of a sector that turns.
+ComplexMatrix stacked(const SectorMotions& motions) {
+  const Index m = motions.free.size();
+  ComplexMatrix all(m + motions.output_free.size(), m + 1);
+  all << motions.compliance, motions.free, motions.output_compliance, motions.output_free;
+  return all;
+}
+
+double change_in_turning(const SectorModes& now, const SectorModes& before, Index contacts,
+                         const ModesRequest& request) {
+  double worst = 0;
+  for (const Rotation& rotation : request.rotations) {
+    const std::vector<double> found = turning_resonances(now, contacts, request, rotation);
+    const std::vector<double> known = turning_resonances(before, contacts, request, rotation);
+    if (found.size() != known.size()) return 1;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      worst = std::max(worst, std::abs(found[k] - known[k]) / found[k]);
+    for (const double eta : turning_places(found, request)) {
+      const double speed = rotation.at(eta);
+      worst = std::max(worst, difference(stacked(modal_motions(before, contacts, request.loss, eta, speed)),
+                                         stacked(modal_motions(now, contacts, request.loss, eta, speed))));
+    }
+  }
+  return worst;
+}
+
 SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
                       Index dofs) {
-  RitzSpace space(sector, wave);
+  RitzSpace space(sector, wave, turns(request));
   space.add(ComplexMatrix::Identity(dofs, dofs));
   return space.modes(request);
 }
 
-SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request) {
-  constexpr double growth = 1.15;  // of the space between two looks at its modes
-  constexpr int calm = 2;          // looks in a row without a change
+SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+                          Index dofs) {
+  constexpr double growth = 1.15;            // of the space between two looks at its modes
+  constexpr int calm = 2;                    // looks in a row without a change
+  constexpr double turning_rounding = 1e-9;  // what turns is solved for in double
   KrylovSpace krylov(sector, wave, request);
-  RitzSpace space(sector, wave);
+  const bool is_turning = turns(request) && sector.feels_rotation();
+  std::optional<TurningSpace> turning;
+  if (is_turning) turning.emplace(sector, wave, request);
+  RitzSpace space(sector, wave, is_turning);
   SectorModes modes;
   double next_look = 6;
   for (int unchanged = 0; unchanged < calm;) {
-    const ComplexMatrix& block = krylov.next();
+    const ComplexMatrix block = turning ? turning->take(krylov.next()) : krylov.next();
     space.add(block);
-    const bool exhausted = block.cols() == 0;
+    const ComplexMatrix more = turning ? turning->next() : ComplexMatrix(dofs, 0);
+    space.add(more);
+    const bool exhausted = block.cols() + more.cols() == 0;
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
     next_look = std::max(growth * static_cast<double>(space.size()), static_cast<double>(space.size()) + 2);
     SectorModes found = space.modes(request);
     const bool same = !modes.frequencies.empty() &&
-                      change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance;
+                      change(found, modes, std::ssize(sector.contacts), request) <= request.tolerance &&
+                      (!is_turning || change_in_turning(found, modes, std::ssize(sector.contacts), request) <=
+                                          std::max(request.tolerance, turning_rounding));
     unchanged = exhausted ? calm : same ? unchanged + 1 : 0;
     modes = std::move(found);
   }
@@ -190,6 +256,32 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
   result.check_etas = std::move(etas);
 }
 
+/// Compares the modes with the full solve of the sector as it turns.
+void compare_turning(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+                     SectorModes& result) {
+  const Index contacts = std::ssize(sector.contacts);
+  Loss loss = request.loss;
+  loss.structural += loss.modal;
+  loss.modal = 0;
+  SectorSolver full(sector, wave.forward(), loss);
+  for (const Rotation& rotation : request.rotations) {
+    for (const double eta :
+         turning_places(turning_resonances(result, contacts, request, rotation), request)) {
+      const double speed = rotation.at(eta);
+      const double error = difference(stacked(modal_motions(result, contacts, loss, eta, speed)),
+                                      stacked(full.at(eta, speed)));
+      if (!(error <= std::max(worst_error, 1e3 * request.tolerance)))
+        throw SectorError(
+            fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g} and a speed of {:g}",
+                        error, eta, speed));
+      if (error <= result.error) continue;
+      result.error = error;
+      result.error_eta = eta;
+    }
+  }
+  result.factorisations += full.factorisations();
+}
+
 /// Refuses a load that moves no contact of a structure without symmetry, not even by rounding.
 void check_load(const FiniteSector& sector, const SectorModes& modes) {
   constexpr double rounding = 1e-12;
@@ -224,12 +316,13 @@ SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, con
   check_mass(sector, reduction);
   const Index dofs = reduction.size();
   SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, request, dofs)
-                                                 : lanczos_modes(sector, wave, request);
+                                                 : lanczos_modes(sector, wave, request, dofs);
   result.dofs = dofs;
   if (!sector.has_boundaries()) check_load(sector, result);
   if (!request.compared) return result;
   constexpr auto digits = static_cast<double>(std::numeric_limits<ExtendedSector::Real>::epsilon());
   compare(sector, wave, request, digits * largest_square(reduction) / (two_pi * two_pi), result);
+  if (turns(request) && sector.feels_rotation()) compare_turning(sector, wave, request, result);
   return result;
 }
 

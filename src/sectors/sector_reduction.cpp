@@ -11,7 +11,8 @@ namespace {
 /// Every entry that one of the matrices has, reduced.
 ComplexSparseMatrix common_pattern(const FiniteSector& sector, const SectorMap& map) {
   std::vector<Eigen::Triplet<Complex>> entries;
-  for (const SparseMatrix* matrix : {&sector.mass, &sector.stiffness, &sector.damping}) {
+  for (const SparseMatrix* matrix :
+       {&sector.mass, &sector.stiffness, &sector.damping, &sector.gyroscopic, &sector.stiffness_speed2}) {
     for (Index j = 0; j < matrix->outerSize(); ++j) {
       for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
         entries.emplace_back(map.reduced[static_cast<std::size_t>(entry.row())],
@@ -32,6 +33,8 @@ SectorReduction::SectorReduction(const FiniteSector& sector)
   mass_ = part(sector.mass, pattern);
   stiffness_ = part(sector.stiffness, pattern);
   if (sector.damping.size() != 0) damping_ = part(sector.damping, pattern);
+  if (sector.gyroscopic.size() != 0) gyroscopic_ = part(sector.gyroscopic, pattern);
+  if (sector.stiffness_speed2.size() != 0) stiffness_speed2_ = part(sector.stiffness_speed2, pattern);
   set_forward(1);
 }
 
@@ -70,6 +73,8 @@ void SectorReduction::set_forward(Complex forward) {
   reduce(mass_);
   reduce(stiffness_);
   reduce(damping_);
+  reduce(gyroscopic_);
+  reduce(stiffness_speed2_);
   load_.setZero();
   for (Index dof = 0; dof < sector_load_.size(); ++dof) {
     load_(reduced_dof(dof)) += std::conj(factor(dof)) * sector_load_(dof);

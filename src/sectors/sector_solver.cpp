@@ -8,6 +8,14 @@
 
 namespace arcslip {
 
+void SectorMotions::fill(Index contacts, Index outputs, const Complex& value) {
+  compliance.setConstant(contacts, contacts, value);
+  free.setConstant(contacts, value);
+  output_compliance.setConstant(outputs, contacts, value);
+  output_free.setConstant(outputs, value);
+  load_motion.setConstant(contacts + 1, value);
+}
+
 SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Loss& loss)
     : reduction_(sector), loss_(loss), outputs_(sector.outputs) {
   reduction_.set_forward(forward);
@@ -24,9 +32,11 @@ SectorSolver::SectorSolver(const FiniteSector& sector, Complex forward, const Lo
   right_.resize(reduction_.size(), m + 1);
   product_.resize(reduction_.size(), m + 1);
   left_.resize(reduction_.size(), m + 1);
-  response_ = {ComplexMatrix(m, m),         ComplexMatrix(m, m),  ComplexVector(m),    ComplexVector(m),
-               ComplexMatrix(p, m),         ComplexVector(p),     ComplexMatrix(p, m), ComplexVector(p),
-               ComplexMatrix(m + 1, m + 1), ComplexVector(m + 1), ComplexVector(m + 1)};
+  if (sector.feels_rotation()) speed_slope_ = dynamic_stiffness_;
+  for (SectorMotions* motions :
+       std::initializer_list<SectorMotions*>{&response_, &response_.by_eta, &response_.by_speed})
+    motions->fill(m, p, 0);
+  response_.damping.resize(m + 1, m + 1);
   factors_ = std::make_unique<ComplexFactors>(dynamic_stiffness_);
 }
 
@@ -51,6 +61,24 @@ void SectorSolver::assemble(double eta) {
   for (Index i = 0; i < count; ++i) {
     dynamic_stiffness_.valuePtr()[i] += Complex(0, w) * damping[i];
     slope_.valuePtr()[i] += Complex(0, two_pi) * damping[i];
+  }
+}
+
+/// Adds Omega^2 K_2 + j w* Omega G with Omega = 2 pi times the speed.
+void SectorSolver::turn(double eta, double speed) {
+  const double w = two_pi * eta;
+  const double omega = two_pi * speed;
+  const auto& gyroscopic = reduction_.gyroscopic();
+  const auto& stiffness = reduction_.stiffness_speed2();
+  speed_slope_.coeffs().setZero();
+  if (gyroscopic.size() != 0) {
+    dynamic_stiffness_.coeffs() += Complex(0, w * omega) * gyroscopic.coeffs();
+    slope_.coeffs() += Complex(0, two_pi * omega) * gyroscopic.coeffs();
+    speed_slope_.coeffs() += Complex(0, two_pi * w) * gyroscopic.coeffs();
+  }
+  if (stiffness.size() != 0) {
+    dynamic_stiffness_.coeffs() += Complex(omega * omega) * stiffness.coeffs();
+    speed_slope_.coeffs() += Complex(2 * two_pi * omega) * stiffness.coeffs();
   }
 }
 
@@ -82,21 +110,22 @@ void SectorSolver::collect() {
     response_.output_compliance.row(i) = factor * right_.row(reduction_.reduced_dof(dof)).head(m);
     response_.output_free(i) = factor * right_(reduction_.reduced_dof(dof), m);
   }
-  product_.noalias() = slope_ * right_;
-  response_.compliance_eta.noalias() = -left_.leftCols(m).transpose() * product_.leftCols(m);
-  response_.free_eta.noalias() = -left_.leftCols(m).transpose() * product_.col(m);
-  response_.load_motion_eta.noalias() = -product_.transpose() * left_.col(m);
 }
 
-/// From Z' X, which it uses up.
-void SectorSolver::collect_output_slopes() {
+/// From Z' X.
+void SectorSolver::collect_slopes(const ComplexSparseMatrix& slope, SectorMotions& slopes) {
   const Index m = contacts();
+  product_.noalias() = slope * right_;
+  slopes.compliance.noalias() = -left_.leftCols(m).transpose() * product_.leftCols(m);
+  slopes.free.noalias() = -left_.leftCols(m).transpose() * product_.col(m);
+  slopes.load_motion.noalias() = -product_.transpose() * left_.col(m);
+  if (outputs() == 0) return;
   factors_->solve(product_);
   for (Index i = 0; i < outputs(); ++i) {
     const Index dof = outputs_[static_cast<std::size_t>(i)];
     const auto row = -reduction_.factor(dof) * product_.row(reduction_.reduced_dof(dof));
-    response_.output_compliance_eta.row(i) = row.head(m);
-    response_.output_free_eta(i) = row(m);
+    slopes.output_compliance.row(i) = row.head(m);
+    slopes.output_free(i) = row(m);
   }
 }
 
@@ -112,8 +141,10 @@ void SectorSolver::collect_works(double eta) {
   response_.load_motion.noalias() = right_.transpose() * reduction_.load().conjugate();
 }
 
-const SectorResponse& SectorSolver::at(double eta) {
+const SectorResponse& SectorSolver::at(double eta, double speed) {
   assemble(eta);
+  const bool turns = speed_slope_.size() != 0;
+  if (turns) turn(eta, speed);
   if (!factors_->factor(dynamic_stiffness_)) {
     throw std::domain_error(fmt::format("the dynamic stiffness of the sector is singular at eta = {}", eta));
   }
@@ -121,7 +152,8 @@ const SectorResponse& SectorSolver::at(double eta) {
   factors_->solve(right_);
   factors_->solve_transposed(left_);
   collect();
-  if (outputs() > 0) collect_output_slopes();
+  collect_slopes(slope_, response_.by_eta);
+  if (turns) collect_slopes(speed_slope_, response_.by_speed);
   factors_->release();
   collect_works(eta);
   return response_;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -33,6 +32,33 @@ ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const
 }
 
 ContactModes ContactModes::solved_by(Receptance receptance, double load, ReceptanceWork work) const {
+  SpeedWork of_any_speed;
+  if (work) {
+    of_any_speed = [work = std::move(work)](double eta, double factor, const ContactVector& forces, double) {
+      return work(eta, factor, forces);
+    };
+  }
+  const auto answer = [respond = std::move(receptance)](double eta, double factor, double) {
+    VariedReceptance response;
+    static_cast<ContactReceptance&>(response) = respond(eta, factor);
+    response.compliance_rate.setZero(response.free.size(), response.free.size());
+    response.free_rate.setZero(response.free.size());
+    return response;
+  };
+  return solved_at_speeds(answer, load, std::move(of_any_speed));
+}
+
+ContactModes ContactModes::turning(ModesAtSpeed modes) const {
+  ContactModes turning = *this;
+  if (receptance_) {
+    turning.modes_ = modes(speed_)->resonances();
+    for (ContactMode& mode : turning.modes_) mode.load *= receptance_load_;
+  }
+  turning.turning_ = std::move(modes);
+  return turning;
+}
+
+ContactModes ContactModes::solved_at_speeds(SpeedReceptance receptance, double load, SpeedWork work) const {
   ContactModes solved = *this;
   solved.receptance_ = std::move(receptance);
   solved.receptance_work_ = std::move(work);
@@ -53,16 +79,17 @@ ContactModes ContactModes::turned(const Complex& turn) const {
   ContactModes other = *this;
   for (ContactMode& mode : other.modes_) mode.load *= turn;
   if (!receptance_) return other;
-  other.receptance_ = [answer = receptance_, turn](double eta, double load) {
-    ContactReceptance response = answer(eta, load);
+  other.receptance_ = [answer = receptance_, turn](double eta, double load, double speed) {
+    VariedReceptance response = answer(eta, load, speed);
     response.free *= turn;
     response.free_eta *= turn;
+    response.free_rate *= turn;
     return response;
   };
   if (receptance_work_) {
     other.receptance_work_ = [work = receptance_work_, turn](double eta, double load,
-                                                             const ContactVector& forces) {
-      return work(eta, load, std::conj(turn) * forces);
+                                                             const ContactVector& forces, double speed) {
+      return work(eta, load, std::conj(turn) * forces, speed);
     };
   }
   return other;
@@ -113,7 +140,7 @@ ContactReceptance ContactModes::at(double eta) const {
 
 void ContactModes::add(double eta, ContactReceptance& sum) const {
   if (receptance_) {
-    const ContactReceptance response = receptance_(eta, receptance_load_);
+    const ContactReceptance response = receptance_(eta, receptance_load_, speed_);
     sum.compliance += response.compliance;
     sum.compliance_eta += response.compliance_eta;
     sum.free += response.free;
@@ -156,7 +183,7 @@ void ContactModes::add_many(double eta, ContactReceptance& sum) const {
 }
 
 CycleWork ContactModes::work(double eta, const ContactVector& forces) const {
-  if (receptance_) return receptance_work_(eta, receptance_load_, forces);
+  if (receptance_) return receptance_work_(eta, receptance_load_, forces, speed_);
   CycleWork sum;
   for (const ContactMode& mode : modes_) {
     if (drifts(mode, eta)) continue;
@@ -176,8 +203,10 @@ VariedReceptance ContactModes::varied(double eta, const Variation& at, const Var
   sum.compliance_rate.setZero(contacts_, contacts_);
   sum.free_rate.setZero(contacts_);
   if (receptance_) {
-    static_cast<ContactReceptance&>(sum) = receptance_(eta, receptance_load_);
-    sum.free_rate = rate.load * sum.free;
+    sum = receptance_(eta, receptance_load_, speed_ + at.speed);
+    sum.compliance_rate *= rate.speed;
+    sum.free_rate *= at.load * rate.speed;
+    sum.free_rate += rate.load * sum.free;
     sum.free *= at.load;
     sum.free_eta *= at.load;
     return sum;
@@ -219,9 +248,13 @@ ContactModes ContactModes::varied(const Variation& at) const {
     mode.influence = at.influence * mode.influence;
   }
   ContactModes structure(contacts_, std::move(modes), at.loss);
+  structure.turning_ = turning_;
+  structure.speed_ = speed_ + at.speed;
   if (!receptance_) return structure;
   structure.loss_ = loss_;
-  return structure.solved_by(receptance_, at.load * receptance_load_, receptance_work_);
+  const ContactModes solved =
+      structure.solved_at_speeds(receptance_, at.load * receptance_load_, receptance_work_);
+  return turning_ ? solved.turning(turning_) : solved;
 }
 
 Vector contact_springs(const std::vector<SectorContact>& contacts) {
@@ -238,48 +271,6 @@ Complex ContactOutput::motion(double eta, const ContactVector& forces) const {
   const ContactReceptance at = modes.at(eta);
   const Complex by_contacts = (at.compliance.row(m).head(m) * forces).value();
   return at.free(m) + by_contacts;
-}
-
-std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
-                                     const Vector& springs) {
-  return joined_modes(structures, springs, [](const ContactVector& shape, bool is_first) -> ContactVector {
-    return is_first ? shape : -shape;
-  });
-}
-
-std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
-                                     const Vector& springs, const MovedSprings& moved) {
-  Index count = 0;
-  for (const ContactModes* structure : structures) count += static_cast<Index>(structure->modes().size());
-  if (count == 0) return {};  // all held
-  // In modal coordinates: diag(eta_k^2) + B^H diag(springs) B, where B gives the relative motions.
-  ComplexMatrix relative(springs.size(), count);
-  Vector squares(count);
-  Index column = 0;
-  for (const ContactModes* structure : structures) {
-    for (const ContactMode& mode : structure->modes()) {
-      relative.col(column) = moved(mode.shape, structure == structures.front());
-      squares(column++) = mode.influence.square(mode.frequency);
-    }
-  }
-  ComplexMatrix stiffness = relative.adjoint() * springs.asDiagonal() * relative;
-  stiffness.diagonal() += squares;
-  const Eigen::SelfAdjointEigenSolver<ComplexMatrix> found(stiffness);
-  std::vector<JoinedMode> modes;
-  for (Index k = 0; k < count; ++k) {
-    const double frequency = std::sqrt(std::max(0.0, found.eigenvalues()(k)));
-    const auto motion = found.eigenvectors().col(k);
-    double losses = 0;  // sum |x|^2 Im d
-    Index row = 0;
-    for (const ContactModes* structure : structures) {
-      for (const ContactMode& mode : structure->modes())
-        losses += std::norm(motion(row++)) *
-                  (structure->loss().part(frequency, mode.frequency) + mode.influence.part(frequency).imag());
-    }
-    modes.push_back(
-        {frequency, frequency > 0 ? losses / (2 * frequency * frequency) : 0, relative * motion, motion});
-  }
-  return modes;
 }
 
 }  // namespace arcslip

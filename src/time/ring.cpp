@@ -299,6 +299,8 @@ Ring build_ring(const SystemParameters& given) {
   if (parameters.influence && parameters.influence->is_complex())
     throw std::invalid_argument(
         "complex influence coefficients, which are meant at one frequency, have no motion in time");
+  if (feels_rotation(parameters))
+    throw std::invalid_argument("structures that turn have no motion in time here");
   if (parameters.one_way)
     throw std::invalid_argument("contacts that do not act back on the base have no motion in time here");
   const HarmonicSystem system = build_harmonic_system(parameters);

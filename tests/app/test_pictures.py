@@ -403,6 +403,29 @@ def test_damping_is_drawn_over_nodal_diameters_both_ways_round(tmp_path):
         assert any(np.allclose(curve, [[-1, 0.01 * R], [0, 0], [1, -0.01]]) for curve in curves)
 
 
+def test_campbell_diagrams_have_both_directions_engine_orders_and_crossings(tmp_path):
+    write_modes(tmp_path, None)
+    rows, met = [], []
+    for part, f in (("base", 100), ("stuck", 140)):
+        for wave in (3, -3):
+            rows += [f"{s},{wave},{part},1,{f - wave * s / 3},0.001" for s in range(0, 21)]
+        met.append(f"3,-3,{part},1,{f / 2},{3 * f / 2}")  # 3 s = f + s
+    (tmp_path / "campbell.csv").write_text("speed,wave_number,part,mode,eta,zeta\n" + "\n".join(rows) + "\n")
+    (tmp_path / "crossings.csv").write_text("engine_order,wave_number,part,mode,speed,eta\n" + "\n".join(met) + "\n")
+    drawn = figures_of(tmp_path)
+    assert list(drawn) == ["modes", "campbell"]
+    figure = drawn["campbell"]
+    check_layout(figure)
+    texts = [text for text, _ in texts_of(figure)]
+    names = {f"{part}, {way}" for part in ("base", "both, stuck") for way in ("forward", "backward")}
+    assert names | {"engine orders", "crossing"} <= set(texts)
+    lines = figure.axes[0].lines
+    (order,) = [line for line in lines if line.get_color() == style.GREY and line.get_marker() == "None"]
+    assert np.allclose(order.get_ydata(), 3 * np.asarray(order.get_xdata()))
+    marks = np.concatenate([np.column_stack(line.get_data()) for line in lines if line.get_marker() == "x"])
+    assert sorted(map(tuple, marks)) == [(50, 150), (70, 210)]
+
+
 def test_modes_are_drawn_beside_a_run(results, tmp_path):
     for name in ("branches.csv", "curves.csv", "summary.json"):
         os.link(results["pp2"] / name, tmp_path / name)

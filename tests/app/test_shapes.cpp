@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/types.hpp"
 #include "catch.hpp"
 #include "composition.hpp"
 
@@ -36,7 +37,7 @@ Place difference(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b
 std::string places(double sense, int sectors = 12) {
   std::string text;
   for (int dof = 1; dof <= 4; ++dof) {
-    const double angle = sense * 2 * pi / sectors * (dof - 1) / 3;
+    const double angle = sense * arcslip::two_pi / sectors * (dof - 1) / 3;
     const bool radial = dof == 1 || dof == 4;
     text += fmt::format("{} {:.17g} {:.17g} 0.5 {:.17g} {:.17g} {}\n", dof, 2 * std::cos(angle),
                         2 * std::sin(angle), radial ? 3 * std::cos(angle) : 0,

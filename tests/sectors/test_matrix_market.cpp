@@ -91,6 +91,25 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
+TEST_CASE("A gyroscopic matrix is read as it is, skew-symmetric, or as the Hermitian jG") {
+  const Matrix wanted = (Matrix(3, 3) << 0, -2.5, 0, 2.5, 0, 4, 0, -4, 0).finished();
+  const std::string entries = "3 3 2\n2 1 2.5\n3 2 -4\n";
+  CHECK(dense(read_gyroscopic("%%MatrixMarket matrix coordinate real skew-symmetric\n" + entries, "G")) ==
+        wanted);
+  CHECK(dense(read_gyroscopic("%%MatrixMarket matrix coordinate real general\n3 3 4\n2 1 2.5\n3 2 -4\n"
+                              "1 2 -2.5\n2 3 4\n",
+                              "G")) == wanted);
+  const std::string hermitian = "%%MatrixMarket matrix coordinate complex Hermitian\n3 3 2\n";
+  CHECK(dense(read_gyroscopic(hermitian + "2 1 0 2.5\n3 2 0 -4\n", "G")) == wanted);
+  CHECK_THROWS_WITH(
+      read_gyroscopic(hermitian + "2 1 1 2.5\n3 2 0 -4\n", "G.mtx"),
+      ContainsSubstring("G.mtx:3: expected a real part that is 0") && ContainsSubstring("got 1"));
+  CHECK_THROWS_WITH(read_gyroscopic(hermitian + "2 1 0 2.5\n3 3 0 -4\n", "G.mtx"),
+                    ContainsSubstring("no imaginary parts on the diagonal"));
+  CHECK_THROWS_WITH(read_matrix_market(hermitian + "2 1 0 2.5\n3 2 0 -4\n", "K.mtx"),
+                    ContainsSubstring("an imaginary part that is 0"));
+}
+
 TEST_CASE("Dense, skew-symmetric and complex matrices are the same as sparse real ones") {
   const auto read = [](const std::string& kind, const std::string& rest) {
     return Matrix(read_matrix_market("%%MatrixMarket matrix " + kind + "\n" + rest, "K.mtx"));

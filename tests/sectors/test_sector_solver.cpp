@@ -114,9 +114,9 @@ TEST_CASE("The derivatives of the sector's response in eta are those of the valu
       return ((8 * between(h) - between(2 * h)) / (12 * h)).eval();
     };
     // 1e-7: rounding by condition numbers of 1e3 over h/eta; peaks are about 1e-3 wide.
-    CHECK((here.compliance_eta - slope(&SectorResponse::compliance)).norm() <
-          1e-7 * here.compliance_eta.norm());
-    CHECK((here.free_eta - slope(&SectorResponse::free)).norm() < 1e-7 * here.free_eta.norm());
+    CHECK((here.by_eta.compliance - slope(&SectorResponse::compliance)).norm() <
+          1e-7 * here.by_eta.compliance.norm());
+    CHECK((here.by_eta.free - slope(&SectorResponse::free)).norm() < 1e-7 * here.by_eta.free.norm());
   }
 }
 
@@ -132,9 +132,9 @@ TEST_CASE("One element a sector responds as the built-in rods and beams") {
     const ContactResponse expected = built_in.at(eta);
     const SectorResponse& response = solver.at(eta);
     check_close(response.compliance(0, 0), expected.compliance, 1e-10);
-    check_close(response.compliance_eta(0, 0), expected.compliance_eta, 1e-10);
+    check_close(response.by_eta.compliance(0, 0), expected.compliance_eta, 1e-10);
     check_close(response.free(0), expected.free, 1e-10);
-    check_close(response.free_eta(0), expected.free_eta, 1e-10);
+    check_close(response.by_eta.free(0), expected.free_eta, 1e-10);
   }
 }
 
@@ -164,9 +164,9 @@ TEST_CASE(
       CHECK(error < (beams && n == 2 && std::abs(eta - 4) < 0.1 ? 1e-8 : 1e-10));
     };
     check_wave(response.compliance * wave, expected.compliance);
-    check_wave(response.compliance_eta * wave, expected.compliance_eta);
+    check_wave(response.by_eta.compliance * wave, expected.compliance_eta);
     check_wave(response.free, expected.free);
-    check_wave(response.free_eta, expected.free_eta);
+    check_wave(response.by_eta.free, expected.free_eta);
   }
 }
 

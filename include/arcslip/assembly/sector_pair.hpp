@@ -18,7 +18,8 @@
 
 namespace arcslip {
 
-class FullReceptance;
+class KnownTurning;
+class SectorSolves;
 
 /// How the response of a sector is found: as a sum over modes, which damping must be proportional or modal
 /// for, or by sparse solves at each eta.
@@ -60,9 +61,10 @@ struct SectorPart {
 
 /// What modes depend on.
 struct SectorUse {
-  SectorWave wave;      ///< under which
-  double eta_low = 0;   ///< the window in which they give the response
-  double eta_high = 0;  ///< >= eta_low
+  SectorWave wave;                       ///< under which
+  double eta_low = 0;                    ///< the window in which they give the response
+  double eta_high = 0;                   ///< >= eta_low
+  std::vector<Rotation> rotations = {};  ///< at which they do; none: at rest
 };
 
 /// Keeps what it has found. May be used from several threads.
@@ -84,17 +86,26 @@ class SectorPair : public Structures {
   const SectorModes& base_modes(const SectorUse& use, double zeta) const;
   const SectorModes& damper_modes(const SectorUse& use, double zeta) const;
 
-  /// Sparse solves, kept as modes are; of the full path. Damping is not modal.
-  std::shared_ptr<const FullReceptance> base_solves(const SectorWave& wave, double zeta) const;
-  std::shared_ptr<const FullReceptance> damper_solves(const SectorWave& wave, double zeta) const;
+  /// Solves, kept as modes are: sparse ones on the full path, where damping is not modal, else of the modes
+  /// at rest, if rotation is felt that couples them; or null.
+  std::shared_ptr<const SectorSolves> base_solves(const SectorUse& use, double zeta) const;
+  std::shared_ptr<const SectorSolves> damper_solves(const SectorUse& use, double zeta) const;
+
+  /// Modes of a part that turns, kept as well.
+  std::shared_ptr<const KnownTurning> turning(bool is_base, const SectorUse& use, double zeta) const;
 
   // Of the system's contacts, any number of them; one alone where it is reduced.
   ContactSystem wave(const SystemParameters& system) const override;
   bool is_one_contact(const SystemParameters& system) const override;
+  /// The speed, where it is felt and follows no engine order.
+  std::vector<SystemParameter> parameters(const SystemParameters& system) const override;
   PairLosses losses(const SystemParameters& system) const override;
   /// Refuses matrices that are not definite under this wave.
   void check(Index wave_number, Index nodes) const override;
   std::shared_ptr<const Structures> in_modes() const override;
+  bool feels_rotation() const override {
+    return base_.part.sector.feels_rotation() || (damper_ && damper_->part.sector.feels_rotation());
+  }
   std::vector<PartModes> modes(const SystemParameters& system) const override;
 
  private:
@@ -109,15 +120,16 @@ class SectorPair : public Structures {
   struct Kept {
     SectorPart part;
     const char* name;
-    mutable Places<std::array<double, 5>, SectorModes> modes = {};
-    mutable Places<std::array<double, 3>, std::shared_ptr<const FullReceptance>> solves = {};
+    mutable Places<std::vector<double>, std::shared_ptr<const SectorModes>> modes = {};
+    mutable Places<std::vector<double>, std::shared_ptr<const SectorSolves>> solves = {};
+    mutable Places<std::vector<double>, std::shared_ptr<const KnownTurning>> turning = {};
     mutable Places<std::array<Index, 2>, bool> checked = {};
   };
 
   template <class Key, class Value, class Make>
   const Value& found(const Kept& kept, Places<Key, Value>& places, const Key& key, const Make& make) const;
-  const SectorModes& modes(const Kept& kept, const SectorUse& use, double zeta) const;
-  std::shared_ptr<const FullReceptance> solves(const Kept& kept, const SectorWave& wave, double zeta) const;
+  std::shared_ptr<const SectorModes> modes(const Kept& kept, const SectorUse& use, double zeta) const;
+  std::shared_ptr<const SectorSolves> solves(const Kept& kept, const SectorUse& use, double zeta) const;
   void check(const Kept& kept, const SectorWave& wave) const;
 
   Kept base_;

@@ -88,11 +88,19 @@ class Structures {
   /// response alone.
   virtual bool has_equations() const { return true; }
 
+  /// Whether rotation changes it.
+  virtual bool feels_rotation() const { return false; }
+
   /// How its modes were found, part by part; nothing of what is exact.
   virtual std::vector<PartModes> modes(const SystemParameters& /*system*/) const { return {}; }
 };
 
 /// Those of a system: its own, or rods and beams.
 const Structures& structures_of(const SystemParameters& system);
+
+/// Whether they turn and are changed by it.
+inline bool feels_rotation(const SystemParameters& system) {
+  return system.turns() && structures_of(system).feels_rotation();
+}
 
 }  // namespace arcslip

@@ -12,6 +12,7 @@
 #include "arcslip/assembly/influence.hpp"
 #include "arcslip/elements/element_kind.hpp"
 #include "arcslip/structure/contact_modes.hpp"
+#include "arcslip/structure/rotation.hpp"
 
 namespace arcslip {
 
@@ -101,6 +102,10 @@ struct SystemParameters {
   std::vector<SectorContact> contacts = {};  ///< theirs, one or several
   double eta_low = 0;                        ///< window of eta in which they must give the response
   double eta_high = 0;
+  Rotation rotation = {};     ///< with which they turn, nodes numbered along it where the speed is above 0
+  double preload_speed2 = 0;  ///< the part of P_2 that is told as of P + P_2 speed^2, beside an engine order
+  double speed_low = 0;       ///< window of the speed where it is continued
+  double speed_high = 0;
 
   /// p.
   int periods() const { return harmonics.front(); }
@@ -110,6 +115,9 @@ struct SystemParameters {
 
   /// What the load in the harmonic h of the response is turned by against a real one.
   Complex load_turn(int h) const { return h % periods() == 0 ? excitation.turn(h / periods()) : 1; }
+
+  /// Whether the speed is not, or may be as it is continued not, zero.
+  bool turns() const { return !rotation.is_none() || varied == "speed"; }
 
   /// Whether elements act beside the contacts.
   bool has_others() const { return has_cubic_springs() || !others.empty(); }

@@ -14,6 +14,7 @@
 //   K_FD_2, L_2   of the second of several contacts; so of each
 //   influence     all that a flow does to the base
 //   stops.gap     a setting of an element, see setting_name
+//   speed         of rotation, in revolutions, of sectors that feel it
 //
 // M*, gamma and cubic_stiffness belong to rods and beams; of the load goes F K*, of the contacts' slip P
 // K*/K_FD. L and what is of one contact belong to sectors, of which K_FD is N k of the first contact and
@@ -57,6 +58,7 @@ struct SystemParameter {
     growth,   ///< of the preload, with eta^2
     flow,     ///< what a flow does
     element,  ///< a setting of an element beside the contacts
+    speed,    ///< of rotation
     ratio     ///< of base to damper, which sectors do not have
   };
 
@@ -78,7 +80,8 @@ struct SystemParameter {
   bool allows(double other) const {
     if (kind == Kind::element)
       return other <= limits.high && (limits.may_be_low ? other >= limits.low : other > limits.low);
-    return kind == Kind::damping || kind == Kind::growth || kind == Kind::flow || other > 0;
+    return kind == Kind::damping || kind == Kind::growth || kind == Kind::flow || kind == Kind::speed ||
+           other > 0;
   }
 };
 

@@ -10,9 +10,9 @@ namespace arcslip {
 
 /// `count` elements whose dofs are ordered left node, interior, right node, with `node_dofs` to a node. Dofs
 /// count in this order along the sector. Contacts and outputs are dof `contact` of each node but the last,
-/// which is the next sector's; no load.
+/// which is the next sector's; no load. What rotation adds may be given as well.
 FiniteSector chain_sector(const Matrix& mass, const Matrix& stiffness, Index node_dofs, Index count,
-                          Index contact);
+                          Index contact, const Matrix& gyroscopic = {}, const Matrix& stiffness_speed2 = {});
 
 /// `count` elements of `elements` in the whole ring, with its travelling load of unit force per length.
 FiniteSector chain_sector(const ChainElement& element, Index wave_number, Index elements, Index count);

@@ -39,6 +39,10 @@ inline constexpr Index most_empty_rows = Index{1} << 19;
 /// name in errors. Throws MatrixTextError.
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file);
 
+/// The same of a skew-symmetric matrix G, which may also be given as the Hermitian one jG: complex and
+/// Hermitian, without real parts. Throws MatrixTextError.
+SparseMatrix read_gyroscopic(std::string_view text, const std::string& file);
+
 /// Refuses a text that does not begin as those of matrices do. `beginning` holds its first line at least.
 /// Throws MatrixTextError.
 void check_banner(std::string_view beginning, const std::string& file);

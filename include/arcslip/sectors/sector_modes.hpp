@@ -10,6 +10,9 @@
 // the response no longer changes. The shift is sigma = 0, so that the static response is exact, or below it
 // where K(a) is singular. One factorisation serves all of them.
 //
+// Of a sector that turns V spans responses at its speeds as well, and its modes at rest, which G and K_2
+// couple, stand for it in a response that is solved for: the products V^H G V and V^H K_2 V go with them.
+//
 // The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the
 // error of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the
 // response is compared with are refined in the same arithmetic.
@@ -18,6 +21,7 @@
 
 #include "arcslip/sectors/finite_sector.hpp"
 #include "arcslip/structure/modal_model.hpp"
+#include "arcslip/structure/rotation.hpp"
 
 namespace arcslip {
 
@@ -31,12 +35,13 @@ struct SectorWave {
 
 /// Where the modes must give the response, and how exactly.
 struct ModesRequest {
-  double eta_low = 0;        ///< >= 0
-  double eta_high = 0;       ///< >= eta_low
-  double tolerance = 1e-10;  ///< relative
-  Loss loss;                 ///< with which the response is measured
-  Index all_modes = 100;     ///< most reduced dofs of a sector that keeps all its modes
-  bool compared = true;      ///< with the full solve
+  double eta_low = 0;                    ///< >= 0
+  double eta_high = 0;                   ///< >= eta_low
+  double tolerance = 1e-10;              ///< relative
+  Loss loss;                             ///< with which the response is measured
+  Index all_modes = 100;                 ///< most reduced dofs of a sector that keeps all its modes
+  bool compared = true;                  ///< with the full solve
+  std::vector<Rotation> rotations = {};  ///< at which the response must be as exact; none: at rest
 };
 
 /// The modes v_k as contacts, outputs and load see them.
@@ -50,6 +55,8 @@ struct SectorModes {
   double error_eta = 0;            ///< where
   std::vector<double> check_etas;  ///< where the two were compared, at modes and between them
   int factorisations = 0;          ///< of the shift and of the comparison
+  ComplexMatrix gyroscopic = {};   ///< v_i^H G v_k, skew-Hermitian, of a request with rotations; 0 x 0: none
+  ComplexMatrix stiffness_speed2 = {};  ///< v_i^H K_2 v_k, the same
 };
 
 /// The modes as the first contact sees them, under `force` times the load.

@@ -2,9 +2,9 @@
 
 // A finite-element sector as one travelling wave sees it, in sparse matrices:
 //
-//   A(a) = T^H A T,   T : (d_L, d_I) -> (d_L, d_I, d_L e^{-ja}),   A = M, C, K
+//   A(a) = T^H A T,   T : (d_L, d_I) -> (d_L, d_I, d_L e^{-ja}),   A = M, C, K, G, K_2
 //
-// All three, and those of every a, have one pattern of entries, so that one symbolic analysis serves them
+// All of them, and those of every a, have one pattern of entries, so that one symbolic analysis serves them
 // all.
 
 #include <vector>
@@ -29,6 +29,9 @@ class SectorReduction {
   const ComplexSparseMatrix& mass() const { return mass_.reduced; }
   const ComplexSparseMatrix& stiffness() const { return stiffness_.reduced; }
   const ComplexSparseMatrix& damping() const { return damping_.reduced; }  ///< 0 x 0: none
+  /// G, skew-Hermitian, and K_2; 0 x 0: none.
+  const ComplexSparseMatrix& gyroscopic() const { return gyroscopic_.reduced; }
+  const ComplexSparseMatrix& stiffness_speed2() const { return stiffness_speed2_.reduced; }
   const ComplexVector& load() const { return load_; }
 
   /// Of reduced dofs.
@@ -59,6 +62,8 @@ class SectorReduction {
   Part mass_;
   Part stiffness_;
   Part damping_;
+  Part gyroscopic_;
+  Part stiffness_speed2_;
   ComplexVector load_;
 };
 

@@ -6,6 +6,9 @@
 //   c   = E^T Z^{-1} E        dc/deta   = -X_l^T Z' X_r,   X_r = Z^{-1} E,  X_l = Z^{-T} E
 //   y_0 = E^T Z^{-1} F        dy_0/deta = -X_l^T Z' Z^{-1} F
 //
+// to which a speed Omega adds Omega^2 K_2 + j w* Omega G, of which the losses are no part; slopes by the
+// speed follow in the same way.
+//
 // and of outputs, which are dofs, the same entries of -Z^{-1} Z' X_r and -Z^{-1} Z' Z^{-1} F.
 //
 // E has a column for each contact, with 1 at its dof and -1 at that which it is against. One symbolic
@@ -15,24 +18,29 @@
 
 #include "arcslip/sectors/sector_reduction.hpp"
 #include "arcslip/structure/modal_model.hpp"
+#include "arcslip/structure/rotation.hpp"
 
 namespace arcslip {
 
 class ComplexFactors;
 
-/// Response of m contacts and p outputs at a given eta.
-struct SectorResponse {
+/// Motions of m contacts and p outputs at a given eta, or how they change.
+struct SectorMotions {
   ComplexMatrix compliance;  ///< c, m x m: motion of the contact of the row per force on that of the column
-  ComplexMatrix compliance_eta;         ///< dc/deta
-  ComplexVector free;                   ///< y_0, m: the response without contact
-  ComplexVector free_eta;               ///< dy_0/deta
-  ComplexMatrix output_compliance;      ///< p x m: motion of the outputs per force on a contact
-  ComplexVector output_free;            ///< p: motion of the outputs without contact
-  ComplexMatrix output_compliance_eta;  ///< derivative of the one
-  ComplexVector output_free_eta;        ///< and the other
-  ComplexMatrix damping;  ///< X^H Im Z X, m+1 x m+1, X = [X_r, Z^{-1} F]: by pi what damping takes a cycle
-  ComplexVector load_motion;      ///< m+1: X^T F*, the motion F^H d that the load does work on
-  ComplexVector load_motion_eta;  ///< its derivative
+  ComplexVector free;        ///< y_0, m: the response without contact
+  ComplexMatrix output_compliance;  ///< p x m: motion of the outputs per force on a contact
+  ComplexVector output_free;        ///< p: motion of the outputs without contact
+  ComplexVector load_motion;        ///< m+1: X^T F*, the motion F^H d that the load does work on
+
+  /// Gives all of them their size, filled with a number.
+  void fill(Index contacts, Index outputs, const Complex& value);
+};
+
+/// The response, of X = [X_r, Z^{-1} F].
+struct SectorResponse : SectorMotions {
+  SectorMotions by_eta;    ///< its derivatives
+  SectorMotions by_speed;  ///< and those by the speed, zero at rest
+  ComplexMatrix damping;   ///< X^H Im Z X, m+1 x m+1: by pi what damping takes a cycle
 };
 
 /// Serves one thread. Owns all that it needs of the sector.
@@ -46,8 +54,9 @@ class SectorSolver {
   SectorSolver(const SectorSolver&) = delete;
   SectorSolver& operator=(const SectorSolver&) = delete;
 
-  /// The response at eta, valid until the next call. Throws std::domain_error where Z is singular.
-  const SectorResponse& at(double eta);
+  /// The response at eta and a speed, in revolutions, valid until the next call. Throws std::domain_error
+  /// where Z is singular.
+  const SectorResponse& at(double eta, double speed = 0);
 
   /// The matrices that Z is made of.
   const SectorReduction& reduction() const { return reduction_; }
@@ -59,9 +68,10 @@ class SectorSolver {
 
  private:
   void assemble(double eta);
+  void turn(double eta, double speed);
   void set_right_hand_sides();
   void collect();
-  void collect_output_slopes();
+  void collect_slopes(const ComplexSparseMatrix& slope, SectorMotions& slopes);
   void collect_works(double eta);
 
   SectorReduction reduction_;
@@ -74,6 +84,7 @@ class SectorSolver {
   std::vector<Index> outputs_;             // dofs of the sector
   ComplexSparseMatrix dynamic_stiffness_;  // Z
   ComplexSparseMatrix slope_;              // dZ/deta
+  ComplexSparseMatrix speed_slope_;        // dZ by the speed, of a sector that feels it
   ComplexMatrix right_;                    // X_r and Z^{-1} F
   ComplexMatrix left_;                     // X_l and Z^{-T} F*
   ComplexMatrix product_;                  // Z' or Im Z times `right_`

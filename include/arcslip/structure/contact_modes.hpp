@@ -9,6 +9,7 @@
 // has no d_k: the sums are then over the modes that deform the structure.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,9 @@ struct Variation {
   double load = 1;       ///< factor on F
   Loss loss = {};        ///< in place of its own; proportional to these K and M
   double influence = 1;  ///< factor on what a flow does
+  double speed = 0;  ///< added to that with which it turns, in revolutions, of what is solved for at speeds
 
-  static Variation none() { return {0, 0, 0, {}, 0}; }  ///< of rates
+  static Variation none() { return {0, 0, 0, {}, 0, 0}; }  ///< of rates
 };
 
 /// Response of such a structure, with its derivatives along the rates of a variation.
@@ -65,6 +67,11 @@ struct CycleWork {
 using Receptance = std::function<ContactReceptance(double eta, double load)>;
 using ReceptanceWork = std::function<CycleWork(double eta, double load, const ContactVector& forces)>;
 
+/// The same with so many revolutions added to the speed with which it turns, by which the rates are.
+using SpeedReceptance = std::function<VariedReceptance(double eta, double load, double speed)>;
+using SpeedWork =
+    std::function<CycleWork(double eta, double load, const ContactVector& forces, double speed)>;
+
 /// One mode v_k as contacts and load see it.
 struct ContactMode {
   double frequency;              ///< eta_k
@@ -76,6 +83,30 @@ struct ContactMode {
   bool is_rigid() const { return !(frequency > 0); }
 };
 
+/// The undamped modes of a structure that turns, at one speed or with a speed that follows eta:
+///
+///   C = sum_k s_k s_k^H/(1 - mu_k lambda),   lambda = eta^power
+///
+/// At one speed eta is that of a wave, or below zero that of the wave which runs the other way.
+struct TurningModes {
+  /// One of them.
+  struct Mode {
+    double inverse;       ///< mu_k, of any sign
+    ContactVector shape;  ///< s_k
+    Complex load;         ///< as of ContactMode
+  };
+  int power = 1;
+  std::vector<Mode> modes;
+  std::vector<double> frequencies;  ///< of the modes at rest
+  ComplexMatrix motion;             ///< the motion of these in each
+
+  /// Those with eta > 0 as sums over modes have them near their resonance.
+  std::vector<ContactMode> resonances() const;
+};
+
+/// With so many revolutions added to the speed.
+using ModesAtSpeed = std::function<std::shared_ptr<const TurningModes>(double speed)>;
+
 /// Immutable; may be used from several threads.
 class ContactModes {
  public:
@@ -86,6 +117,15 @@ class ContactModes {
   /// damping: the modes, undamped, serve for its resonances alone. Without `work` of its own, none may be
   /// asked for.
   ContactModes solved_by(Receptance receptance, double load, ReceptanceWork work = {}) const;
+
+  /// The same of one that turns, at any speed.
+  ContactModes solved_at_speeds(SpeedReceptance receptance, double load, SpeedWork work = {}) const;
+
+  /// With resonances that are those of the structure as it turns.
+  ContactModes turning(ModesAtSpeed modes) const;
+
+  /// These; null of one that is at rest.
+  std::shared_ptr<const TurningModes> turning_modes() const { return turning_ ? turning_(speed_) : nullptr; }
 
   /// With the motion that the load does work on, F^H d, as that of a further contact after all others. Of
   /// modes alone: what is solved for has to be solved for anew.
@@ -109,10 +149,10 @@ class ContactModes {
 
   /// The response of the modes as their structure is varied,
   ///   C = sum_k s_k s_k^H/(m d_k)   with eta_k sqrt(a/m) in d_k   for factors a on K and m on M.
-  /// One that is solved for may differ in its load alone.
+  /// One that is solved for may differ in its load and its speed alone.
   VariedReceptance varied(double eta, const Variation& at, const Variation& rate) const;
 
-  /// The structure as it is varied. One that is solved for may differ in its load alone.
+  /// The structure as it is varied. One that is solved for may differ in its load and its speed alone.
   ContactModes varied(const Variation& at) const;
 
   /// What it was made of.
@@ -130,9 +170,11 @@ class ContactModes {
   std::vector<ContactMode> modes_;
   ComplexMatrix shapes_;  // of the modes, contacts x modes, where there are many contacts
   Loss loss_;
-  Receptance receptance_;  // in place of the sum, if there is one
-  ReceptanceWork receptance_work_;
+  SpeedReceptance receptance_;  // in place of the sum, if there is one
+  SpeedWork receptance_work_;
   double receptance_load_ = 1;
+  ModesAtSpeed turning_;
+  double speed_ = 0;  // added to that of both
 };
 
 /// One contact dof of each sector.
@@ -177,9 +219,9 @@ struct JoinedMode {
   ComplexVector motion;    ///< of the modes of the structures, one structure after the other
 };
 
-/// The undamped modes of `structures` joined at their contacts through springs, of stiffness `springs` (m);
-/// of one structure, joined to ground. Relative to the first structure the others move backwards. In
-/// ascending order.
+/// The undamped modes of `structures`, all of them at rest or all turning in one way, joined at their
+/// contacts through springs, of stiffness `springs` (m); of one structure, joined to ground. Relative to the
+/// first structure the others move backwards. In ascending order.
 std::vector<JoinedMode> joined_modes(const std::vector<const ContactModes*>& structures,
                                      const Vector& springs);
 

@@ -13,6 +13,13 @@
 // element's interior: of every u they take v_t = -u exactly, and do not lock however slender the ring is.
 // Frequencies converge as the fourth power of the element's length, from above.
 
+// One that turns about its axis is held by its own hoop tension rho A R^2 Omega^2, which stretches at second
+// order
+//
+//   (e^2 + (u_t - v)^2/R^2)/2
+//
+// in the plane: K_2 is that times the tension less the mass, G couples u and v.
+
 #include "arcslip/sectors/finite_sector.hpp"
 
 namespace arcslip {
@@ -34,6 +41,7 @@ struct SolidRing {
   RingDirection contact = RingDirection::axial;
   Index sectors = 1;
   Index elements = 1;  ///< of one sector
+  bool turns = false;  ///< whether what rotation adds is wanted, of motion in the plane
 
   /// What the contact moves; the other motion is not coupled with it.
   SolidRingMotion motion() const {
@@ -48,7 +56,7 @@ double torsion_constant(double width, double height);
 /// The sector, checked. Dofs of a node are u, u_theta, v in the plane and w, w_theta, p out of it; they turn
 /// with the sector. Contacts and outputs are those in the direction of the contact of each node but the last.
 /// Throws std::invalid_argument unless the quantities are positive, height < 2 radius, -1 < poisson_ratio <
-/// 1/2 and the counts at least 1.
+/// 1/2 and the counts at least 1, and of rings that turn unless they move in their plane.
 FiniteSector ring_sector(const SolidRing& ring);
 
 }  // namespace arcslip

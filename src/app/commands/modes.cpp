@@ -11,6 +11,7 @@
 #include "cases/ring_section.hpp"
 #include "keys/printable.hpp"
 #include "results/atomic_file.hpp"
+#include "results/campbell.hpp"
 #include "results/mode_table.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
@@ -27,6 +28,7 @@ struct ModesOptions {
   Index highest = 50;                 ///< number of waves
   double speed = 0;                   ///< revolutions a minute, of engine-order lines; 0: none
   std::vector<double> amplitudes;     ///< R, at which damping is wanted
+  std::vector<double> campbell;       ///< two speeds, low and high; empty: none
   bool quiet = false;
   bool shapes = false;  ///< write those of the system's own wave
 };
@@ -39,6 +41,24 @@ ProblemRequest first_problem(const CaseFile& file) {
     throw InputError(fmt::format("{}: modes are those of systems with friction, not of {}", file.path(),
                                  problem.model->name));
   return of_one_sector(std::move(problem));
+}
+
+using WrittenFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// The Campbell diagram that is asked for, if one is.
+WrittenFiles campbell_files(const CaseFile& file, const ProblemRequest& problem,
+                            const ModesOptions& options) {
+  WrittenFiles files;
+  if (options.campbell.empty()) return files;
+  const CampbellRange range{options.campbell[0], options.campbell[1]};
+  if (!(range.low >= 0 && range.low < range.high))
+    throw InputError(file.path() + ": --campbell needs two speeds, 0 <= low < high");
+  file.named("system", [&] {
+    check_campbell(problem.system);
+    files = {{"campbell.csv", campbell_csv(problem, range)},
+             {"crossings.csv", crossings_csv(problem, range)}};
+  });
+  return files;
 }
 
 int modes(const ModesOptions& options) {
@@ -57,17 +77,19 @@ int modes(const ModesOptions& options) {
   if (options.shapes) file.named("system", [&] { shapes = RingShapes(problem.system).modes(); });
   file.named("system", [&] { waves = modes_of(problem, options.highest); });
   std::vector<DampedWave> damped;
+  if (!options.amplitudes.empty() && feels_rotation(problem.system))
+    throw InputError(file.path() + ": --amplitude is not of sectors that turn");
   if (!options.amplitudes.empty())
     file.named("system", [&] { damped = damping_of_waves(problem, options.highest, options.amplitudes); });
+  WrittenFiles files = campbell_files(file, problem, options);
   const OutputFolder folder(results_folder(options.folder, options.case_path));
   const nlohmann::ordered_json about = {
       {"arcslip", release},
       {"nodes", problem.system.elements},
       {"speed_per_minute",
        options.speed > 0 ? nlohmann::ordered_json(options.speed) : nlohmann::ordered_json()}};
-  std::vector<std::pair<std::string, std::string>> files{{"modes.csv", modes_csv(problem, waves)},
-                                                         {"modes.json", about.dump(2) + "\n"}};
   if (!damped.empty()) files.emplace_back("damping.csv", damping_csv(problem, damped));
+  files.insert(files.end(), {{"modes.csv", modes_csv(problem, waves)}, {"modes.json", about.dump(2) + "\n"}});
   for (const auto& [name, text] : files) {
     AtomicFile written(folder.path() + "/" + name);
     written.write(text);
@@ -112,6 +134,14 @@ Command::Action add_modes(CLI::App& app) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--campbell", options->campbell,
+          "Two speeds, in revolutions in the unit of time of eta: of sectors that turn write the "
+          "frequencies of the case's wave, both ways, over these speeds, and where engine orders meet "
+          "them: DIR/campbell.csv, DIR/crossings.csv")
+      ->type_name("LOW HIGH")
+      ->expected(2);
   add_settings(command, options->settings);
   command->add_flag("--shapes", options->shapes,
                     "Write the shapes of the modes with the wave number of the case, of sectors whose dofs "

@@ -49,9 +49,47 @@ SectorKey::Reader for_contacts(const std::string& name, std::vector<double> Sect
   };
 }
 
-NumberRule wave_rule(const SectorSettings& settings) {
+/// The one among the waves from -N/2 to N/2 as which so many waves move.
+Index alias(Index waves, Index sectors) {
+  const Index rest = ((waves % sectors) + sectors) % sectors;
+  return 2 * rest > sectors ? rest - sectors : rest;
+}
+
+void check_wave(const SectorSettings& settings, const TomlSection& section) {
   const Index most = settings.elements / 2;
-  return within(0, static_cast<double>(most), fmt::format(" >= 0 and <= sectors/2 = {}", most));
+  const Index n = settings.wave_number;
+  if (std::abs(n) > most)
+    section.fail(
+        "wave_number",
+        fmt::format("expected an integer >= -sectors/2 = {} and <= sectors/2 = {}, got {}: on {} sectors {} "
+                    "waves move as {}",
+                    -most, most, n, settings.elements, n, alias(n, settings.elements)));
+}
+
+bool has_order(const SectorSettings& settings) { return settings.rotation.per_eta != 0; }
+
+/// The order m of a load that stands still: eta = m speed on -m waves of the sectors, which pass it.
+void read_engine_order(SectorSettings& settings, const TomlSection& section) {
+  const Index m = section.integer("engine_order", within(1, 1e6, " >= 1 and <= 1e6"));
+  settings.rotation.per_eta = 1 / static_cast<double>(m);
+  settings.wave_number = alias(-m, settings.elements);
+}
+
+ordered_json engine_order(const SectorSettings& settings) {
+  if (!has_order(settings)) return nullptr;
+  return std::llround(1 / settings.rotation.per_eta);
+}
+
+/// Refuses speeds that nothing feels, and responses that are not calculated of what turns.
+void check_rotation(const TomlSection& section, const SectorSettings& settings) {
+  const bool turns = !settings.rotation.is_none() || settings.use->parameter == "speed";
+  if (!turns) return;
+  const char* key = has_order(settings) ? "engine_order" : "speed";
+  const bool feels = settings.sectors->feels_rotation();
+  if (!feels && !has_order(settings))
+    section.fail("speed", "nothing feels it: expected `gyroscopic` or `stiffness_speed2` of a sector");
+  if (feels && settings.use->is_free)
+    section.fail(key, "only of forced and one-way responses where sectors feel rotation");
 }
 
 void check_path(const SectorSettings& settings, const TomlSection& section) {
@@ -78,6 +116,10 @@ bool is_cyclic(const SectorSettings& settings, const TomlSection& /*section*/) {
                              (pair->damper() != nullptr && pair->damper()->sector.has_boundaries()));
 }
 
+bool needs_wave(const SectorSettings& settings, const TomlSection& section) {
+  return is_cyclic(settings, section) && !section.has("engine_order");
+}
+
 const KeyTable<SectorSettings>& sector_keys() {
   const auto of = [](const SectorPart* part) -> ordered_json {
     if (part == nullptr) return nullptr;
@@ -101,9 +143,34 @@ const KeyTable<SectorSettings>& sector_keys() {
                           otherwise("required"), unlisted),
        SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N",
                  needed("required beside `left` and `right`; without them 1", is_cyclic)),
-       SectorKey("wave_number", &SectorSettings::wave_number, {" >= 0 and <= sectors/2", wave_rule},
-                 "n, nodal diameters",
-                 needed("required beside `left` and `right`; without them 0", is_cyclic)),
+       SectorKey::special(
+           "engine_order", "integer >= 1 and <= 1e6",
+           "m of a load that stands still: the speed is eta/m and the wave -m, of sectors numbered "
+           "along the rotation; `parameter` may be `speed`",
+           read_engine_order, otherwise("none"), resolved(engine_order)),
+       SectorKey(
+           "wave_number", &SectorSettings::wave_number, any_number(),
+           "n from -sectors/2 to sectors/2: as many nodal diameters, which run with the numbers of the "
+           "sectors or, "
+           "below 0, against them",
+           only("not beside engine_order, which tells the wave",
+                [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
+           needed("required beside `left` and `right`; without them 0", needs_wave), then(check_wave)),
+       SectorKey(
+           "speed", [](auto& settings) -> auto& { return settings.rotation.fixed; }, any_number(),
+           "of rotation, revolutions in the unit of time of eta, above 0 along the numbers of the sectors",
+           only("not beside engine_order, with which it follows eta",
+                [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
+           parameter("speed"), otherwise("0"), resolved([](const SectorSettings& settings) {
+             return has_order(settings) ? ordered_json() : ordered_json(settings.rotation.fixed);
+           })),
+       SectorKey("preload_speed2", &SectorSettings::preload_speed2, any_number(),
+                 "P_2 of the preload P + P_2 speed^2; added to that of preload_growth",
+                 only("only beside engine_order, as the preload at one speed is `preload`",
+                      [](const SectorSettings& settings, const TomlSection&) { return has_order(settings); }),
+                 otherwise("0"), resolved([](const SectorSettings& settings) {
+                   return has_order(settings) ? ordered_json(settings.preload_speed2) : ordered_json();
+                 })),
        SectorKey::special(
            "contact_stiffness", "number or list",
            "k of the contact of a sector; of several contacts that of all, or a list, in which "
@@ -176,6 +243,10 @@ void read_sector(const StructureKind::Source& source, ProblemRequest& problem) {
   settings.interface_stiffness = k.front() * static_cast<double>(settings.elements);
   settings.contacts = sector_contacts(k, settings.limit_per_preload);
   check_use(source.section, settings);
+  check_rotation(source.section, settings);
+  settings.preload_growth += settings.preload_speed2 * settings.rotation.per_eta * settings.rotation.per_eta;
+  settings.speed_low = source.use.speed_low;
+  settings.speed_high = source.use.speed_high;
   take(std::move(settings), problem);
 }
 
@@ -184,9 +255,27 @@ ordered_json sector_resolved(const ProblemRequest& problem, const ordered_json& 
   static_cast<SystemParameters&>(settings) = problem.system;
   settings.sectors = std::static_pointer_cast<const SectorPair>(settings.structures);
   settings.harmonics_tolerance = problem.harmonics_tolerance;
+  settings.preload_growth -= settings.preload_speed2 * settings.rotation.per_eta * settings.rotation.per_eta;
   settings.path = settings.sectors->path();
   settings.reduction_tolerance = settings.sectors->tolerance();
   return sector_keys().values(settings);
+}
+
+/// Which way a wave runs where it matters.
+std::string rotation_in_words(const SystemParameters& system) {
+  const Rotation& rotation = system.rotation;
+  const bool stands = 2 * system.wave_number % system.elements == 0;
+  const bool is_forward = (system.wave_number > 0) == (rotation.fixed >= 0);
+  if (rotation.per_eta != 0)
+    return fmt::format(", engine order {}{}", std::llround(1 / rotation.per_eta),
+                       stands                   ? ""
+                       : system.wave_number < 0 ? " (backward)"
+                                                : " (forward)");
+  if (rotation.fixed == 0) return "";
+  return fmt::format(", speed {:g}{}", rotation.fixed,
+                     stands       ? ""
+                     : is_forward ? " (forward)"
+                                  : " (backward)");
 }
 
 std::string sector_in_words(const ProblemRequest& problem) {
@@ -195,6 +284,7 @@ std::string sector_in_words(const ProblemRequest& problem) {
   const bool is_cyclic = system.elements > 1 || sectors.base().sector.has_boundaries();
   std::string text = is_cyclic ? fmt::format("sector, n = {}, N = {}", system.wave_number, system.elements)
                                : std::string("structure without symmetry");
+  text += rotation_in_words(system);
   text += fmt::format(", {}, zeta = {:g} (base, {})", contacts_in_words(system), system.base_damping,
                       to_string(sectors.base().damping_kind));
   if (sectors.damper() != nullptr)
