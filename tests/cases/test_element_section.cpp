@@ -118,7 +118,7 @@ TEST_CASE("Settings of an element are continued by its name, or by that of its k
   CHECK_THAT(wrong(replaced(named, "\"stops\"", "\"st.ops\""), "stops.gap", "0.5"),
              ContainsSubstring("element[0].name: expected a name of letters, digits and _"));
   CHECK_THAT(wrong(replaced(named, "\"stops\"", "\"contact_2\""), "stops.gap", "0.5"),
-             ContainsSubstring("that does not begin with contact_, got \"contact_2\""));
+             ContainsSubstring("that does not begin with contact_, and is not contacts, got \"contact_2\""));
   CHECK_THAT(wrong("", "K_FD_2", "0.5"),
              ContainsSubstring("branch.parameter: the system has no parameter K_FD_2"));
   CHECK(varied("", "P_2") == "P_2");
