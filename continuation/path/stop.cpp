@@ -16,6 +16,7 @@ std::string_view to_string(Stop stop) {
     case Stop::no_value: return "no_value";
     case Stop::min_step: return "min_step";
     case Stop::asymptotic: return "asymptotic";
+    case Stop::repeats: return "repeats";
     case Stop::grazing_border: return "grazing_border";
     case Stop::no_start: return "no_start";
   }

@@ -1,7 +1,9 @@
 // What a branch takes from the events that a step ends at.
 
 #include <algorithm>
+#include <string>
 
+#include "arcslip/continuation/path/repetition.hpp"
 #include "arcslip/continuation/path/tracer.hpp"
 
 namespace arcslip::continuation {
@@ -15,6 +17,9 @@ void Tracer::take_events(const Signs& before) {
     store(event.type, event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index))
                                                      : std::string());
   }
+  if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
+    return stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
+                                   " and not to its start: a step had gone over to another branch");
   const auto end = std::find_if(events_.begin(), events_.end(),
                                 [](const Event& event) { return event.kind->ends_regime; });
   if (end != events_.end()) cross(static_cast<int>(end->index), on_several_borders());

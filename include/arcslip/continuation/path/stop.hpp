@@ -20,6 +20,7 @@ enum class Stop {
   no_value,        ///< the problem cannot be evaluated further on
   min_step,        ///< no step of at least `min_step` is acceptable
   asymptotic,      ///< the branch comes ever nearer to a value on which it has no point
+  repeats,         ///< it goes round a loop that its start is not on
   grazing_border,  ///< the piece beyond a border does not leave it
   no_start         ///< there is no solution near the guess
 };

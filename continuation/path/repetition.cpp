@@ -1,0 +1,36 @@
+#include "arcslip/continuation/path/repetition.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+
+std::optional<std::size_t> came_round(const Problem& problem, const std::vector<BranchPoint>& points,
+                                      Index active, const Tolerances& tolerances) {
+  constexpr double far = 1e-3;  // in the problem's scale
+  if (points.empty() || points.back().type != PointType::fold) return std::nullopt;
+  const BranchPoint& last = points.back();
+  const Index n = last.unknowns.size();
+  Vector unknowns(n);
+  Vector parameters(last.parameters.size());
+  problem.scale(last.unknowns, last.parameters, unknowns, parameters);
+  Vector scale(n + 1);
+  scale << unknowns * std::sqrt(static_cast<double>(n)), parameters(active);
+  const auto distance = [&](const BranchPoint& other) {
+    return std::hypot((other.unknowns - last.unknowns).cwiseQuotient(scale.head(n)).norm(),
+                      (other.parameters(active) - last.parameters(active)) / scale(n));
+  };
+  const Vector direction = last.tangent.cwiseQuotient(scale).normalized();
+  double farthest = 0;
+  for (std::size_t i = points.size() - 1; i-- > 0;) {
+    const BranchPoint& other = points[i];
+    const double from_last = distance(other);
+    farthest = std::max(farthest, from_last);
+    if (other.type != PointType::fold || farthest < far || from_last > tolerances.same_point) continue;
+    const bool is_same_way = other.tangent.cwiseQuotient(scale).normalized().dot(direction) > 0;
+    if (other.regime == last.regime && is_same_way) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace arcslip::continuation
