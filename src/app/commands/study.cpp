@@ -179,7 +179,7 @@ study that was interrupted or killed goes on with --resume; without it a study i
 In place of a list a range, { from = 1.0, to = 100.0, count = 50, scale = "log" } ("linear" if not given); in place of
 the table of lists an array of designs, [{ mass_ratio = 5.0, slenderness = 8.3 }, ...]. Preloads of
 continuation.stop_at get a row for every peak. Where something scatters, DIR/quantiles.csv has the quantiles and
-DIR/robust.csv the preload at which the 95 % quantile is lowest.
+DIR/robust.csv the preload at which the 95 % quantile is lowest; of patterns of a whole ring DIR/patterns.csv has each.
 
 A case file has [system] and more as for arcslip run, and these keys; problems/figure_12.toml is one:
 

@@ -11,15 +11,15 @@
 
 namespace arcslip::continuation {
 
-/// Its unknowns, parameters and observables are those of the problem that it is made of. Regimes that it is
-/// given are where the search for a point's own one begins.
+/// Its unknowns, parameters and observables are those of the problem that it is made of. The regimes
+/// that it is given are where the search for a point's own one begins.
 class OnePiece final : public Problem {
  public:
   /// Throws std::invalid_argument without a problem.
   explicit OnePiece(std::shared_ptr<const Problem> pieces);
 
-  /// The regime that no border of is crossed at a point, from `start` on. Where none is found within as many
-  /// rounds as there are switches, the last one that was tried.
+  /// The regime in which a point crosses no border, looked for from `start` on. Where none is found within as
+  /// many rounds as there are switches, the last one that was tried.
   Regime regime_at(const Vector& u, const Vector& p, Regime start) const;
 
   Index size() const override { return pieces_->size(); }
