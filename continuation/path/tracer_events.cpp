@@ -16,10 +16,11 @@ void Tracer::take_events(const Signs& before) {
     if (event.kind->ends_regime || !event.told) continue;
     store(event.type, event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index))
                                                      : std::string());
+    if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
+      stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
+                              " and not to its start: a step had gone over to another branch");
   }
-  if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
-    return stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
-                                   " and not to its start: a step had gone over to another branch");
+  if (stopped_) return;
   const auto end = std::find_if(events_.begin(), events_.end(),
                                 [](const Event& event) { return event.kind->ends_regime; });
   if (end != events_.end()) cross(static_cast<int>(end->index), on_several_borders());

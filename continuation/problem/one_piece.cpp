@@ -8,12 +8,12 @@ OnePiece::OnePiece(std::shared_ptr<const Problem> pieces) : pieces_(std::move(pi
   if (pieces_ == nullptr) throw std::invalid_argument("OnePiece: no problem");
 }
 
-Regime OnePiece::regime_at(const Vector& u, const Vector& p, Regime start) const {
-  for (Index round = 0; round <= pieces_->switch_count(); ++round) {
+Regime regime_at(const Problem& problem, const Vector& u, const Vector& p, Regime start) {
+  for (Index round = 0; round <= problem.switch_count(); ++round) {
     bool is_inside = true;
-    for (int i = 0; i < pieces_->border_count(start); ++i) {
-      if (!(pieces_->border(u, p, start, i, nullptr) > 0)) continue;
-      const std::optional<Regime> beyond = pieces_->regime_beyond(start, i);
+    for (int i = 0; i < problem.border_count(start); ++i) {
+      if (!(problem.border(u, p, start, i, nullptr) > 0)) continue;
+      const std::optional<Regime> beyond = problem.regime_beyond(start, i);
       if (!beyond) continue;
       start = *beyond;
       is_inside = false;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "arcslip/continuation/problem/one_piece.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 
 namespace arcslip::problems {
@@ -40,6 +41,8 @@ std::vector<continuation::Symmetry> HarmonicResponse::symmetries() const {
   const double at = resonances.empty() ? 1 : 1.0617 * *std::min_element(resonances.begin(), resonances.end());
   const ContactVector load = system_.base.front().at(at).free.head(contacts());
   std::vector<continuation::Symmetry> found;
+  Index period = 0;             // the first shift that is one
+  std::optional<Index> mirror;  // the first one
   for (Index k = 1; k < 2 * sectors; ++k) {
     const bool mirrors = k >= sectors;
     const Index shift = k % sectors;
@@ -55,13 +58,19 @@ std::vector<continuation::Symmetry> HarmonicResponse::symmetries() const {
     double turns = std::remainder(-std::arg(later) / two_pi, 1.0);
     turns = std::abs(turns) < same_motion ? 0 : turns < 0 ? turns + 1 : turns;
     if (std::abs(turns - 0.5) < same_motion) turns = 0.5;
-    if (std::optional<SparseMatrix> map = image_map(image, turns))
-      found.push_back({named(shift, mirrors, sectors, turns), std::move(*map)});
+    // Those that others make up are symmetries as these are.
+    const bool is_known =
+        mirrors ? mirror && period > 0 && (shift - *mirror) % period == 0 : period > 0 && shift % period == 0;
+    std::optional<SparseMatrix> map = image_map(image, turns);
+    if (!map || !(is_known || goes_with(*map))) continue;
+    if (mirrors && !mirror) mirror = shift;
+    if (!mirrors && period == 0) period = shift;
+    found.push_back({named(shift, mirrors, sectors, turns), std::move(*map)});
   }
   return found;
 }
 
-/// The map of the unknowns, if the equations go with it.
+/// The map of the unknowns, if all coordinates have an image.
 std::optional<SparseMatrix> HarmonicResponse::image_map(const std::function<Index(Index)>& image,
                                                         double turns) const {
   std::vector<Eigen::Triplet<double>> entries;
@@ -85,7 +94,7 @@ std::optional<SparseMatrix> HarmonicResponse::image_map(const std::function<Inde
   }
   SparseMatrix map(size(), size());
   map.setFromTriplets(entries.begin(), entries.end());
-  return goes_with(map) ? std::optional(map) : std::nullopt;
+  return map;
 }
 
 /// Whether F(S u) = S F(u), at a motion as large as the load makes it, of which some contacts slip.
@@ -101,12 +110,9 @@ bool HarmonicResponse::goes_with(const SparseMatrix& map) const {
     if (contact.stiffness > 0) p(preload) = amplitude / contact.slip_per_preload;
   }
   const auto value = [&](const Vector& u) {
-    continuation::Regime regime;
-    for (int i = 0; i < border_count(regime); ++i) {
-      if (border(u, p, regime, i, nullptr) > 0) regime = *regime_beyond(regime, i);
-    }
     Vector residual(size());
-    return evaluate(u, p, regime, {&residual}) ? std::optional(residual) : std::nullopt;
+    return evaluate(u, p, continuation::regime_at(*this, u, p), {&residual}) ? std::optional(residual)
+                                                                             : std::nullopt;
   };
   const Vector u = Vector::NullaryExpr(size(), [&](Index) { return amplitude * normal(random); });
   const std::optional<Vector> here = value(u);

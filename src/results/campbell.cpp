@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <stdexcept>
 
 #include "arcslip/assembly/resonances.hpp"
 #include "arcslip/assembly/structures.hpp"
+#include "results/mode_table.hpp"
 
 namespace arcslip {
 namespace {
@@ -30,22 +30,6 @@ SystemParameters over_speeds(const SystemParameters& system, Index wave, const C
   return one;
 }
 
-/// Resonances with their number within each part.
-template <class Visit>
-void for_each_numbered(const std::vector<Resonance>& modes, const Visit& visit) {
-  std::map<std::string, int> numbers;
-  for (const Resonance& mode : modes) visit(mode, ++numbers[mode.part]);
-}
-
-std::string frequency_columns(const ProblemRequest& problem, double eta) {
-  const std::string text = fmt::format("{:.17g}", eta);
-  return problem.physical ? fmt::format("{},{:.17g}", text, problem.physical->frequency(eta)) : text;
-}
-
-const char* frequency_names(const ProblemRequest& problem) {
-  return problem.physical ? "eta,frequency_Hz" : "eta";
-}
-
 }  // namespace
 
 void check_campbell(const SystemParameters& system) {
@@ -66,7 +50,7 @@ std::string campbell_csv(const ProblemRequest& problem, const CampbellRange& ran
       ContactSystem at = slow;
       at.base = slow.base.varied({.loss = slow.base.loss(), .speed = speed - range.low});
       at.damper = slow.damper.varied({.loss = slow.damper.loss(), .speed = speed - range.low});
-      for_each_numbered(resonances(at), [&](const Resonance& mode, int number) {
+      for_each_mode(resonances(at), [&](const Resonance& mode, Index number) {
         if (system.eta_high > 0 && mode.eta > system.eta_high) return;
         text += fmt::format("{:.17g},{},{},{},{},{:.17g}\n", speed, wave, mode.part, number,
                             frequency_columns(problem, mode.eta), mode.damping);
@@ -87,7 +71,7 @@ std::string crossings_csv(const ProblemRequest& problem, const CampbellRange& ra
       system.varied.clear();
       system.wave_number = wave;
       system.rotation = {0, 1 / static_cast<double>(order)};
-      for_each_numbered(resonances(build_wave(system)), [&](const Resonance& mode, int number) {
+      for_each_mode(resonances(build_wave(system)), [&](const Resonance& mode, Index number) {
         const double speed = system.rotation.at(mode.eta);
         if (!(speed >= range.low && speed <= range.high) || mode.eta > system.eta_high) return;
         text += fmt::format("{},{},{},{},{:.17g},{}\n", order, wave, mode.part, number, speed,

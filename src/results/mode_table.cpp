@@ -21,14 +21,16 @@ std::pair<Index, Index> waves_of(const SystemParameters& system) {
   return {feels_rotation(system) ? -(system.elements - 1) / 2 : 0, system.elements / 2};
 }
 
-/// Calls `visit` with the number of each mode within its part, from 1.
-template <class Visit>
-void for_each_mode(const WaveModes& wave, const Visit& visit) {
-  std::map<std::string, Index> numbers;
-  for (const Resonance& mode : wave.modes) visit(mode, ++numbers[mode.part]);
+}  // namespace
+
+std::string frequency_names(const ProblemRequest& problem) {
+  return problem.physical ? "eta,frequency_Hz" : "eta";
 }
 
-}  // namespace
+std::string frequency_columns(const ProblemRequest& problem, double eta) {
+  const std::string text = fmt::format("{:.17g}", eta);
+  return problem.physical ? fmt::format("{},{:.17g}", text, problem.physical->frequency(eta)) : text;
+}
 
 std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest) {
   SystemParameters system = problem.system;
@@ -47,13 +49,11 @@ std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest) {
 }
 
 std::string modes_csv(const ProblemRequest& problem, const std::vector<WaveModes>& waves) {
-  const auto& scale = problem.physical;
-  std::string text = fmt::format("wave_number,part,mode,eta,{}zeta\n", scale ? "frequency_Hz," : "");
+  std::string text = fmt::format("wave_number,part,mode,{},zeta\n", frequency_names(problem));
   for (const WaveModes& wave : waves) {
-    for_each_mode(wave, [&](const Resonance& mode, Index number) {
-      text += fmt::format("{},{},{},{:.17g},", wave.wave_number, mode.part, number, mode.eta);
-      if (scale) text += fmt::format("{:.17g},", scale->frequency(mode.eta));
-      text += fmt::format("{:.17g}\n", mode.damping);
+    for_each_mode(wave.modes, [&](const Resonance& mode, Index number) {
+      text += fmt::format("{},{},{},{},{:.17g}\n", wave.wave_number, mode.part, number,
+                          frequency_columns(problem, mode.eta), mode.damping);
     });
   }
   return text;
@@ -68,7 +68,7 @@ std::string modes_text(const ProblemRequest& problem, const std::vector<WaveMode
   std::vector<std::map<Column, std::string>> rows;
   for (const WaveModes& wave : waves) {
     auto& row = rows.emplace_back();
-    for_each_mode(wave, [&](const Resonance& mode, Index number) {
+    for_each_mode(wave.modes, [&](const Resonance& mode, Index number) {
       const auto part = std::find(part_names.begin(), part_names.end(), mode.part) - part_names.begin();
       const Column column(part, number);
       columns.insert(column);

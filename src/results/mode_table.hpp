@@ -2,6 +2,7 @@
 
 // Natural frequencies of base, damper and the stuck whole, for every number of waves round the circumference.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,17 @@ struct WaveModes {
   Index wave_number;
   std::vector<Resonance> modes;  ///< part by part, ascending
 };
+
+/// Calls `visit` with the number of each mode within its part, from 1.
+template <class Visit>
+void for_each_mode(const std::vector<Resonance>& modes, const Visit& visit) {
+  std::map<std::string, Index> numbers;
+  for (const Resonance& mode : modes) visit(mode, ++numbers[mode.part]);
+}
+
+/// "eta", of systems in SI units "eta,frequency_Hz", and these numbers.
+std::string frequency_names(const ProblemRequest& problem);
+std::string frequency_columns(const ProblemRequest& problem, double eta);
 
 /// Of the waves that the structure has, up to `highest`, of what turns in both directions, of sectors below
 /// the end of their window, above which not all are known. Throws std::exception where one cannot be had.

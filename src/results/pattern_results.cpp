@@ -1,6 +1,7 @@
 #include "results/pattern_results.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -62,13 +63,6 @@ void append_setting(const nlohmann::ordered_json& value, std::string& row) {
   }
 }
 
-std::string levels(const StudyCase& study, const char* prefix) {
-  std::string names;
-  for (const double quantile : study.uncertain->quantiles)
-    names += fmt::format(",{}q{:g}", prefix, 100 * quantile);
-  return names;
-}
-
 }  // namespace
 
 std::vector<DesignPatterns> design_patterns(const StudyCase& study, const StudyStore& store) {
@@ -118,8 +112,11 @@ void write_pattern_robust(const StudyCase& study, const std::vector<DesignPatter
 void write_pattern_quantiles(const StudyCase& study, const std::vector<DesignPatterns>& designs,
                              const Sink& sink) {
   const bool is_physical = !study.preload_unit.empty();
-  sink("curve,P" + levels(study, "Y_") + levels(study, "amplification_") + levels(study, "error_") +
-       ",Y_equal" + (is_physical ? ",preload_" + study.preload_unit : "") + "\n");
+  const auto levels = [&](const char* prefix) {
+    return fmt::format("{}", fmt::join(quantile_names(*study.uncertain, prefix), ","));
+  };
+  sink(fmt::format("curve,P,{},{},{},Y_equal{}\n", levels("Y_"), levels("amplification_"), levels("error_"),
+                   is_physical ? ",preload_" + study.preload_unit : ""));
   for (const DesignPatterns& design : designs) {
     for (std::size_t i = 0; i < design.peaks.rows.size(); ++i) {
       const problems::QuantileRow& found = design.peaks.rows[i];

@@ -185,7 +185,7 @@ std::vector<ContactSystem> RingShapes::waves_at(const std::vector<int>& orders,
           ? system_
           : with_parameter(system_, system_.varied, parameters(problems::HarmonicResponse::further));
   std::vector<ContactSystem> waves;
-  for (const int h : orders) waves.push_back(turned(build_wave(in_order(system, h)), system.load_turn(h)));
+  for (const int h : orders) waves.push_back(build_order(system, h));
   return waves;
 }
 

@@ -8,14 +8,6 @@
 namespace arcslip {
 namespace {
 
-/// The columns of the table `quantiles`, which are named by per cents: q5.
-std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty, const char* prefix = "") {
-  std::vector<std::string> names;
-  for (const double quantile : uncertainty.quantiles)
-    names.push_back(fmt::format("{}q{:g}", prefix, 100 * quantile));
-  return names;
-}
-
 void append(std::vector<ExtraColumn>& columns, bool wanted, const std::vector<ExtraColumn>& more) {
   if (wanted) columns.insert(columns.end(), more.begin(), more.end());
 }
@@ -26,6 +18,13 @@ std::string insertion(const std::string& table, std::size_t columns) {
 }
 
 }  // namespace
+
+std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty, const char* prefix) {
+  std::vector<std::string> names;
+  for (const double quantile : uncertainty.quantiles)
+    names.push_back(fmt::format("{}q{:g}", prefix, 100 * quantile));
+  return names;
+}
 
 StudyExtras::StudyExtras(const StudyCase& study) : study_(study) {
   has_harmonics_ = std::count(study.keys.begin(), study.keys.end(), "harmonics") > 0 ||

@@ -19,6 +19,9 @@ struct ExtraColumn {
   std::string value;  ///< in SQL: of the design d, its units u, its peak s
 };
 
+/// Of columns of quantiles, which are named by per cents: q5.
+std::vector<std::string> quantile_names(const problems::Uncertainty& uncertainty, const char* prefix = "");
+
 class StudyExtras {
  public:
   explicit StudyExtras(const StudyCase& study);

@@ -103,11 +103,11 @@ void StudyStore::write_patterns(const Sink& sink) const {
   write_table(*database_, columns, "designs d ORDER BY d.curve", sink);
 }
 
-std::vector<problems::PeakBranch> StudyStore::branches(std::size_t curve) const {
+std::vector<problems::PeakBranch> StudyStore::branches(std::size_t item) const {
   Statement row = database_->prepare(
       fmt::format("SELECT peak_branch, P, Y_max, by_P, is_global, site FROM sweep WHERE curve = {} ORDER BY "
                   "peak_branch, point",
-                  curve));
+                  item));
   std::vector<problems::PeakBranch> all;
   while (row.step()) {
     if (static_cast<std::size_t>(row.integer(0)) == all.size()) all.emplace_back();

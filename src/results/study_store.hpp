@@ -52,12 +52,12 @@ class StudyStore {
 
   /// Of a study of patterns, for the file of the same name and those of their quantiles.
   void write_patterns(const Sink& sink) const;
-  /// The stored peaks of one of the designs.
-  std::vector<problems::PeakBranch> branches(std::size_t curve) const;
+  /// The stored peaks of one of the items.
+  std::vector<problems::PeakBranch> branches(std::size_t item) const;
 
+  /// All designs, of patterns the equal rings alone, or every item that failed.
   enum class Which { all, failed };
-  /// Which designs: of patterns the equal rings and no others, or all that failed.
-  /// In the order of the designs, until the visitor returns false.
+  /// In the order of the items, until the visitor returns false.
   void visit(Which which, const std::function<bool(const StoredDesign&)>& visitor) const;
 
   /// optimum.csv, sweep.csv, robust.csv, quantiles.csv, in the order of the designs and of their peaks.

@@ -71,12 +71,10 @@ std::vector<DampedWave> damping_of_waves(const ProblemRequest& problem, Index hi
 }
 
 std::string damping_csv(const ProblemRequest& problem, const std::vector<DampedWave>& waves) {
-  const auto& scale = problem.physical;
-  std::string text = fmt::format("wave_number,mode,R,eta,{}zeta\n", scale ? "frequency_Hz," : "");
+  std::string text = fmt::format("wave_number,mode,R,{},zeta\n", frequency_names(problem));
   for (const DampedWave& one : waves) {
-    text += fmt::format("{},{},{:.17g},{:.17g},", one.wave_number, one.mode, one.amplitude, one.eta);
-    if (scale) text += fmt::format("{:.17g},", scale->frequency(one.eta));
-    text += fmt::format("{:.17g}\n", one.zeta);
+    text += fmt::format("{},{},{:.17g},{},{:.17g}\n", one.wave_number, one.mode, one.amplitude,
+                        frequency_columns(problem, one.eta), one.zeta);
   }
   return text;
 }

@@ -9,8 +9,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The m contacts, with room for `more` further motions.
-VariedReceptance receptance_of(const SectorResponse& found, double force, Index more,
-                               const Rotation& rotation) {
+VariedReceptance receptance_of(const SectorResponse& found, double force, Index more) {
   const Index m = found.free.size();
   const auto matrix = [&](const ComplexMatrix& compliance) {
     ContactMatrix all = ContactMatrix::Constant(m + more, m + more, unknown);
@@ -22,10 +21,14 @@ VariedReceptance receptance_of(const SectorResponse& found, double force, Index 
     all.head(m) = force * free;
     return all;
   };
-  VariedReceptance receptance{{matrix(found.compliance), matrix(found.by_eta.compliance), vector(found.free),
-                               vector(found.by_eta.free)},
-                              matrix(found.by_speed.compliance),
-                              vector(found.by_speed.free)};
+  return {{matrix(found.compliance), matrix(found.by_eta.compliance), vector(found.free),
+           vector(found.by_eta.free)},
+          matrix(found.by_speed.compliance),
+          vector(found.by_speed.free)};
+}
+
+/// With derivatives by eta along a rotation that follows it.
+VariedReceptance along(const Rotation& rotation, VariedReceptance receptance) {
   if (rotation.per_eta == 0) return receptance;
   receptance.compliance_eta += rotation.per_eta * receptance.compliance_rate;
   receptance.free_eta += rotation.per_eta * receptance.free_rate;
@@ -34,8 +37,7 @@ VariedReceptance receptance_of(const SectorResponse& found, double force, Index 
 
 /// Fills the motion after the contacts, row by row of the same motions.
 template <class Row, class Free>
-void fill_last(const SectorResponse& found, const Rotation& rotation, const Row& row, const Free& free,
-               VariedReceptance& receptance) {
+void fill_last(const SectorResponse& found, const Row& row, const Free& free, VariedReceptance& receptance) {
   const Index m = found.free.size();
   receptance.compliance.row(m).head(m) = row(found);
   receptance.compliance_eta.row(m).head(m) = row(found.by_eta);
@@ -43,9 +45,6 @@ void fill_last(const SectorResponse& found, const Rotation& rotation, const Row&
   receptance.free(m) = free(found);
   receptance.free_eta(m) = free(found.by_eta);
   receptance.free_rate(m) = free(found.by_speed);
-  if (rotation.per_eta == 0) return;
-  receptance.compliance_eta.row(m).head(m) += rotation.per_eta * receptance.compliance_rate.row(m).head(m);
-  receptance.free_eta(m) += rotation.per_eta * receptance.free_rate(m);
 }
 
 /// Of a singular Z.
@@ -61,30 +60,30 @@ SectorResponse not_finite(Index contacts, Index outputs) {
 }  // namespace
 
 VariedReceptance SectorSolves::at(double eta, double force, const Rotation& rotation) const {
-  return receptance_of(response(eta, rotation), force, 0, rotation);
+  return along(rotation, receptance_of(response(eta, rotation), force, 0));
 }
 
 VariedReceptance SectorSolves::with_output(Index output, double eta, double force,
                                            const Rotation& rotation) const {
   const SectorResponse found = response(eta, rotation);
-  VariedReceptance receptance = receptance_of(found, force, 1, rotation);
+  VariedReceptance receptance = receptance_of(found, force, 1);
   fill_last(
-      found, rotation, [&](const SectorMotions& motions) { return motions.output_compliance.row(output); },
+      found, [&](const SectorMotions& motions) { return motions.output_compliance.row(output); },
       [&](const SectorMotions& motions) { return force * motions.output_free(output); }, receptance);
-  return receptance;
+  return along(rotation, std::move(receptance));
 }
 
 VariedReceptance SectorSolves::with_driven_motion(double eta, double force, const Rotation& rotation) const {
   const SectorResponse found = response(eta, rotation);
   const Index m = found.free.size();
-  VariedReceptance receptance = receptance_of(found, force, 1, rotation);
+  VariedReceptance receptance = receptance_of(found, force, 1);
   fill_last(
-      found, rotation,
+      found,
       [&](const SectorMotions& motions) -> ComplexMatrix {
         return force * motions.load_motion.head(m).transpose();
       },
       [&](const SectorMotions& motions) { return force * force * motions.load_motion(m); }, receptance);
-  return receptance;
+  return along(rotation, std::move(receptance));
 }
 
 CycleWork SectorSolves::work(double eta, double force, const ContactVector& forces,

@@ -112,7 +112,8 @@ TEST_CASE("Peaks of an uneven ring are the same in pieces and in one", "[ring st
   for (std::size_t i = 0; i < peaks.size(); ++i) {
     CHECK_THAT(others[i].parameters(0), WithinRel(peaks[i].parameters(0), 1e-7));
     CHECK((others[i].unknowns - peaks[i].unknowns).norm() < 1e-6 * peaks[i].unknowns.norm());
-    CHECK(whole.regime_at(others[i].unknowns, others[i].parameters, {}) == peaks[i].regime);
+    CHECK(continuation::regime_at(*subject.built.problem, others[i].unknowns, others[i].parameters) ==
+          peaks[i].regime);
   }
 }
 

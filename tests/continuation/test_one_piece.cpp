@@ -96,13 +96,13 @@ TEST_CASE("A problem in one piece has the branch that it has in pieces", "[regim
 }
 
 TEST_CASE("The piece of a point is found from any other one", "[regimes]") {
-  const OnePiece whole(std::make_shared<const Closing>());
+  const Closing pieces;
   const Vector u = (Vector(4) << 0.3, 0.5, 0.6, 0.0).finished();
   const Vector p = Vector::Zero(1);
   const Regime own = Regime().with(0, 1).with(2, 1);
   for (const Regime& start : {Regime(), Regime().with(3, 1), own.with(1, 0)})
-    CHECK(whole.regime_at(u, p, start) == own);
+    CHECK(regime_at(pieces, u, p, start) == own);
   // What ends a branch is no piece to enter: a point beyond it keeps the others' states.
-  CHECK(whole.regime_at(u, Vector::Constant(1, 101.0), Regime()) == own);
+  CHECK(regime_at(pieces, u, Vector::Constant(1, 101.0)) == own);
   CHECK_THROWS_AS(OnePiece(nullptr), std::invalid_argument);
 }

@@ -11,6 +11,10 @@
 
 namespace arcslip::continuation {
 
+/// The regime in which a point crosses no border, looked for from `start` on. Where none is found within as
+/// many rounds as there are switches, the last one that was tried.
+Regime regime_at(const Problem& problem, const Vector& u, const Vector& p, Regime start = {});
+
 /// Its unknowns, parameters and observables are those of the problem that it is made of. The regimes
 /// that it is given are where the search for a point's own one begins.
 class OnePiece final : public Problem {
@@ -18,19 +22,15 @@ class OnePiece final : public Problem {
   /// Throws std::invalid_argument without a problem.
   explicit OnePiece(std::shared_ptr<const Problem> pieces);
 
-  /// The regime in which a point crosses no border, looked for from `start` on. Where none is found within as
-  /// many rounds as there are switches, the last one that was tried.
-  Regime regime_at(const Vector& u, const Vector& p, Regime start) const;
-
   Index size() const override { return pieces_->size(); }
   std::vector<std::string> parameter_names() const override { return pieces_->parameter_names(); }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                               const Evaluation& out) const override {
-    return pieces_->evaluate(u, p, regime_at(u, p, regime), out);
+    return pieces_->evaluate(u, p, regime_at(*pieces_, u, p, regime), out);
   }
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
                             const Vector& du, const Vector& dp, Vector& out) const override {
-    return pieces_->second(u, p, regime_at(u, p, regime), w, du, dp, out);
+    return pieces_->second(u, p, regime_at(*pieces_, u, p, regime), w, du, dp, out);
   }
   bool sparse() const override { return pieces_->sparse(); }
   long revision() const override { return pieces_->revision(); }
@@ -40,11 +40,11 @@ class OnePiece final : public Problem {
   std::string reason_of_end() const override { return pieces_->reason_of_end(); }
   std::vector<Observable> observables() const override { return pieces_->observables(); }
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override {
-    pieces_->observe(u, p, regime_at(u, p, regime), values);
+    pieces_->observe(u, p, regime_at(*pieces_, u, p, regime), values);
   }
   double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                  Gradient& gradient) const override {
-    return pieces_->observe(u, p, regime_at(u, p, regime), which, gradient);
+    return pieces_->observe(u, p, regime_at(*pieces_, u, p, regime), which, gradient);
   }
   std::vector<Symmetry> symmetries() const override { return pieces_->symmetries(); }
   std::vector<double> landmarks(Index parameter, double from, double to) const override {
