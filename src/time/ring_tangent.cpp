@@ -124,6 +124,46 @@ void RingTangent::take_curved(const Stretch& stretch, const Matrix& x, std::vect
   }
 }
 
+namespace {
+
+/// What the linear parts of the forces do to displacements x.
+void set_linear_forces(const VaryingForces& forces, const Matrix& x, Matrix& local) {
+  local = forces.linear.asDiagonal() * x;
+  for (std::size_t i = 0; i < forces.other.size(); ++i) {
+    if (forces.other[i] >= 0)
+      local.row(static_cast<Index>(i)) += forces.cross(static_cast<Index>(i)) * x.row(forces.other[i]);
+  }
+}
+
+/// Position and velocity after `steps` of length h of p'' + damping p' + stiffness p = f (D rows each), by
+/// those at first and by a constant f, D columns each.
+Matrix flow_of(const Matrix& stiffness, const Matrix& damping, double h, int steps, Index order) {
+  const Index count = stiffness.rows();
+  Matrix state = Matrix::Zero(2 * count, 3 * count);
+  state.leftCols(2 * count).setIdentity();
+  Matrix push = Matrix::Zero(count, 3 * count);
+  push.rightCols(count).setIdentity();
+  for (int step = 0; step < steps; ++step) {
+    Matrix now = state.topRows(count);
+    Matrix next = h * state.bottomRows(count);
+    Matrix rate = next;
+    state.topRows(count) += next;
+    for (Index m = 0; m + 2 <= order; ++m) {
+      const auto up = static_cast<double>(m + 1);
+      Matrix force = -stiffness * now - (up / h) * (damping * next);
+      if (m == 0) force += push;
+      now = next;
+      next = force * (h * h / (up * (up + 1)));
+      state.topRows(count) += next;
+      rate += (up + 1) * next;
+    }
+    state.bottomRows(count) = rate / h;
+  }
+  return state;
+}
+
+}  // namespace
+
 void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   const Ring& ring = motion_.ring();
   const VaryingForces& forces = stretch.forces;
@@ -143,11 +183,7 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
     const auto up = static_cast<double>(m + 1);
     if (!forces.rows.empty()) {
       waves_.displace(stretch.rows, now, x);
-      local = forces.linear.asDiagonal() * x;
-      for (std::size_t i = 0; i < forces.other.size(); ++i) {
-        if (forces.other[i] >= 0)
-          local.row(static_cast<Index>(i)) += forces.cross(static_cast<Index>(i)) * x.row(forces.other[i]);
-      }
+      set_linear_forces(forces, x, local);
       if (m == 0) {
         for (const Remembered& one : stretch.memory) {
           local.row(one.place) += one.coefficient * columns.memory.row(one.number);
@@ -264,12 +300,8 @@ Matrix RingTangent::wave_by_wave() const {
     const Index count = std::ssize(which);
     if (count == 0) continue;
     const Matrix rows = one.forces.motion(Eigen::all, which);
-    Matrix gains = one.forces.linear.asDiagonal() * rows;
-    for (std::size_t i = 0; i < one.forces.other.size(); ++i) {
-      if (one.forces.other[i] >= 0)
-        gains.row(static_cast<Index>(i)) +=
-            one.forces.cross(static_cast<Index>(i)) * rows.row(one.forces.other[i]);
-    }
+    Matrix gains;
+    set_linear_forces(one.forces, rows, gains);
     Matrix stiffness = rows.transpose() * gains;
     stiffness.diagonal() += ring.stiffness(which);
     for (Index c = 0; c < count && ring.coupling.size() > 0; ++c) {
@@ -280,26 +312,7 @@ Matrix RingTangent::wave_by_wave() const {
     const Matrix dragged = motion_.dragged()(Eigen::all, which);
     Matrix damping = dragged.transpose() * dragged;
     damping.diagonal() += ring.damping(which);
-    Matrix state = Matrix::Zero(2 * count, 3 * count);  // by position, velocity and a constant force
-    state.leftCols(2 * count).setIdentity();
-    Matrix push = Matrix::Zero(count, 3 * count);
-    push.rightCols(count).setIdentity();
-    for (int step = 0; step < steps; ++step) {
-      Matrix now = state.topRows(count);
-      Matrix next = h * state.bottomRows(count);
-      Matrix rate = next;
-      state.topRows(count) += next;
-      for (Index m = 0; m + 2 <= order; ++m) {
-        const auto up = static_cast<double>(m + 1);
-        Matrix force = -stiffness * now - (up / h) * (damping * next);
-        if (m == 0) force += push;
-        now = next;
-        next = force * (h * h / (up * (up + 1)));
-        state.topRows(count) += next;
-        rate += (up + 1) * next;
-      }
-      state.bottomRows(count) = rate / h;
-    }
+    const Matrix state = flow_of(stiffness, damping, h, steps, order);
     Matrix of_memory = Matrix::Zero(count, motion_.memories());
     for (const Remembered& number : one.memory)
       of_memory.col(number.number) -= number.coefficient * rows.row(number.place).transpose();

@@ -120,6 +120,47 @@ bool needs_wave(const SectorSettings& settings, const TomlSection& section) {
   return is_cyclic(settings, section) && !section.has("engine_order");
 }
 
+/// Sectors, their wave and rotation, and the contacts' stiffness.
+std::vector<SectorKey> first_keys() {
+  return {
+      SectorKey::special("model", "\"sector\"", "any structure, or one of N equal sectors", {},
+                         otherwise("required"), unlisted),
+      SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N",
+                needed("required beside `left` and `right`; without them 1", is_cyclic)),
+      SectorKey::special(
+          "engine_order", "integer >= 1 and <= 1e6",
+          "m of a load that stands still: the speed is eta/m and the wave -m, of sectors numbered "
+          "along the rotation; `parameter` may be `speed`",
+          read_engine_order, otherwise("none"), resolved(engine_order)),
+      SectorKey("wave_number", &SectorSettings::wave_number, any_number(),
+                "n from -sectors/2 to sectors/2: as many nodal diameters, which run with the numbers of the "
+                "sectors or, "
+                "below 0, against them",
+                only("not beside engine_order, which tells the wave",
+                     [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
+                needed("required beside `left` and `right`; without them 0", needs_wave), then(check_wave)),
+      SectorKey(
+          "speed", [](auto& settings) -> auto& { return settings.rotation.fixed; }, any_number(),
+          "of rotation, revolutions in the unit of time of eta, above 0 along the numbers of the sectors",
+          only("not beside engine_order, with which it follows eta",
+               [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
+          parameter("speed"), otherwise("0"), resolved([](const SectorSettings& settings) {
+            return has_order(settings) ? ordered_json() : ordered_json(settings.rotation.fixed);
+          })),
+      SectorKey("preload_speed2", &SectorSettings::preload_speed2, any_number(),
+                "P_2 of the preload P + P_2 speed^2; added to that of preload_growth",
+                only("only beside engine_order, as the preload at one speed is `preload`",
+                     [](const SectorSettings& settings, const TomlSection&) { return has_order(settings); }),
+                otherwise("0"), resolved([](const SectorSettings& settings) {
+                  return has_order(settings) ? ordered_json(settings.preload_speed2) : ordered_json();
+                })),
+      SectorKey::special("contact_stiffness", "number or list",
+                         "k of the contact of a sector; of several contacts that of all, or a list, in which "
+                         "0 is a place for elements where nothing rubs",
+                         for_contacts("contact_stiffness", &SectorSettings::contact_stiffness, at_least(0)),
+                         required, parameter("K_FD"))};
+}
+
 const KeyTable<SectorSettings>& sector_keys() {
   const auto of = [](const SectorPart* part) -> ordered_json {
     if (part == nullptr) return nullptr;
@@ -139,44 +180,7 @@ const KeyTable<SectorSettings>& sector_keys() {
     return !(settings.eta_low > 0);
   };
   static const KeyTable<SectorSettings> keys{
-      {SectorKey::special("model", "\"sector\"", "any structure, or one of N equal sectors", {},
-                          otherwise("required"), unlisted),
-       SectorKey("sectors", &SectorSettings::elements, within(1, 1e9, " >= 1 and <= 1e9"), "N",
-                 needed("required beside `left` and `right`; without them 1", is_cyclic)),
-       SectorKey::special(
-           "engine_order", "integer >= 1 and <= 1e6",
-           "m of a load that stands still: the speed is eta/m and the wave -m, of sectors numbered "
-           "along the rotation; `parameter` may be `speed`",
-           read_engine_order, otherwise("none"), resolved(engine_order)),
-       SectorKey(
-           "wave_number", &SectorSettings::wave_number, any_number(),
-           "n from -sectors/2 to sectors/2: as many nodal diameters, which run with the numbers of the "
-           "sectors or, "
-           "below 0, against them",
-           only("not beside engine_order, which tells the wave",
-                [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
-           needed("required beside `left` and `right`; without them 0", needs_wave), then(check_wave)),
-       SectorKey(
-           "speed", [](auto& settings) -> auto& { return settings.rotation.fixed; }, any_number(),
-           "of rotation, revolutions in the unit of time of eta, above 0 along the numbers of the sectors",
-           only("not beside engine_order, with which it follows eta",
-                [](const SectorSettings& settings, const TomlSection&) { return !has_order(settings); }),
-           parameter("speed"), otherwise("0"), resolved([](const SectorSettings& settings) {
-             return has_order(settings) ? ordered_json() : ordered_json(settings.rotation.fixed);
-           })),
-       SectorKey("preload_speed2", &SectorSettings::preload_speed2, any_number(),
-                 "P_2 of the preload P + P_2 speed^2; added to that of preload_growth",
-                 only("only beside engine_order, as the preload at one speed is `preload`",
-                      [](const SectorSettings& settings, const TomlSection&) { return has_order(settings); }),
-                 otherwise("0"), resolved([](const SectorSettings& settings) {
-                   return has_order(settings) ? ordered_json(settings.preload_speed2) : ordered_json();
-                 })),
-       SectorKey::special(
-           "contact_stiffness", "number or list",
-           "k of the contact of a sector; of several contacts that of all, or a list, in which "
-           "0 is a place for elements where nothing rubs",
-           for_contacts("contact_stiffness", &SectorSettings::contact_stiffness, at_least(0)), required,
-           parameter("K_FD"))},
+      first_keys(),
       keys_of<SectorSettings>(shared_keys()),
       {SectorKey::special("limit_per_preload", "number or list",
                           "L: a contact slips where its force is L P, S = L P/k",
