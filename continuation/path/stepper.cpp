@@ -241,6 +241,10 @@ bool Stepper::finish(bool lands, double value) {
   }
 
   set_bend(corner);
+  if (!lands && ends_singular()) {
+    signals_.turn = limits_.turn_limit * 4;
+    return false;
+  }
   step_.from = at_here_;
   for (Monitor& from : step_.from) from.slope *= slope_length(step_.hold);
   monitors_.look(step_.there, step_.here.scale, step_.slope_to, step_.to);
@@ -253,6 +257,14 @@ bool Stepper::finish(bool lands, double value) {
     return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;
+}
+
+/// Whether the end lies on a branch point but for rounding, from where no step tells where the branch goes
+/// on: a shorter step has it between its successor's ends.
+bool Stepper::ends_singular() const {
+  constexpr double rounding = 1e-12;  // of the determinant
+  return !step_.is_tiny(step_.distance) && std::isfinite(step_.here.log_determinant) &&
+         step_.there.log_determinant < step_.here.log_determinant + std::log(rounding);
 }
 
 /// Of the step that is to be kept, with its end's tangent.

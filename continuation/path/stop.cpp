@@ -6,6 +6,7 @@ std::string_view to_string(Stop stop) {
   switch (stop) {
     case Stop::reached_end: return "reached_end";
     case Stop::closed_loop: return "closed_loop";
+    case Stop::own_image: return "own_image";
     case Stop::requested: return "requested";
     case Stop::left_range: return "left_range";
     case Stop::left_regime: return "left_regime";
@@ -25,7 +26,7 @@ std::string_view to_string(Stop stop) {
 
 bool is_end(Stop stop) {
   return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
-         stop == Stop::requested || stop == Stop::left_regime;
+         stop == Stop::own_image || stop == Stop::requested || stop == Stop::left_regime;
 }
 
 bool is_unfinished(Stop stop) { return stop == Stop::interrupted || stop == Stop::time_limit; }

@@ -19,11 +19,12 @@ struct Way {
 /// Remembers the ways that were gone already.
 class Map {
  public:
-  Map(const Problem& problem, Index parameter, const Tolerances& tolerances)
+  Map(const Problem& problem, Index parameter, const Tolerances& tolerances,
+      std::vector<Symmetry> symmetries = {})
       : problem_(problem),
         parameter_(parameter),
         tolerances_(tolerances),
-        symmetries_(problem.symmetries()) {}
+        symmetries_(std::move(symmetries)) {}
 
   Way way(const Vector& unknowns, const Vector& parameters, const Vector& direction) const {
     const Index n = unknowns.size();
@@ -78,6 +79,11 @@ bool meets_others(const BranchPoint& point) {
   return point.type == PointType::branch_point || point.type == PointType::regime_switch;
 }
 
+/// A point that is found wherever a branch is traced from.
+bool is_landmark(const BranchPoint& point) {
+  return point.type == PointType::fold || point.type == PointType::peak || point.type == PointType::trough;
+}
+
 /// A branch point as its own conditions have it, which hold it also across both branches, where a point of
 /// one of them alone is known to the root of rounding; the point itself where they do not find it there.
 Guess settled(const Problem& problem, Index active, const BranchPoint& point, const Tolerances& tolerances) {
@@ -109,15 +115,16 @@ class Network {
  public:
   Network(const Problem& problem, const TraceOptions& options, const Observer& observer)
       : problem_(problem),
-        options_(options),
+        options_(with_symmetries(problem, options)),
         observer_(observer),
-        time_(options),
-        map_(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances) {}
+        time_(options_),
+        map_(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances,
+             options_.symmetries) {}
 
   /// Ways that leave the points of a branch, at branch points in both senses or, of images, in one.
   void leave(const std::vector<BranchPoint>& points, bool images = false) {
     for (const BranchPoint& point : points) {
-      if (meets_others(point)) map_.pass(point);
+      if (meets_others(point) || is_landmark(point)) map_.pass(point);
     }
     for (const BranchPoint& point : points) {
       if (!meets_others(point)) continue;
@@ -128,9 +135,13 @@ class Network {
   }
 
   void follow(const Guess& guess) {
-    branches_.push_back(trace(problem_, guess, time_.rest(), observer_));
-    interrupted_ = is_unfinished(branches_.back().stop);
-    leave(branches_.back().points);
+    Branch branch = trace(problem_, guess, time_.rest(), observer_);
+    interrupted_ = is_unfinished(branch.stop);
+    if (!interrupted_ && is_known(branch)) return;
+    if (branch.stop == Stop::closed_loop) map_.pass(branch.points.back());
+    if (branch.stop == Stop::own_image) pass_settled(branch.points.back());
+    leave(branch.points);
+    branches_.push_back(std::move(branch));
   }
 
   std::vector<Branch> all(const FollowOptions& follow_options) {
@@ -145,8 +156,48 @@ class Network {
   }
 
  private:
+  /// The ways through the point where a branch became its own image, as other branches through it know them.
+  void pass_settled(const BranchPoint& point) {
+    const Index active = index_of(problem_.parameter_names(), options_.parameter);
+    const Guess at = settled(problem_, active, point, options_.tolerances);
+    const auto form = branch_point_form(problem_, active, at, options_.tolerances);
+    if (!form) return;
+    const Way arrival = map_.way(at.unknowns, at.parameters, point.arriving());
+    std::optional<Way> best;
+    double straightest = 0.5;
+    for (const Vector& direction : form->directions) {
+      if (direction.size() == 0) continue;
+      Way way = map_.way(at.unknowns, at.parameters, direction);
+      const double along = std::abs(way.direction.dot(arrival.direction));
+      if (along < straightest) continue;
+      straightest = along;
+      best = std::move(way);
+    }
+    if (!best) return;
+    map_.go(*best);
+    best->direction = -best->direction;
+    map_.go(*best);
+  }
+
+  /// Whether it is a piece, or an image, of one that was traced, which had passed the point where it begins
+  /// without finding it.
+  bool is_known(const Branch& branch) const {
+    std::size_t landmarks = 0;
+    for (const BranchPoint& point : branch.points) {
+      if (!is_landmark(point)) continue;
+      if (!map_.gone(point.unknowns, point.parameters, point.tangent)) return false;
+      ++landmarks;
+    }
+    return landmarks > 0;
+  }
+
+  static TraceOptions with_symmetries(const Problem& problem, TraceOptions options) {
+    options.symmetries = problem.symmetries();
+    return options;
+  }
+
   const Problem& problem_;
-  const TraceOptions& options_;
+  TraceOptions options_;
   const Observer& observer_;
   TimeBudget time_;
   Map map_;

@@ -47,7 +47,8 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
                looks_for_pairs(problem, options), options.tolerances),
       watch_(problem, options.events),
-      targets_(problem, parameter_, options) {
+      targets_(problem, parameter_, options),
+      image_(options.symmetries, options.tolerances.same_solution) {
   state_.distance = 0.1 * options.max_step;
   branch_.points.reserve(256);
 }
@@ -142,6 +143,12 @@ void Tracer::check_limits() {
                                               options_.max_points, place()));
   }
   if (out_of_time()) return halt(Stop::time_limit);
+  if (const Symmetry* symmetry = image_.take(here.unknowns, here.tangent, here.scale)) {
+    return stop(Stop::own_image,
+                fmt::format("the branch has the symmetry \"{}\" again and would go on as its own "
+                            "image, at {}",
+                            symmetry->name, place()));
+  }
   const double largest = here.unknowns.cwiseQuotient(state_.start.scale.head(n)).lpNorm<Eigen::Infinity>();
   if (largest > options_.bound) {
     stop(Stop::unbounded,

@@ -143,7 +143,8 @@ Sentences symmetries_answer(const ordered_json& branches) {
 
 /// Which branches did not come to an end that is as good as any.
 Sentences ends_answer(const ordered_json& branches) {
-  constexpr std::array ends = {"reached_end", "left_range", "closed_loop", "requested", "left_regime"};
+  constexpr std::array ends = {"reached_end", "left_range", "closed_loop",
+                               "own_image",   "requested",  "left_regime"};
   constexpr std::size_t most = 3;
   Sentences sentences;
   std::size_t open = 0;

@@ -114,3 +114,42 @@ TEST_CASE("Branches that lose symmetries of a ring are followed once, and their 
   CHECK(summary.at("branches")[1].at("images") == 2);
   CHECK(summary.at("branches")[1].at("symmetries").size() == 1);
 }
+
+TEST_CASE("Branches without symmetry end where they have one again, however near to a fold",
+          "[ring symmetry]") {
+  const TemporaryFolder folder;
+  std::string text =
+      hardening_ring(folder, 8, "load = \"standing\"") + "switching = true\nextrema_of = [\"Y_max\"]\n";
+  text = replaced(text, "contact_stiffness = 0.2", "contact_stiffness = 0.0");
+  const std::vector<TracedBranch> traced = trace(read_case(folder.write("case.toml", text)).branches.front());
+  REQUIRE(traced.size() > 10);
+  const continuation::Problem& problem = traced.front().problem();
+  const std::vector<continuation::Symmetry> all = problem.symmetries();
+  const auto kept = [&](const BranchPoint& point) {
+    Vector scale(problem.size());
+    Vector parameter_scale(point.parameters.size());
+    problem.scale(point.unknowns, point.parameters, scale, parameter_scale);
+    const std::vector<bool> has = continuation::kept_symmetries(all, point.unknowns, scale, 1e-5);
+    return std::count(has.begin(), has.end(), true);
+  };
+  int own_images = 0;
+  for (const TracedBranch& one : traced) {
+    CAPTURE(one.branch.explanation);
+    CHECK(continuation::is_end(one.branch.stop));
+    if (one.branch.stop != continuation::Stop::own_image) continue;
+    ++own_images;
+    const std::vector<BranchPoint>& points = one.branch.points;
+    CHECK(kept(points.back()) > kept(points[points.size() / 2]));
+  }
+  CHECK(own_images > 8);
+  // No branch is part of another, or of one of its images.
+  for (const TracedBranch& one : traced) {
+    for (const TracedBranch& other : traced) {
+      if (&one == &other) continue;
+      for (const BranchPoint& fold : of_type(one.branch, PointType::fold)) {
+        for (const BranchPoint& there : of_type(other.branch, PointType::fold))
+          CHECK((fold.unknowns - there.unknowns).norm() + (fold.parameters - there.parameters).norm() > 1e-7);
+      }
+    }
+  }
+}

@@ -33,6 +33,21 @@ ScalarProblem circle() {
           {[](double, const Vector& p) { return 2 * p(0); }}};
 }
 
+/// x (1 - lambda^2 - x^2) = 0, in which x stands for -x as well.
+class Arch : public ScalarProblem {
+ public:
+  Arch()
+      : ScalarProblem{{"lambda"},
+                      [](double x, const Vector& p) { return x * (1 - p(0) * p(0) - x * x); },
+                      [](double x, const Vector& p) { return 1 - p(0) * p(0) - 3 * x * x; },
+                      {[](double x, const Vector& p) { return -2 * p(0) * x; }}} {}
+  std::vector<Symmetry> symmetries() const override {
+    SparseMatrix map(1, 1);
+    map.insert(0, 0) = -1;
+    return {{"turned over", map}};
+  }
+};
+
 /// Four pieces meet at the origin: u = slope_r p in the regimes p < 0, p > 0 of both signs of u.
 class Crossroads : public Problem {
  public:
@@ -103,6 +118,57 @@ TEST_CASE("What leaves a branch is traced without it, and each way once") {
   CHECK(leaving[0].points.back().unknowns(0) == -leaving[1].points.back().unknowns(0));
   CHECK(trace_leaving(problem, points, options, {.images = true}).size() == 1);
   CHECK(trace_leaving(problem, {branch.points.front()}, options).empty());
+}
+
+TEST_CASE("A branch that has a symmetry again ends where it would go on as its own image") {
+  const Arch problem;
+  const std::vector<Branch> all =
+      trace_connected(problem, {vector_of({0}), vector_of({-2})}, over("lambda", -2, 2));
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].stop == Stop::reached_end);
+  CHECK(of_type(all[0], PointType::branch_point).size() == 2);
+  CHECK(all[1].stop == Stop::own_image);
+  CHECK(all[1].complete());
+  CHECK_THAT(all[1].explanation, ContainsSubstring("\"turned over\""));
+  const Vector& last = all[1].points.back().unknowns;
+  CHECK_THAT(last(0), WithinAbs(0, 1e-6));
+  CHECK_THAT(std::abs(all[1].points.back().parameters(0)), WithinAbs(1, 1e-9));
+  const double side = all[1].points[all[1].points.size() / 2].unknowns(0);
+  for (const BranchPoint& point : all[1].points) CHECK(point.unknowns(0) * side > -1e-9);
+  // On its own it goes round.
+  const Branch circle =
+      trace(problem, other_ways(problem, "lambda", of_type(all[0], PointType::branch_point)[0])[0],
+            over("lambda", -2, 2));
+  CHECK(circle.stop == Stop::closed_loop);
+}
+
+TEST_CASE("It does not end where it meets its images alone") {
+  const auto turn = [](double angle) {
+    const Matrix map{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+    return SparseMatrix(map.sparseView());
+  };
+  const SparseMatrix mirror = Matrix{{1.0, 0.0}, {0.0, -1.0}}.sparseView();
+  const double third = 2 * std::numbers::pi / 3;
+  // Those of a triangle: a branch along its first axis goes on as none of its images.
+  const std::vector<Symmetry> triangle{{"turn", turn(third)},
+                                       {"turn back", turn(-third)},
+                                       {"mirror", mirror},
+                                       {"second mirror", turn(third) * mirror * turn(-third)}};
+  const Vector scale = Vector::Ones(3);
+  const Vector along = vector_of({.8, 0, -.6});
+  OwnImage image(triangle, 1e-6);
+  CHECK(image.take(vector_of({-.1, 0}), along, scale) == nullptr);
+  CHECK(image.take(vector_of({0, 0}), along, scale) == nullptr);
+  // A square's half turn makes it one, but not where the parameter does not turn back.
+  for (const double rate : {0.0, .6}) {
+    OwnImage square({{"half turn", turn(std::numbers::pi)}, {"mirror", mirror}}, 1e-6);
+    const Vector tangent = vector_of({std::sqrt(1 - rate * rate), 0, rate});
+    CHECK(square.take(vector_of({0, 0}), tangent, scale) == nullptr);  // never lost
+    CHECK(square.take(vector_of({-.1, 0}), tangent, scale) == nullptr);
+    const Symmetry* found = square.take(vector_of({1e-8, 0}), tangent, scale);
+    CHECK((found != nullptr) == (rate == 0));
+    if (found != nullptr) CHECK(found->name == "half turn");
+  }
 }
 
 TEST_CASE("A transcritical point has two branches with their slopes") {

@@ -94,6 +94,7 @@ class Stepper {
   void set_condition(Hold hold);
   void predict();
   [[nodiscard]] bool finish(bool lands, double value);
+  bool ends_singular() const;
   void set_bend(bool is_corner);
 
   const Problem& problem_;

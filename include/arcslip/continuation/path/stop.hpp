@@ -10,6 +10,7 @@ namespace arcslip::continuation {
 enum class Stop {
   reached_end,     ///< the last value was reached
   closed_loop,     ///< the branch came back to its start
+  own_image,       ///< it has a symmetry again that it had lost: what follows is its image under this
   requested,       ///< `stop_after` was satisfied
   left_range,      ///< the branch came back to its first value
   left_regime,     ///< it ended on a border that nothing lies beyond

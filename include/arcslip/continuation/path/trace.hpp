@@ -66,6 +66,9 @@ struct TraceOptions {
   long max_points = 100000;  ///< to be stored; each takes 16 n bytes, 1.6 MB of 10^5 unknowns
   /// Wall clock, of all parts of a branch together, the search for its first point included.
   double max_seconds = std::numeric_limits<double>::infinity();
+  /// Symmetries of the problem: where the branch has one again that it had lost, and turns into its own image
+  /// under it, it ends. Searches that follow branches to others give all.
+  std::vector<Symmetry> symmetries = {};
   double bound = 1e12;  ///< largest |unknown|, in the scale at the start, before the branch is given up
   /// Asked before each evaluation of F; false ends the branch as `interrupted`.
   std::function<bool()> go_on = {};

@@ -87,6 +87,7 @@ class Tracer {
   Stepper stepper_;
   Watch watch_;
   Targets targets_;
+  OwnImage image_;
   Progress state_;  // what changes along the branch, except for the point itself
   const Target* landing_ = nullptr;
   bool landing_failed_ = false;      // from here

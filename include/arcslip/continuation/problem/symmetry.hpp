@@ -21,4 +21,21 @@ struct Symmetry {
 std::vector<bool> kept_symmetries(const std::vector<Symmetry>& symmetries, const Vector& u,
                                   const Vector& scale, double tolerance);
 
+/// Where a branch turns into its own image: it had lost a symmetry, has it again, and leaves the place along
+/// a direction t with S t = -t, so that what follows is the image of what came before.
+class OwnImage {
+ public:
+  /// `tolerance`: as of kept_symmetries.
+  OwnImage(std::vector<Symmetry> symmetries, double tolerance);
+
+  /// Takes the next point of the branch, with its tangent (n + 1, over the scale) and scale (n + 1, that of
+  /// the parameter last). The symmetry that makes it such a place, or null.
+  const Symmetry* take(const Vector& u, const Vector& tangent, const Vector& scale);
+
+ private:
+  std::vector<Symmetry> symmetries_;
+  double tolerance_;
+  std::vector<double> farthest_;  // that the branch has been from having each
+};
+
 }  // namespace arcslip::continuation
