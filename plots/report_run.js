@@ -27,7 +27,9 @@ function runModel(run) {
   // On the border itself stick and slip mean the same.
   const slips = input.branch.curve !== "switch" && regime.some((name) => name.startsWith("slip"));
   const part = regime.map((name) => (slips && !name.startsWith("slip") ? "stick" : "slip"));
-  return { table, input, system: input.system, branches: namedBranches(run), part, hasStick: slips && part.includes("stick"),
+  const branches = namedBranches(run);
+  const ring = run.sectors && { sectors: run.sectors, ring: sectorRows(run.sectors, table, branches) };
+  return { table, input, system: input.system, ...ring, branches, part, hasStick: slips && part.includes("stick"),
     stability: unstable ? unstable.map((count) => (count > 0 ? "unstable" : count < 0 ? "untold" : "stable")) : null,
     isFriction: input.system.model in frictionModels };
 }
@@ -199,6 +201,7 @@ function runPictures(parent, run) {
       runPicture(parent, model, name, heading, { xs: [...new Set([x, ...xs])], ys: [...new Set([y, ...ys])], x, y });
   }
   if (model.isFriction && !branch.curve) harmonicsPicture(parent, model, numeric, best(branch.parameter));
+  stickPicture(parent, model);
   wavePicture(parent, model);
   return model;
 }

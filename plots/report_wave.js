@@ -1,5 +1,6 @@
-// The travelling wave at a special point, over a period: base and damper round the circumference, and the relative motion of
-// the contacts, told by which of them stick and which slip.
+// The motion at a special point, over a period: base and damper round the circumference, and the relative motion of the contacts,
+// told by which of them stick and which slip. Nodes of one sector lag behind each other as the wave does; those of a whole ring
+// have each their own row of sectors.csv.
 
 const mostNodes = 200;  // that are drawn
 const mostPoints = 200; // that may be chosen
@@ -10,10 +11,9 @@ const byStick = { stick: "#00705a", slip: "#b3400b" };
 
 // y_i = Y cos(w t - beta - 2 pi n i / N), u_i and r_i = u_i - y_i likewise; `turn` is t over the period.
 function motionOf(point, node, turn) {
-  const theta = 2 * Math.PI * (turn - (point.waves * node) / point.nodes);
-  const relative = theta - point.psi;
-  return { y: point.Y * Math.cos(theta - point.beta), u: point.U * Math.cos(theta - point.alpha), r: point.R * Math.cos(relative),
-    state: stateAt(point.R, point.S, relative) };
+  const { Y, U, R, S, alpha, beta, psi } = point.sectors ? point.sectors[node] : point;
+  const theta = 2 * Math.PI * (turn - (point.sectors ? 0 : (point.waves * node) / point.nodes));
+  return { y: Y * Math.cos(theta - beta), u: U * Math.cos(theta - alpha), r: R * Math.cos(theta - psi), state: stateAt(R, S, theta - psi) };
 }
 
 // A contact of stiffness and limit sticks behind each turning point of r until r has changed by 2 S.
@@ -23,22 +23,31 @@ function stateAt(R, S, phase) {
   return half < Math.acos(1 - (2 * S) / R) ? "stick" : "slip";
 }
 
-// Whether the columns tell all of the motion: one contact at each node, in one harmonic; not of whole rings, whose nodes differ.
-function hasWave({ isFriction, table: { columns }, input: { branch, system, ring } }) {
+// Whether the columns tell all of the motion: one contact at each node, in one harmonic, of whole rings in sectors.csv.
+function hasWave({ isFriction, sectors, table: { columns }, input: { branch, system, ring } }) {
   const response = branch.response || "forced";
-  return isFriction && !ring && !branch.curve && response === "forced" && system.elements > 2 && (system.harmonics ?? 1) === 1 &&
+  const isTold = ring ? Boolean(sectors) && Math.max(...sectors.columns.contact) === 1 : system.elements > 2;
+  return isFriction && isTold && !branch.curve && response === "forced" && (system.harmonics ?? 1) === 1 &&
     ["Y", "U", "R", "S", "beta", "alpha", "psi", "type"].every((name) => columns[name]) &&
     !Object.keys(columns).some((name) => /_h\d+$|^[UR]_(contact_)?\d/.test(name));
 }
 
+const nodesOf = ({ sectors, system }) => (sectors ? Math.max(...sectors.columns.sector) : system.elements);
+
 function wavePoint(model, row) {
-  const at = (name) => model.table.columns[name][row];
-  const known = Object.fromEntries(["Y", "U", "R", "S", "beta", "alpha", "psi"].map((name) => [name, at(name)]));
-  return { ...known, row, nodes: model.system.elements, waves: model.system.wave_number };
+  const names = ["Y", "U", "R", "beta", "alpha", "psi"];
+  const known = ({ columns }, at) => Object.fromEntries(names.map((name) => [name, columns[name][at]]));
+  if (!model.sectors) return { ...known(model.table, row), S: model.table.columns.S[row], row, nodes: nodesOf(model), waves: model.system.wave_number };
+  const { columns } = model.sectors;
+  const sectors = model.ring.get(row)
+    .map((at) => ({ ...known(model.sectors, at), S: columns.R_over_S[at] > 0 ? columns.R[at] / columns.R_over_S[at] : Infinity }));
+  const largest = (name) => Math.max(...sectors.map((one) => one[name]));
+  return { Y: largest("Y"), U: largest("U"), R: largest("R"), sectors, row, nodes: sectors.length };
 }
 
-function waveRows({ table: { columns } }) {
-  const isKnown = (row) => ["Y", "U", "R", "S", "beta", "alpha", "psi"].every((name) => Number.isFinite(columns[name][row]));
+function waveRows({ ring, table: { columns } }) {
+  const isKnown = (row) => ["Y", "U", "R", "S", "beta", "alpha", "psi"].every((name) => Number.isFinite(columns[name][row])) &&
+    (!ring || ring.has(row));
   const rows = wavePoints.flatMap((type) => columns.type.map((_, row) => row).filter((row) => columns.type[row] === type && isKnown(row))
     .sort((a, b) => columns.Y[b] - columns.Y[a]));
   return rows.slice(0, mostPoints);
@@ -112,8 +121,8 @@ function wavePicture(parent, model) {
   if (!hasWave(model)) return;
   const rows = waveRows(model);
   if (!rows.length) return;
-  const every = Math.ceil(model.system.elements / mostNodes);
-  const nodes = Array.from({ length: Math.ceil(model.system.elements / every) }, (_, i) => i * every);
+  const every = Math.ceil(nodesOf(model) / mostNodes);
+  const nodes = Array.from({ length: Math.ceil(nodesOf(model) / every) }, (_, i) => i * every);
   const made = waveDrawing(nodes);
   const state = { point: null, turn: 0, isPlaying: false };
   const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -145,8 +154,8 @@ function wavePicture(parent, model) {
   const play = () => { state.isPlaying = true; before = null; button.textContent = "Pause"; requestAnimationFrame(step); };
   const pause = () => { state.isPlaying = false; button.textContent = "Play"; };
   const key = element("div", { class: "key" }, ...waveKey().map(([look, name]) => element("label", { html: `${sample(look)} ${name}` })));
-  const thin = every > 1 ? [paragraph(`One in ${every} of the ${model.system.elements} nodes is drawn.`, { class: "note" })] : [];
-  parent.append(element("figure", { id: "figure-wave" }, element("figcaption", {}, "The wave at a special point, over a period"),
+  const thin = every > 1 ? [paragraph(`One in ${every} of the ${nodesOf(model)} nodes is drawn.`, { class: "note" })] : [];
+  parent.append(element("figure", { id: "figure-wave" }, element("figcaption", {}, model.sectors ? "The ring at a special point, over a period" : "The wave at a special point, over a period"),
     element("div", { class: "controls" }, choice("Point", rows.map((row) => [row, waveLabel(model, row)]), rows[0], (row) => choose(Number(row))),
       button, element("label", {}, "t / T", time)), made.drawing, key, ...thin));
   choose(rows[0]);

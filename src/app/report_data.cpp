@@ -107,6 +107,14 @@ std::string run_text(const fs::path& folder, const ordered_json& summary) {
       answer.push_back(sentence);
     more = R"(,"verified":)" + table_text(verified);
   }
+  if (fs::exists(folder / "sectors.csv", none)) {
+    const ResultTable sectors(folder / "sectors.csv",
+                              {"branch", "point", "type", "eta", "P", "sector", "contact", "state"},
+                              "contacts");
+    std::size_t rows = 0;
+    sectors.for_each_row([&](const std::vector<std::string>& /*fields*/) { ++rows; });
+    if (rows > 0 && rows <= most_report_rows) more += R"(,"sectors":)" + table_text(sectors);
+  }
   const std::string drawn = drawn_table(folder.string());
   ordered_json own = summary;
   own.erase("study");

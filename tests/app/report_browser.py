@@ -208,6 +208,55 @@ class ManyNodes(Report):
         self.assertIn("One in 3 of the 450 nodes is drawn.", self.page.evaluate("document.querySelector('#figure-wave').textContent"))
 
 
+class WholeRing(Report):
+    """A split ring whose contacts slip one by one."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("run", "split_ring", "--set", "branch.for_each.preload=[0.5]"))
+
+    def points(self):
+        """The rows of sectors.csv, for each special point."""
+        points = {}
+        for row in self.table("sectors.csv"):
+            points.setdefault(int(row["point"]), []).append(row)
+        return [points[number] for number in sorted(points)]
+
+    def test_what_slips_is_drawn_over_sector_and_frequency(self):
+        wanted = {"stick": 0.0, "slip": 0.0}
+        points = self.points()
+        for here, there in zip(points, points[1:]):
+            for contact, after in zip(here, there):
+                wanted[contact["state"]] += abs(float(after["eta"]) - float(contact["eta"]))
+        self.assertGreater(min(wanted.values()), 1)
+        for trace in self.traces("sticks"):
+            area = 0.0
+            self.assertEqual(len(trace["x"]) % 6, 0)
+            for i in range(0, len(trace["x"]), 6):
+                (left, right), (low, high) = trace["x"][i:i + 2], trace["y"][i + 1:i + 3]
+                self.assertTrue(0.5 <= low < high <= 16.5)
+                area += abs(right - left) * (high - low)
+            self.assertNear(area, wanted[trace["keys"][0]], 1e-9)
+        self.assertEqual(self.press("sticks", "slip"), "false")
+        self.assertEqual([trace["visible"] for trace in self.traces("sticks") if "slip" in trace["keys"]], [False])
+
+    def test_every_node_moves_as_its_own_row_tells(self):
+        peak = max((rows for rows in self.points() if rows[0]["type"] == "peak"), key=lambda rows: float(rows[0]["Y"]))
+        self.assertEqual(self.page.evaluate("arcslipReport.wave.point.sectors.length"), 16)
+        for node in (0, 4, 15):
+            Y, U, R, alpha, beta, psi, ratio = (float(peak[node][name]) for name in ("Y", "U", "R", "alpha", "beta", "psi", "R_over_S"))
+            for turn in (0, 0.37):
+                moved = self.page.evaluate(f"motionOf(arcslipReport.wave.point, {node}, {turn})")
+                angle = 2 * math.pi * turn
+                self.assertAlmostEqual(moved["y"], Y * math.cos(angle - beta), delta=1e-8 * Y)
+                self.assertAlmostEqual(moved["u"], U * math.cos(angle - alpha), delta=1e-8 * U)
+                self.assertAlmostEqual(moved["r"], moved["u"] - moved["y"], delta=1e-6 * R)
+                if ratio <= 1:
+                    self.assertEqual(moved["state"], "stick")
+        self.assertEqual(self.page.evaluate("document.querySelectorAll('#figure-wave path[class]').length"), 16)
+        self.assertIn("The ring at a special point", self.page.evaluate("document.querySelector('#figure-wave').textContent"))
+
+
 class Verified(Report):
     """A run of several harmonics whose points were solved anew."""
 
