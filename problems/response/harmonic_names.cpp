@@ -60,6 +60,7 @@ void HarmonicProblem::add_ring() {
     add(fmt::format("Y{}", suffix), Body::base, j);
     add(fmt::format("U{}", suffix), Body::damper, j);
   }
+  if (system_.equal_peak) quantities_.push_back({"amplification", Measure::amplification, Body::base, 0});
   const Index half = system_.sectors / 2;
   const Index own = std::min(system_.wave_number % system_.sectors, half);
   for (Index q = 0; q <= half; ++q) {

@@ -41,6 +41,7 @@ class HarmonicProblem::Observation {
       case Measure::force: return problem_.synthesised_force(u_, p_, regime_);
       case Measure::reading: return reading(quantity.which, quantity.order);
       case Measure::largest: return largest(quantity);
+      case Measure::amplification: return largest(quantity) / *system_.equal_peak;
       case Measure::least: return of_sectors(quantity).cwiseAbs().minCoeff();
       case Measure::wave: return of_wave(quantity);
       case Measure::slipping: return slipping();

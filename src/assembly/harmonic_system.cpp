@@ -161,6 +161,7 @@ HarmonicSystem build_harmonic_system(const SystemParameters& parameters) {
   if (const WholeRing* whole = structures_of(parameters).whole()) {
     system.sectors = whole->sectors();
     system.wave_number = parameters.wave_number;
+    system.equal_peak = whole->make().equal_peak;
     for (const int h : parameters.harmonics)
       system.landmarks.push_back(whole->landmarks(in_order(parameters, h)));
   }

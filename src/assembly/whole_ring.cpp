@@ -74,6 +74,25 @@ SystemParameters WholeRing::one_sector(const SystemParameters& system) const {
   return one;
 }
 
+SystemParameters WholeRing::equal(const SystemParameters& system) const {
+  RingMake make = make_;
+  make.changes.clear();
+  make.equal_peak.reset();
+  SystemParameters equal = one_sector(system);
+  if (equal.contacts.empty()) equal.contacts = build_wave(equal).contacts;
+  equal.contacts = RingContacts{}.of(equal.contacts, make_.sectors);
+  equal.structures = std::make_shared<const WholeRing>(std::move(make));
+  return equal;
+}
+
+SystemParameters WholeRing::told_over(const SystemParameters& system, double equal_peak) const {
+  RingMake make = make_;
+  make.equal_peak = equal_peak;
+  SystemParameters told = system;
+  told.structures = std::make_shared<const WholeRing>(std::move(make));
+  return told;
+}
+
 /// A_m.
 std::vector<Complex> WholeRing::amplitudes(Index wave_number) const {
   const Index n = make_.sectors;

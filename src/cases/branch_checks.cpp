@@ -9,6 +9,7 @@
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
+#include "cases/ring_amplification.hpp"
 
 namespace arcslip {
 namespace {
@@ -50,6 +51,13 @@ void check_even(const TomlSection& section, const TomlSection& branch_section, c
                                "balanced: not beside element '{}', which is taken as odd",
                                one.kind->name));
   }
+}
+
+void check_amplification(const TomlSection& section, const CaseBranch& branch) {
+  if (!tells_amplification(branch)) return;
+  const std::string over = "amplification of [ring] is over the highest amplitude between two values of eta";
+  if (branch.curve) section.fail("curve", over);
+  if (branch.options.parameter != "eta") section.fail("parameter", over);
 }
 
 void check_stability(const TomlSection& section, const CaseBranch& branch) {

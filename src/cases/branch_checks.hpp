@@ -11,6 +11,9 @@ namespace arcslip {
 /// responses over several periods.
 void check_even(const TomlSection& section, const TomlSection& branch_section, const CaseBranch& branch);
 
+/// Refuses in [branch] what does not go over the resonances over which an amplification is told.
+void check_amplification(const TomlSection& section, const CaseBranch& branch);
+
 /// Refuses in [branch] stability of what has no exponents.
 void check_stability(const TomlSection& section, const CaseBranch& branch);
 

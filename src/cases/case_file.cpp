@@ -286,6 +286,7 @@ CaseBranch BranchSource::branch(std::size_t index) const {
     section_.number("R", positive());
   if (branch.curve) find_seed(section_, branch);
   check_even(system, section_, branch);
+  check_amplification(section_, branch);
   check_stability(section_, branch);
   return branch;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/sector_pair.hpp"
@@ -23,6 +24,7 @@ struct WholeSettings {
   Index each = 1;  ///< contacts of a sector
   bool has_elements = false;
   Index pattern = 1;
+  bool amplification = false;
   WholeLoad load = {};
   std::vector<double> preload = {};  ///< factors
   std::vector<double> stiffness = {};
@@ -82,6 +84,11 @@ const KeyTable<WholeSettings>& whole_keys() {
            "pattern", &WholeSettings::pattern, at_least(0, 9e15),
            "which of the patterns that a scatter gives: 1 is that of its seed itself, 0 the equal ring, all "
            "factors 1"),
+       WholeKey::flag(
+           "amplification", &WholeSettings::amplification,
+           "whether `amplification` is told, Y_max over the highest one of the equal ring under the "
+           "same load "
+           "between `from` and `to`, whose branch is traced as well"),
        WholeKey::special(
            "load", "text, list or CSV file",
            "round the ring: `travelling` with the wave, `standing` as cos(n theta), `point` on sector 1, "
@@ -181,6 +188,7 @@ void read_ring(const TomlDocument& document, const Replacements& replacements, c
   if (section.has("split") && system.fixed_damper) section.fail("split", "there is no damper that moves");
   RingMake ring{settings.sectors, system.structures, {}, settings.load};
   if (system.structures != nullptr) ring.contacts = system.contacts;
+  if (settings.amplification) ring.equal_peak = std::numeric_limits<double>::quiet_NaN();
   read_changes(document, system, settings.pattern, ring);
   system.contacts = contacts.of(system.contacts, settings.sectors);
   system.structures = std::make_shared<const WholeRing>(std::move(ring));

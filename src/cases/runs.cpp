@@ -13,6 +13,7 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
 #include "cases/departures.hpp"
+#include "cases/ring_amplification.hpp"
 
 namespace arcslip {
 namespace {
@@ -352,8 +353,9 @@ std::vector<TracedBranch> trace_balanced(const Request& request, const TimeBudge
 }  // namespace
 
 std::vector<TracedBranch> trace(const CaseBranch& request, const continuation::Observer& observer) {
-  const auto kept = std::make_shared<const CaseBranch>(request);
   const TimeBudget time(request.options);
+  const Request kept = tells_amplification(request) ? with_equal_peak(request, time)
+                                                    : std::make_shared<const CaseBranch>(request);
   std::vector<TracedBranch> traced = request.problem.harmonics_tolerance
                                          ? trace_balanced(kept, time, observer)
                                          : trace_given(kept, time, observer);

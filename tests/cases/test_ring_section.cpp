@@ -184,6 +184,12 @@ TEST_CASE("What no whole ring has is refused on one line", "[ring section]") {
            {"dofs = [1]", "dofs = [2]", ":17:", "dofs", "from 1 to 1", "2"},
            {"part = \"base\"", "part = \"bas\"", ":16:", "part", "\"base\" or \"damper\"", "bas"},
            {"mass = 0.1", "mas = 0.1", ":18:", "mas", "mass", ""},
+           {"load = \"standing\"", "load = \"standing\"\namplification = 1", ":13:", "ring.amplification",
+            "true or false", "1"},
+           {ring + "[branch]\nparameter = \"eta\"\nfrom = 3.0",
+            replaced(ring, "[ring]", "[ring]\namplification = true") +
+                "[branch]\nparameter = \"P\"\neta = 4.0\nfrom = 3.0",
+            "", "branch.parameter", "amplification of [ring]", ""},
            {"to = 5.0", "to = 5.0\nstability = true", "", "stability", "not of whole rings", ""},
            {"parameter = \"eta\"\nfrom = 3.0\nto = 5.0",
             "parameter = \"zeta_B\"\neta = 4.0\nfrom = 0.01\nto = 0.02", "", "branch.parameter", "F, K_FD",
@@ -204,4 +210,26 @@ TEST_CASE("The case of a split ring has the highest amplitudes that it says", "[
       highest = std::max(highest, value(run.traced[i], point, "Y_max"));
     CHECK_THAT(highest, WithinRel(expected[i], 1e-5));
   }
+}
+
+TEST_CASE("The amplification is over the highest amplitude of the equal ring", "[ring section]") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& ring) {
+    const Case input = read_case(folder.write(
+        "case.toml", ring_case("rods", "[ring]\nload = \"point\"\n" + ring) + "extrema_of = [\"Y_max\"]\n"));
+    return trace(input.branches.front());
+  };
+  const auto highest = [](const std::vector<TracedBranch>& traced, const std::string& name) {
+    double most = 0;
+    for (const BranchPoint& point : traced.front().branch.points)
+      most = std::max(most, value(traced.front(), point, name));
+    return most;
+  };
+  const double equal = highest(run(""), "Y_max");
+  const std::string uneven = "preload = { scatter = 0.3, seed = 2 }\nmissing = [5]\n";
+  const std::vector<TracedBranch> traced = run(uneven + "amplification = true\n");
+  const double own = highest(run(uneven), "Y_max");
+  CHECK(own != equal);
+  CHECK_THAT(highest(traced, "amplification"), WithinRel(own / equal, 1e-10));
+  CHECK_THAT(highest(run("amplification = true\n"), "amplification"), WithinRel(1.0, 1e-12));
 }

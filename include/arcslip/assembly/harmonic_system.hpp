@@ -47,6 +47,8 @@ struct HarmonicSystem {
   /// Of a whole ring the load's wave, and in each order resonances, which no joined modes are looked for.
   Index wave_number = 0;
   std::vector<std::vector<double>> landmarks = {};
+  /// The highest amplitude of the equal ring, where that of this one is told over it; NaN: not known.
+  std::optional<double> equal_peak = {};
 
   /// p: eta is the frequency of this harmonic.
   int periods() const { return orders.front(); }

@@ -18,6 +18,7 @@
 // Damping that is modal stays that of the equal sectors' modes.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,8 @@ struct RingMake {
   std::vector<WantedOutput> wanted =
       {};  ///< by which rods and beams are asked for ports, after a system's own
   std::vector<RingChange> changes = {};  ///< to both
+  /// The highest amplitude of the equal ring, where that of this one is told over it; NaN: not known yet.
+  std::optional<double> equal_peak = {};
 };
 
 /// The structures of all sectors. Its system's contacts are all N x c, those of sector 1 first.
@@ -86,6 +89,12 @@ class WholeRing final : public Structures {
 
   /// A system of it as that of one sector alone, under its wave.
   SystemParameters one_sector(const SystemParameters& system) const;
+
+  /// A system of it with the ring of equal sectors in its place.
+  SystemParameters equal(const SystemParameters& system) const;
+
+  /// A system of it whose amplitude is told over that of the equal ring.
+  SystemParameters told_over(const SystemParameters& system, double equal_peak) const;
 
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, of all waves of
   /// the equal sectors.

@@ -115,6 +115,7 @@ class HarmonicProblem : public continuation::Problem {
     force,
     reading,
     largest,
+    amplification,
     least,
     wave,
     slipping,
@@ -123,7 +124,7 @@ class HarmonicProblem : public continuation::Problem {
   /// Forces have none, and of a whole ring what may be zero.
   static bool has_gradient(Measure measure) {
     return measure != Measure::force && measure != Measure::least && measure != Measure::wave &&
-           measure != Measure::slipping && measure != Measure::losses;
+           measure != Measure::slipping && measure != Measure::losses && measure != Measure::amplification;
   }
   enum class Body { contact, base, damper, output };
   struct Quantity {
