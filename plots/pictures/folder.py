@@ -77,12 +77,13 @@ def _decide(folder, summary, options):
     measure = new_measure()
     has_run = "study" not in summary["case"]
     own = bool(options.x or options.y)
-    parts = [PicturesOfRun(RunData(folder, summary), options, measure)] if has_run else []
+    run = RunData(folder, summary) if has_run else None
+    parts = [PicturesOfRun(run, options, measure)] if has_run else []
     if (not has_run or "study" in summary) and not (own and has_run):
         case = (summary["study"] if has_run else summary)["case"]
         parts.append(PicturesOfStudy(folder, case, options, measure))
     if _has(folder, "modes.csv") and not own:
-        parts.append(PicturesOfModes(folder, options, measure))
+        parts.append(PicturesOfModes(folder, options, measure, run))
     found = {}
     for part in parts:
         found.update(part.custom() if own else part.pictures())

@@ -35,9 +35,9 @@ class _Sheet(Sheet):
 
 
 class PicturesOfModes:
-    """Decides, and draws, what there is to see of modes."""
+    """Decides, and draws, what there is to see of modes, and of a run in the same folder beside them."""
 
-    def __init__(self, folder, options, measure):
+    def __init__(self, folder, options, measure, run=None):
         self.options, self.measure = options, measure
         table = Table(os.path.join(folder, "modes.csv"), ["wave_number", "part", "mode", "eta"], "modes")
         self.column = "frequency_Hz" if table.has("frequency_Hz") else "eta"
@@ -54,7 +54,7 @@ class PicturesOfModes:
         except (KeyError, TypeError, ValueError) as error:
             raise Refused(f"{path}: does not tell nodes and speed_per_minute; expected a file that arcslip has written") from error
 
-        self.campbell = Campbell(folder, PARTS) if has_campbell(folder) else None
+        self.campbell = Campbell(folder, PARTS, run) if has_campbell(folder) else None
 
     def pictures(self):
         found = {"modes": self._modes} | ({"damping": self._damping} if self.damped else {})

@@ -14,7 +14,9 @@ matrices go through node by node: time grows as their entries do, memory as the 
 
 Writes NAME_mass.mtx, NAME_stiffness.mtx, NAME_left.txt, NAME_right.txt, NAME_contact.txt, NAME_load.txt,
 NAME_coordinates.txt and NAME_dofs.txt, which says what each dof is; and case.toml, unless there is one, where
---name is base. With --name damper its table is added to the case.
+--name is base. With --name damper its table is added to the case. With --at-rest REST the stiffness is that of
+REST, NAME_stiffness_speed2.mtx what each radian squared of a speed adds to it, by that of job and its speed, and
+NAME_gyroscopic.mtx the matrix of Coriolis' forces at one radian, by the mass.
 
   sector_matrices.py rotor --deck rotor.inp --sectors 24 --left LEFT --right RIGHT --hold HUB \\
       --contact GROOVE:z --load RIM:z:1.0 --wave-number 3 --name base -o study
@@ -26,13 +28,9 @@ import math
 import os
 import sys
 
+from stored_matrices import FREE_IT, Wrong, gyroscopic, node_columns, per_speed_squared, read_dofs
+
 DIRECTIONS = "rtz"
-FREE_IT = ("in the step that stores the matrices free all supports (*BOUNDARY, OP=NEW) and the cyclic symmetry "
-           "(CYCMPC=INACTIVE), and hold nodes here")
-
-
-class Wrong(Exception):
-    """Input that is not as it must be."""
 
 
 def keyword(line):
@@ -77,58 +75,6 @@ def read_deck(path, nodes, sets):
                 raise Wrong(f"{path}:{number}: expected what {name} takes, got '{line.strip()}'") from None
 
 
-def read_dofs(path):
-    """The nodes of a finite-element program in its order; each has three rows, for x, y and z."""
-    rows = []
-    with open(path, encoding="utf-8", errors="replace") as text:
-        for number, line in enumerate(text, 1):
-            node, dot, direction = line.strip().partition(".")
-            if not (node.isdigit() and dot and direction in ("1", "2", "3")):
-                raise Wrong(f"{path}:{number}: expected node.direction with a direction 1, 2 or 3, got "
-                            f"'{line.strip()}'")
-            rows.append((int(node), int(direction)))
-    order = [node for node, _ in rows[::3]]
-    expected = ((node, direction) for node in order for direction in (1, 2, 3))
-    for row, wanted in zip(rows + [(0, 0)] * (-len(rows) % 3), expected):
-        if row != wanted:
-            raise Wrong(f"{path}: node {wanted[0]} has not all three directions one after another: {FREE_IT}")
-    return order
-
-
-def node_columns(path, count):
-    """For each node k, from 0: k and {i: its block with node i <= k}, nine values row by row, in one reading."""
-    last, blocks = 0, {}
-    with open(path, encoding="utf-8", errors="replace") as text:
-        for number, line in enumerate(text, 1):
-            try:
-                row, column, value = line.split()
-                row, column, value = int(row) - 1, int(column) - 1, float(value.replace("D", "e"))
-            except ValueError:
-                raise Wrong(f"{path}:{number}: expected a row, a column and a value") from None
-            if row > column:
-                row, column = column, row
-            if not (0 <= row and column < 3 * count and math.isfinite(value)):
-                raise Wrong(f"{path}:{number}: expected rows and columns from 1 to {3 * count} and a finite value")
-            k = column // 3
-            if k != last:
-                if k < last:
-                    raise Wrong(f"{path}:{number}: expected the larger of row and column in ascending order, got "
-                                f"{column + 1} after node {last + 1} of the rows")
-                yield last, blocks
-                last, blocks = k, {}
-            i = row // 3
-            block = blocks.get(i)
-            if block is None:
-                block = blocks[i] = [0.0] * 9
-            p, q = row - 3 * i, column - 3 * k
-            if block[3 * p + q] not in (0.0, value):
-                raise Wrong(f"{path}:{number}: row {row + 1}, column {column + 1} is given twice")
-            block[3 * p + q] = value
-            if i == k:
-                block[3 * q + p] = value
-    yield last, blocks
-
-
 class Sector:
     """The nodes of a finite-element program in cylindrical directions."""
 
@@ -164,22 +110,22 @@ class Sector:
         c, s = self.turn[k]
         return [(c * first[p] + s * second[p], c * second[p] - s * first[p], third[p]) for p in range(3)]
 
-    def write(self, source, path, number):
-        """The matrix of the dofs that have a number, its lower triangle."""
+    def write(self, columns, path, number, sign=1):
+        """The lower triangle of the dofs that have a number; `sign` is -1 of a skew-symmetric matrix."""
         size, count = sum(map(bool, number)), 0
         with open(path, "w", encoding="utf-8") as out:
-            out.write("%%MatrixMarket matrix coordinate real symmetric\n")
+            out.write(f"%%MatrixMarket matrix coordinate real {'skew-' if sign < 0 else ''}symmetric\n")
             head = out.tell()
             out.write(f"{size} {size} {0:12}\n")
-            for k, blocks in node_columns(source, len(self.turn)):
+            for k, blocks in columns:
                 lines = []
                 for i, block in blocks.items():
                     for p, values in enumerate(self.turned(i, k, block)):
                         column = number[3 * i + p]
                         for q, value in enumerate(values):
                             row = number[3 * k + q]
-                            if row >= column > 0 and (value != 0 or row == column):
-                                lines.append(f"{row} {column} {value!r}\n")
+                            if row >= column > 0 and (value != 0 if row > column else sign > 0):
+                                lines.append(f"{row} {column} {sign * value!r}\n")
                 out.writelines(lines)
                 count += len(lines)
             out.seek(head)
@@ -286,9 +232,10 @@ def lists(arguments, sector, sets):
     return number, pairs, [dof for _, dof in sorted(found)], load
 
 
-def table(name, loaded):
+def table(name, turns, loaded):
     """The part of a case file that names the files of base or damper."""
-    text = f'\n[system.{name}]\nmass = "{name}_mass.mtx"\nstiffness = "{name}_stiffness.mtx"\n'
+    kinds = ("mass", "stiffness") + (("gyroscopic", "stiffness_speed2") if turns else ())
+    text = f"\n[system.{name}]\n" + "".join(f'{kind} = "{name}_{kind}.mtx"\n' for kind in kinds)
     text += "".join(f'{key} = "{name}_{key}.txt"\n' for key in ("left", "right", "contact", "coordinates"))
     return text + (f'load = "{name}_load.txt"\n' if loaded else "") + 'damping_kind = "structural"\n'
 
@@ -302,10 +249,14 @@ def case_text(arguments, loaded):
     text += line("sectors", arguments.sectors, "N")
     text += line("contact_stiffness", arguments.contact_stiffness, "of each contact; with kg, N and m in N/m")
     text += line("preload", arguments.preload, "mu p, the largest friction force of one contact; N")
+    if arguments.at_rest:
+        text += line("speed", math.sqrt(arguments.speed_squared) / (2 * math.pi), "revolutions; or engine_order = m")
     text += "damping = { base = 1e-3, damper = 1e-3 }\n\n[branch]\n" 'parameter = "eta"\n'
     text += "".join(line(key, eta, "Hz") for key, eta in zip(("from", "to"), arguments.eta or (None, None)))
-    text += table("base", loaded)
-    return text + (table("damper", False) if os.path.exists(f"{arguments.output}/damper_mass.mtx") else "")
+    text += table("base", arguments.at_rest, loaded)
+    damper = f"{arguments.output}/damper_"
+    turns = os.path.exists(damper + "gyroscopic.mtx")
+    return text + (table("damper", turns, False) if os.path.exists(damper + "mass.mtx") else "")
 
 
 def case_file(arguments, loaded):
@@ -316,7 +267,7 @@ def case_file(arguments, loaded):
     with open(path, encoding="utf-8") as text:
         case = text.read()
     adds = arguments.name == "damper" and "[system.damper]" not in case
-    return case + table("damper", False) if adds else None
+    return case + table("damper", arguments.at_rest, False) if adds else None
 
 
 def where(r, theta, z, direction):
@@ -325,11 +276,28 @@ def where(r, theta, z, direction):
     return (r * c, r * s, z) + ((c, s, 0), (-s, c, 0), (0, 0, 1))[direction]
 
 
+def matrices(arguments, sector, number):
+    """What to call with a path, to be written there, by the ends of the files' names."""
+    count, job = len(sector.turn), arguments.job
+    stored = lambda source: node_columns(source, count)
+    written = lambda columns, sign=1: lambda path: sector.write(columns, path, number, sign)
+    found = {"stiffness": written(stored((arguments.at_rest or job) + ".sti")), "mass": written(stored(job + ".mas"))}
+    if arguments.at_rest:
+        added = per_speed_squared(stored(job + ".sti"), stored(arguments.at_rest + ".sti"), arguments.speed_squared)
+        found["gyroscopic"] = written(gyroscopic(stored(job + ".mas"), sector.axes), -1)
+        found["stiffness_speed2"] = written(added)
+    return {f"{arguments.name}_{name}.mtx": write for name, write in found.items()}
+
+
 def convert(arguments):
+    if bool(arguments.at_rest) != bool(arguments.speed_squared) or (arguments.speed_squared or 0) < 0:
+        raise Wrong("--at-rest and --speed-squared, above 0, go together")
     nodes, sets = {}, {}
     for deck in arguments.deck:
         read_deck(deck, nodes, sets)
     order = read_dofs(arguments.job + ".dof")
+    if arguments.at_rest and read_dofs(arguments.at_rest + ".dof") != order:
+        raise Wrong(f"{arguments.at_rest}.dof has not the dofs of {arguments.job}.dof")
     sector = Sector(nodes, order, arguments.axis)
     number, pairs, contacts, load = lists(arguments, sector, sets)
     dofs = [(dof, order[row // 3], row % 3) for row, dof in enumerate(number) if dof]
@@ -351,19 +319,18 @@ def convert(arguments):
     files.update({"case.toml": case} if case else {})
     made = os.path.isdir(arguments.output)
     os.makedirs(arguments.output, exist_ok=True)
-    matrices = {f"{arguments.name}_{name}.mtx": arguments.job + end
-                for name, end in (("stiffness", ".sti"), ("mass", ".mas"))}
+    writers = matrices(arguments, sector, number)
     path = lambda name: os.path.join(arguments.output, name)
     try:
-        for name, source in matrices.items():
-            sector.write(source, path(name) + ".tmp", number)
+        for name, write in writers.items():
+            write(path(name) + ".tmp")
         for name, text in files.items():
             with open(path(name) + ".tmp", "w", encoding="utf-8") as out:
                 out.write(text)
-        for name in (*matrices, *files):
+        for name in (*writers, *files):
             os.replace(path(name) + ".tmp", path(name))
     except BaseException:
-        for name in (*matrices, *files):
+        for name in (*writers, *files):
             if os.path.exists(path(name) + ".tmp"):
                 os.remove(path(name) + ".tmp")
         if not made:
@@ -388,6 +355,8 @@ def main():
     parser.add_argument("--name", default="base", help="what the files' names begin with; base")
     parser.add_argument("--contact-stiffness", type=float, help="of each contact, for the case file")
     parser.add_argument("--preload", type=float, help="of each contact, for the case file")
+    parser.add_argument("--at-rest", metavar="REST", help="job of the same sector at rest; job turns")
+    parser.add_argument("--speed-squared", type=float, metavar="S", help="square of its speed, as in CENTRIF")
     parser.add_argument("--eta", type=float, nargs=2, metavar=("FROM", "TO"), help="range, for the case file")
     parser.add_argument("-o", "--output", default=".", help="folder")
     try:

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <set>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/sectors/finite_sector.hpp"
 
 namespace arcslip {
 namespace {
@@ -19,6 +21,19 @@ constexpr std::array part_names = {"base", "damper", "stuck"};
 std::pair<Index, Index> waves_of(const SystemParameters& system) {
   if (system.structures == nullptr) return {1, (system.elements - 1) / 2};
   return {feels_rotation(system) ? -(system.elements - 1) / 2 : 0, system.elements / 2};
+}
+
+/// Of one wave; a free ring that turns has none where it moves as a whole, which is no reason to tell none at
+/// all.
+WaveModes wave_modes(const SystemParameters& system, Index own) {
+  const Index n = system.wave_number;
+  structures_of(system).check(n, system.elements);
+  try {
+    return {n, resonances(system, build_wave(system)), ""};
+  } catch (const SectorError& error) {
+    if (!feels_rotation(system) || std::abs(n) == std::abs(own)) throw;
+    return {n, {}, error.what()};
+  }
 }
 
 }  // namespace
@@ -40,8 +55,7 @@ std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest) {
   std::vector<WaveModes> waves;
   for (Index n = std::max(first, -highest); n <= std::min(last, highest); ++n) {
     system.wave_number = n;
-    structures_of(system).check(n, system.elements);
-    waves.push_back({n, resonances(system, build_wave(system))});
+    waves.push_back(wave_modes(system, problem.system.wave_number));
     if (system.eta_high > 0)
       std::erase_if(waves.back().modes, [&](const Resonance& mode) { return mode.eta > system.eta_high; });
   }
@@ -86,7 +100,10 @@ std::string modes_text(const ProblemRequest& problem, const std::vector<WaveMode
   text += columns.size() > shown.size() ? "  ...\n" : "\n";
   for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i) {
     text += fmt::format("{:>5}", waves[i].wave_number);
-    for (const Column& column : shown) text += fmt::format("  {:>18}", rows[i][column]);
+    if (!waves[i].refusal.empty())
+      text += "  none: " + waves[i].refusal;
+    else
+      for (const Column& column : shown) text += fmt::format("  {:>18}", rows[i][column]);
     text += "\n";
   }
   if (rows.size() > most_rows) text += fmt::format("... and {} more\n", rows.size() - most_rows);

@@ -15,6 +15,7 @@ namespace arcslip {
 struct WaveModes {
   Index wave_number;
   std::vector<Resonance> modes;  ///< part by part, ascending
+  std::string refusal;           ///< why there are none, of a wave under which nothing holds what turns
 };
 
 /// Calls `visit` with the number of each mode within its part, from 1.
@@ -29,7 +30,8 @@ std::string frequency_names(const ProblemRequest& problem);
 std::string frequency_columns(const ProblemRequest& problem, double eta);
 
 /// Of the waves that the structure has, up to `highest`, of what turns in both directions, of sectors below
-/// the end of their window, above which not all are known. Throws std::exception where one cannot be had.
+/// the end of their window, above which not all are known. Throws std::exception where one cannot be had, but
+/// of waves of sectors that turn beside the system's own.
 std::vector<WaveModes> modes_of(const ProblemRequest& problem, Index highest);
 
 /// modes.csv: wave_number, part, mode (from 1 in each part), eta, frequency_Hz of systems in SI units, zeta.

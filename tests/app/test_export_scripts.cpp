@@ -124,6 +124,41 @@ TEST_CASE("Stored matrices of CalculiX come out in cylindrical directions, with 
   CHECK_THAT(imaginary, WithinAbs(-std::sqrt(0.5), 1e-14));
 }
 
+TEST_CASE("Two states tell what rotation adds to the stiffness, and the mass Coriolis' forces",
+          "[outside][rotation]") {
+  const testing::TemporaryFolder folder;
+  write_job(folder);
+  Matrix masses(5, 5);  // of pairs of nodes, the same in all directions
+  for (Index i = 0; i < 25; ++i)
+    masses(i / 5, i % 5) = std::cos(static_cast<double>(i / 5 + i % 5)) + (i % 6 == 0);
+  Matrix mass = Matrix::Zero(15, 15);
+  Matrix forces = mass;  // 2 m e x v
+  for (Index i = 0; i < 5; ++i) {
+    for (Index k = 0; k < 5; ++k) {
+      mass.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(masses(i, k));
+      forces(3 * i, 3 * k + 1) = -2 * masses(i, k);
+      forces(3 * i + 1, 3 * k) = 2 * masses(i, k);
+    }
+  }
+  folder.write("job.mas", upper_triangle(mass));
+  folder.write("rest.sti", upper_triangle(cartesian(cylindrical(3))));
+  folder.write("rest.dof", read(folder.path("job.dof")));
+  const std::string options = fmt::format("--at-rest '{}' --speed-squared 4", folder.path("rest"));
+  REQUIRE(convert(folder, options + " --contact LEFT:z --load LEFT:z").status == 0);
+  CHECK((matrix(folder, "base_stiffness.mtx") - cylindrical(3)).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK((matrix(folder, "base_stiffness_speed2.mtx") - (cylindrical(1) - cylindrical(3)) / 4)
+            .cwiseAbs()
+            .maxCoeff() < 1e-11);
+  const Matrix gyroscopic = matrix(folder, "base_gyroscopic.mtx");
+  CHECK((cartesian(gyroscopic) - forces).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK((gyroscopic + gyroscopic.transpose()).norm() == 0);
+  const std::string text = read(folder.path("out/case.toml"));
+  CHECK_THAT(text, ContainsSubstring("\nspeed = 0.318309886184 "));  // 2 radians
+  CHECK_THAT(text, ContainsSubstring("gyroscopic = \"base_gyroscopic.mtx\"\n"));
+  REQUIRE(convert(folder, options + " --contact LEFT:z --name damper").status == 0);
+  CHECK_THAT(read(folder.path("out/case.toml")), ContainsSubstring("\"damper_stiffness_speed2.mtx\"\n"));
+}
+
 TEST_CASE("Held dofs are left out of the matrices and of the boundaries", "[outside]") {
   const testing::TemporaryFolder folder;
   write_job(folder);

@@ -426,6 +426,43 @@ def test_campbell_diagrams_have_both_directions_engine_orders_and_crossings(tmp_
     assert sorted(map(tuple, marks)) == [(50, 150), (70, 210)]
 
 
+def run_with_modes(case, folder):
+    run(case, folder)
+    path = SOURCE / "problems" / f"{case}.toml"
+    subprocess.run([PROGRAM, "modes", path, "--campbell", "0", "60", "-o", folder, "--quiet"], check=True, capture_output=True)
+    return figures_of(folder)["campbell"]
+
+
+def test_peaks_over_frequency_and_speed_lie_in_the_campbell_diagram_between_free_and_stuck(tmp_path):
+    figure = run_with_modes("turning_disk_peaks", tmp_path)
+    check_layout(figure)
+    texts = [text for text, _ in texts_of(figure)]
+    assert {"peak, $P$ = 0.5", "peak, $P$ = 2", "peak, $P$ = 4"} <= set(texts)
+    lines = {}
+    for line in figure.axes[0].lines:
+        if len(line.get_xdata()) > 10 and line.get_color() != style.GREY:
+            points = np.column_stack(line.get_data())
+            lines.setdefault(line.get_color(), points[np.isfinite(points).all(axis=1)])
+    colours = style.colours(7)
+    free, stuck = lines[colours[1]], lines[colours[3]]  # backward
+    below = np.interp(np.linspace(0, 60, 61), *free.T)
+    for colour in colours[4:]:
+        peaks = lines[colour]
+        assert peaks[:, 0].min() == 0 and peaks[:, 0].max() == 60
+        at = np.interp(np.linspace(0, 60, 61), *peaks[np.argsort(peaks[:, 0])].T)
+        assert (at > below).all() and (at < np.interp(np.linspace(0, 60, 61), *stuck.T)).all()
+        below = at  # the higher the preload, the nearer to sticking
+
+
+def test_peaks_over_the_speed_of_an_engine_order_are_marked_on_its_line(tmp_path):
+    figure = run_with_modes("turning_disk", tmp_path)
+    check_layout(figure)
+    assert "peak" in [text for text, _ in texts_of(figure)]
+    (marks,) = [line for line in figure.axes[0].lines if line.get_marker() == style.KINDS["peak"][1]]
+    assert len(marks.get_xdata()) >= 2
+    assert np.allclose(marks.get_ydata(), 3 * np.asarray(marks.get_xdata()))
+
+
 def test_modes_are_drawn_beside_a_run(results, tmp_path):
     for name in ("branches.csv", "curves.csv", "summary.json"):
         os.link(results["pp2"] / name, tmp_path / name)

@@ -98,10 +98,13 @@ int modes(const ModesOptions& options) {
   }
   if (options.shapes) write_shapes(folder.path(), shapes);
   if (options.quiet) return status::done;
-  print(modes_text(problem, waves) + (damped.empty() ? "" : damping_text(damped, options.amplitudes)) +
-        fmt::format("\n{0}/modes.csv", folder.path()) +
-        (damped.empty() ? "" : fmt::format(", {}/damping.csv", folder.path())) +
-        (options.shapes ? fmt::format(", {} shapes in {}/shapes\n", shapes.size(), folder.path()) : "\n"));
+  std::string names = folder.path() + "/modes.csv";
+  for (const auto& [name, text] : files) {
+    if (name != "modes.csv" && name.ends_with(".csv")) names += fmt::format(", {}/{}", folder.path(), name);
+  }
+  if (options.shapes) names += fmt::format(", {} shapes in {}/shapes", shapes.size(), folder.path());
+  print(modes_text(problem, waves) + (damped.empty() ? "" : damping_text(damped, options.amplitudes)) + "\n" +
+        names + "\n");
   return status::done;
 }
 
