@@ -34,10 +34,36 @@ class RingPart {
   /// Of the same, with what the changes take.
   CycleWork work(double eta, double load, const ContactVector& forces) const;
 
-  /// The modes of the whole as its contacts see it, with their loads.
+  /// The modes of the equal sectors as the whole's contacts see it, with their loads.
   ContactModes modes() const;
 
+  /// The modes of the changed whole, real ones; those of rigid motions with the frequency 0. Throws
+  /// std::invalid_argument where changes leave no modes that damping keeps apart: beside modal damping,
+  /// without mass or with less than no stiffness.
+  ContactModes changed_modes() const;
+
  private:
+  /// The modes of the equal sectors, two real ones of each two waves that run opposite ways.
+  struct RealModes {
+    std::vector<double> squares;  ///< D: eta_k^2
+    std::vector<Vector> motion;   ///< D: of all ports of all sectors, by `place`
+    std::vector<Complex> load;    ///< D
+  };
+  struct SameModes;  ///< some of one wave, of one frequency
+  static std::vector<SameModes> same_modes(const ContactModes& wave);
+  void add_single(Index wave, const SameModes& modes, RealModes& all) const;
+  void add_pairs(Index wave, const SameModes& modes, const std::vector<SameModes>& back,
+                 RealModes& all) const;
+  void add_real(Index wave, const ContactVector& shape, double part, double square, Complex load,
+                RealModes& all) const;
+  RealModes real_modes() const;
+  Matrix changed_rows(const RealModes& all) const;
+  struct ChangedModes {
+    Vector squares;  ///< D: eta_k^2, 0 of rigid motions
+    Matrix shapes;   ///< D x D: in the modes of the equal sectors
+  };
+  ChangedModes with_changes(const RealModes& all) const;
+
   /// Motions of all ports of all sectors under the load of each wave, ports x N, and compliances between
   /// ports of sectors that are 0..N-1 apart, a column for each lag: its block, then the derivative of that.
   struct Tuned {

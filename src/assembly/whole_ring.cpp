@@ -171,6 +171,10 @@ ContactSystem WholeRing::wave(const SystemParameters& system) const {
     throw std::invalid_argument("the whole ring tells no lag, as its load acts on motions that differ");
   const auto base = part(system, true);
   const auto damper = part(system, false);
+  if (make_.in_modes) {
+    const Variation loaded{.load = system.force, .loss = base->modes().loss()};
+    return {base->changed_modes().varied(loaded), damper->changed_modes(), system.contacts};
+  }
   const auto solved = [](const std::shared_ptr<const RingPart>& of, double load) {
     return of->modes().solved_by([of](double eta, double factor) { return of->at(eta, factor); }, load,
                                  [of](double eta, double factor, const ContactVector& forces) {
@@ -198,6 +202,15 @@ PairLosses WholeRing::losses(const SystemParameters& system) const {
 }
 
 double WholeRing::nodes(const SystemParameters& system) const { return sector().nodes(one_sector(system)); }
+
+/// Without outputs, which no motion in time has.
+std::shared_ptr<const Structures> WholeRing::in_modes() const {
+  if (make_.in_modes) return nullptr;
+  RingMake modal = make_;
+  modal.in_modes = true;
+  if (const auto structures = sector().in_modes()) modal.structures = structures;
+  return std::make_shared<const WholeRing>(std::move(modal));
+}
 
 bool WholeRing::has_equations() const { return sector().has_equations(); }
 

@@ -166,7 +166,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
   if (!found.empty()) summary[found.front().is_solved ? "full_solves" : "reduction"] = modes_to_json(found);
   if (traced.request->problem.model == nullptr) summary["harmonics"] = harmonics_of(traced.base.harmonics);
   if (traced.branch.first_stop) summary["first_stop"] = to_string(*traced.branch.first_stop);
-  if (has_balance(*traced.request)) {
+  if (why_not_verifiable(*traced.request).empty()) {
     const std::optional<problems::BalanceErrors> errors = problems::largest_errors(
         traced.request->problem.system, traced.base.harmonics, traced.branch, traced.request->options.go_on);
     summary["power_error"] = errors ? ordered_json(errors->power) : ordered_json(nullptr);

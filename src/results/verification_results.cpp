@@ -64,15 +64,7 @@ std::string why_not_verifiable(const CaseBranch& branch) {
   if (problem.model != nullptr) return "a model of the library";
   if (!problem.response->in_time) return problem.response->title;
   if (!structures_of(problem.system).has_equations()) return "structures by their responses alone";
-  if (structures_of(problem.system).whole() != nullptr) return "whole rings";
   return branch.curve ? "curves" : "";
-}
-
-bool has_balance(const CaseBranch& branch) {
-  const ProblemRequest& problem = branch.problem;
-  const bool is_whole = problem.model == nullptr && problem.response->in_time && !branch.curve &&
-                        structures_of(problem.system).whole() != nullptr;
-  return why_not_verifiable(branch).empty() || (is_whole && structures_of(problem.system).has_equations());
 }
 
 VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options) {

@@ -21,9 +21,6 @@ struct VerifiedBranch {
 /// What a branch is that cannot be verified, or "".
 std::string why_not_verifiable(const CaseBranch& branch);
 
-/// Whether power in and out of its points can be compared, as it can be of whole rings as well.
-bool has_balance(const CaseBranch& branch);
-
 /// Solves points of a branch anew, as the options say.
 VerifiedBranch verify(std::size_t number, const TracedBranch& traced, problems::VerifyOptions options);
 

@@ -308,12 +308,12 @@ Ring build_ring(const SystemParameters& given) {
   Rows rows;
   for (Index c = 0; c < coordinates.size(); ++c) rows.push_back(coordinates[c]);
   Ring ring;
-  ring.node_count = parameters.elements;
-  ring.wave_number = parameters.first_wave();
+  const RingWaves waves = ring_waves(parameters, highest_order(parameters.harmonics));
+  ring.node_count = waves.nodes();
+  ring.wave_number = waves.wave_number();
   ring.periods = parameters.periods();
   ring.preload_growth = parameters.preload_growth;
   add_elements(coordinates, ring);
-  const RingWaves waves = ring_waves(parameters, highest_order(parameters.harmonics));
   Builder builder(ring, parameters, std::move(rows));
   for (Index wave = 0; 2 * wave <= ring.nodes(); ++wave) builder.add_wave(wave, waves.structures(wave));
   builder.finish();

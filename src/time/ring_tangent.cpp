@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "time/dense_leap.hpp"
 #include "time/law_series.hpp"
 #include "time/linear_leap.hpp"
 
@@ -227,15 +228,23 @@ void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
   constexpr double longest = 8;  // over the fastest rate
   const double rate = motion_.fastest_rate();
   const double leap = std::min(stretch.length, LinearLeap::reach / rate);
-  if (motion_.dragged().rows() == 0 && LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
+  const auto remembered = [&] {
     Matrix constant = Matrix::Zero(std::ssize(stretch.forces.rows), columns.position.cols());
     for (const Remembered& one : stretch.memory)
       constant.row(one.place) += one.coefficient * columns.memory.row(one.number);
+    return constant;
+  };
+  if (motion_.dragged().rows() == 0 && LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
+    const Matrix constant = remembered();
     const double parts = std::ceil(stretch.length / leap - 1e-9);
     const LinearLeap flow(motion_.ring(), stretch.forces, rate, stretch.length / parts);
     for (int part = 0; part < static_cast<int>(parts); ++part)
       flow.take(constant, columns.position, columns.velocity);
     return;
+  }
+  if (DenseLeap::pays(motion_.ring(), stretch.forces, rate * stretch.length)) {
+    const DenseLeap flow(motion_, stretch.forces, stretch.length);
+    return flow.take(remembered(), columns.position, columns.velocity);
   }
   const bool is_linear = stretch.forces.are_linear();
   const double parts = is_linear ? std::ceil(stretch.length * rate / longest - 1e-9) : 1;

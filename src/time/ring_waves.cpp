@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
 
 namespace arcslip {
@@ -144,7 +145,9 @@ RingWaves ring_waves(const SystemParameters& parameters, int highest) {
   SystemParameters wide = parameters;
   wide.force = 0;
   wide.eta_high = wide.eta_high * highest / parameters.periods();
-  return {parameters.first_wave(), parameters.elements, [wide](Index wave) {
+  const bool is_whole = structures_of(parameters).whole() != nullptr;
+  const Index nodes = is_whole ? 1 : parameters.elements;
+  return {is_whole ? 0 : parameters.first_wave(), nodes, [wide](Index wave) {
             SystemParameters one = wide;
             one.wave_number = wave;
             ContactSystem system = build_wave(one);

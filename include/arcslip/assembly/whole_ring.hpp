@@ -16,6 +16,10 @@
 //   C' = C - C B (D^-1 + B^T C B)^-1 B^T C,   y' = y - C B (D^-1 + B^T C B)^-1 B^T y      [Woodbury]
 //
 // Damping that is modal stays that of the equal sectors' modes.
+//
+// Motion in time and disturbances take the whole for a single sector under the wave 0, of N c contacts: by
+// its real modes, those of the equal sectors or, where something is not the same in all, combinations of
+// them.
 
 #include <memory>
 #include <optional>
@@ -75,6 +79,7 @@ struct RingMake {
   std::vector<RingChange> changes = {};  ///< to both
   /// The highest amplitude of the equal ring, where that of this one is told over it; NaN: not known yet.
   std::optional<double> equal_peak = {};
+  bool in_modes = false;  ///< whether base and damper are told by the modes of the changed whole
 };
 
 /// The structures of all sectors. Its system's contacts are all N x c, those of sector 1 first.
@@ -108,6 +113,7 @@ class WholeRing final : public Structures {
   void check(Index wave_number, Index nodes) const override;
   std::vector<PartModes> modes(const SystemParameters& system) const override;
   bool has_equations() const override;
+  std::shared_ptr<const Structures> in_modes() const override;
   const WholeRing* whole() const override { return this; }
 
  private:

@@ -73,7 +73,7 @@ class RingWaves {
 };
 
 /// Those of a system of rods, beams or sectors; of sectors with the modes that serve up to its harmonic
-/// `highest` in the window of eta. `at` throws SectorError.
+/// `highest` in the window of eta. A whole ring, in modes, is a single node. `at` throws SectorError.
 RingWaves ring_waves(const SystemParameters& parameters, int highest);
 
 }  // namespace arcslip

@@ -1,0 +1,178 @@
+// The modes of a part of a whole ring whose sectors are not alike, in those of the equal sectors.
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "assembly/ring_part.hpp"
+
+namespace arcslip {
+
+struct RingPart::SameModes {
+  double frequency;
+  ContactMatrix shapes;  ///< ports x modes
+  ContactVector load;    ///< modes
+};
+
+std::vector<RingPart::SameModes> RingPart::same_modes(const ContactModes& wave) {
+  constexpr double alike = 1e-9;  // well above what is left of equal frequencies by their computation
+  std::vector<ContactMode> modes = wave.modes();
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const ContactMode& a, const ContactMode& b) { return a.frequency < b.frequency; });
+  std::vector<SameModes> all;
+  double before = 0;
+  for (const ContactMode& mode : modes) {
+    if (all.empty() || mode.frequency - before > alike * mode.frequency)
+      all.push_back({mode.frequency, ContactMatrix(wave.contacts(), 0), {}});
+    SameModes& group = all.back();
+    const Index last = group.load.size();
+    group.shapes.conservativeResize(Eigen::NoChange, last + 1);
+    group.shapes.col(last) = mode.shape;
+    group.load.conservativeResize(last + 1);
+    group.load(last) = mode.load;
+    before = mode.frequency;
+  }
+  return all;
+}
+
+/// That which moves the ports of sector i by part Re(shape e^{-j a_m i}).
+void RingPart::add_real(Index wave, const ContactVector& shape, double part, double square, Complex load,
+                        RealModes& all) const {
+  Vector motion(count() * ports_);
+  for (Index i = 0; i < count(); ++i) {
+    const Complex turn = turns_[static_cast<std::size_t>(wave * i % count())];
+    motion.segment(i * ports_, ports_) = part * (turn * shape).real();
+  }
+  all.squares.push_back(square);
+  all.motion.push_back(std::move(motion));
+  all.load.push_back(load);
+}
+
+/// Of a wave that is its own conjugate, whose modes are real but for how they are combined.
+void RingPart::add_single(Index wave, const SameModes& modes, RealModes& all) const {
+  constexpr double negligible = 1e-10;
+  Matrix both(ports_, 2 * modes.load.size());
+  both << modes.shapes.real(), modes.shapes.imag();
+  const Eigen::JacobiSVD<Matrix> axes(both, Eigen::ComputeThinU);
+  const Vector& sizes = axes.singularValues();
+  const double part = 1 / std::sqrt(static_cast<double>(count()));
+  for (Index k = 0; k < modes.load.size(); ++k) {
+    const bool is_seen = k < sizes.size() && sizes(k) > negligible * sizes(0);
+    ContactVector shape = ContactVector::Zero(ports_);
+    Complex load = 0;
+    if (is_seen) {
+      shape.real() = sizes(k) * axes.matrixU().col(k);
+      load = (shape.transpose() * modes.shapes * modes.load).value() / (sizes(k) * sizes(k));
+    }
+    add_real(wave, shape, part, modes.frequency * modes.frequency, load, all);
+  }
+}
+
+/// Of a wave and the opposite one, `back`, whose modes move like these backwards but for how they are
+/// combined.
+void RingPart::add_pairs(Index wave, const SameModes& modes, const std::vector<SameModes>& back,
+                         RealModes& all) const {
+  constexpr double alike = 1e-8;
+  ContactVector load_back = ContactVector::Zero(modes.load.size());
+  const auto found = std::find_if(back.begin(), back.end(), [&](const SameModes& one) {
+    return std::abs(one.frequency - modes.frequency) <= alike * modes.frequency;
+  });
+  if (found != back.end() && !found->load.isZero(0)) {
+    const ContactMatrix opposite = modes.shapes.conjugate();
+    load_back = opposite.completeOrthogonalDecomposition().solve(found->shapes * found->load);
+  }
+  const double part = std::sqrt(2 / static_cast<double>(count()));
+  const double square = modes.frequency * modes.frequency;
+  const Complex j(0, 1);
+  for (Index k = 0; k < modes.load.size(); ++k) {
+    const Complex sum = (modes.load(k) + load_back(k)) / std::sqrt(2.0);
+    const Complex difference = j * (load_back(k) - modes.load(k)) / std::sqrt(2.0);
+    add_real(wave, modes.shapes.col(k), part, square, sum, all);
+    add_real(wave, j * modes.shapes.col(k), part, square, difference, all);
+  }
+}
+
+RingPart::RealModes RingPart::real_modes() const {
+  RealModes all;
+  for (Index m = 0; 2 * m <= count(); ++m) {
+    const ContactModes& wave = given_.waves[static_cast<std::size_t>(m)];
+    const bool is_single = 2 * m % count() == 0;
+    std::vector<SameModes> back;
+    if (!is_single && is_loaded_[static_cast<std::size_t>(count() - m)])
+      back = same_modes(given_.waves[static_cast<std::size_t>(count() - m)]);
+    for (const SameModes& modes : same_modes(wave))
+      is_single ? add_single(m, modes, all) : add_pairs(m, modes, back, all);
+  }
+  return all;
+}
+
+/// What the changes meet of each mode.
+Matrix RingPart::changed_rows(const RealModes& all) const {
+  Matrix rows = Matrix::Zero(std::ssize(rows_), std::ssize(all.motion));
+  for (Index k = 0; k < rows.cols(); ++k) {
+    const Vector& motion = all.motion[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < rows.rows(); ++i) {
+      for (const RingChange::Term& term : rows_[static_cast<std::size_t>(i)])
+        rows(i, k) += term.weight * motion(place(term.sector, term.port));
+    }
+  }
+  return rows;
+}
+
+/// Squares of the frequencies of the changed whole, and its modes in those of the equal sectors.
+RingPart::ChangedModes RingPart::with_changes(const RealModes& all) const {
+  constexpr double rounding = 1e-12;  // of the largest square of a frequency
+  const Index size = std::ssize(all.squares);
+  ChangedModes changed{Vector::Map(all.squares.data(), size), Matrix::Identity(size, size)};
+  if (rows_.empty() || size == 0) return changed;
+  const Matrix rows = changed_rows(all);
+  const double rate = given_.circular_frequency * given_.circular_frequency;
+  Matrix stiffness = changed.squares.asDiagonal();
+  Matrix mass = changed.shapes;
+  Index at = 0;
+  for (const RingChange& change : given_.changes) {
+    const auto own = rows.middleRows(at, std::ssize(change.of));
+    stiffness.noalias() += own.transpose() * change.stiffness * own;
+    if (change.mass.size() > 0) mass.noalias() += rate * (own.transpose() * change.mass * own);
+    at += own.rows();
+  }
+  if (const Eigen::LLT<Matrix> factors(mass); factors.info() != Eigen::Success || factors.rcond() < rounding)
+    throw std::invalid_argument("mistuning and cuts leave a part of the ring without mass");
+  const double least = -rounding * std::max(changed.squares.maxCoeff(), stiffness.diagonal().maxCoeff());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(stiffness, mass);
+  if (modes.eigenvalues()(0) < least)
+    throw std::invalid_argument("mistuning and cuts leave a part of the ring less than no stiffness");
+  changed.squares = modes.eigenvalues().unaryExpr([&](double one) { return one > -least ? one : 0; });
+  changed.shapes = modes.eigenvectors();
+  return changed;
+}
+
+ContactModes RingPart::changed_modes() const {
+  const Loss loss = given_.waves.front().loss();
+  if (!rows_.empty() && loss.modal != 0)
+    throw std::invalid_argument(
+        "modal damping is that of equal sectors, whose modes mistuning and cuts couple");
+  const RealModes all = real_modes();
+  const Index size = std::ssize(all.squares);
+  Matrix motion(std::ssize(contacts_), size);
+  for (Index k = 0; k < size; ++k) {
+    for (Index i = 0; i < motion.rows(); ++i) {
+      const auto& [sector, port] = contacts_[static_cast<std::size_t>(i)];
+      motion(i, k) = all.motion[static_cast<std::size_t>(k)](place(sector, port));
+    }
+  }
+  const ChangedModes changed = with_changes(all);
+  const ComplexMatrix shapes = (motion * changed.shapes).cast<Complex>();
+  const ComplexVector load =
+      changed.shapes.transpose().cast<Complex>() * ComplexVector::Map(all.load.data(), size);
+  std::vector<ContactMode> modes;
+  for (Index k = 0; k < size; ++k) modes.push_back({std::sqrt(changed.squares(k)), shapes.col(k), load(k)});
+  return {motion.rows(), std::move(modes), loss};
+}
+
+}  // namespace arcslip
