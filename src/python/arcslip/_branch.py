@@ -44,7 +44,7 @@ class Branch(_Columns):
     values : dict
         What `for_each` of the case sets on it.
     stop : str
-        Why it ended: "reached_end", "closed_loop", "left_range", "max_points", "interrupted", "no_start", ...
+        Why it ended: "reached_end", "closed_loop", "own_image", "left_range", "max_points", "interrupted", "no_start", ...
     explanation : str
         The same as a sentence.
     warning : str

@@ -37,7 +37,7 @@ class _Stored:
         self.stop = said["stop"]
         self.explanation = said["explanation"]
         self.warning = said.get("warning", "")
-        self.complete = said["stop"] in ("reached_end", "closed_loop")
+        self.complete = said["stop"] in ("reached_end", "left_range", "closed_loop", "own_image", "requested")
         self.seconds = said.get("seconds", 0.0)
 
     def __len__(self):
