@@ -50,8 +50,8 @@ void set_window(const PairOptions& options, SectorCase& result) {
         fmt::format("--from: expected less than --to, {}, got {}", result.eta_to, result.eta_from));
   }
   result.notes += fmt::format(
-      "# The base alone first resonates at eta = {:.10g}, with the damper held to it at {:.10g}.\n", alone,
-      held);
+      "# The base alone first resonates at eta = {:.10g}, with the damper held to it at {:.10g}{}.\n", alone,
+      held, result.speed > 0 ? ", at rest" : "");
 }
 
 /// Keeps `count` of the contacts, equally spaced.
@@ -155,10 +155,6 @@ SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, con
 }
 
 SectorCase ring_case(const PairOptions& options, const SolidRing& base, const SolidOptions& solid) {
-  if (base.turns && base.motion() != SolidRingMotion::in_plane)
-    throw SectorKindError(
-        "--speed: expected --contact radial or tangential, as what rotation adds is that of rings "
-        "in their plane");
   SectorCase result = shared(options, base.sectors);
   result.base = ring_sector(base);
   result.title = "Ring with a ring damper";

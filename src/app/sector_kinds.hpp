@@ -38,7 +38,7 @@ struct SolidOptions {
   SolidRing damper;
   Index contacts = 1;
   std::optional<double> contact_stiffness;  ///< by default of the inner half of the damper in shear
-  double speed = 0;                         ///< of rings, revolutions a second; 0: at rest
+  double speed = 0;                         ///< of both, revolutions a second; 0: at rest
 };
 
 SectorCase plate_case(const PairOptions& options, const AnnularPlate& plate, const SolidOptions& solid);

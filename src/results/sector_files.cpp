@@ -50,8 +50,9 @@ std::string load_lines(const ComplexVector& load) {
 void add_files(Files& files, const std::string& name, const FiniteSector& sector) {
   files.add(name + "_mass.mtx", write_matrix_market(sector.mass, MatrixSymmetry::symmetric));
   files.add(name + "_stiffness.mtx", write_matrix_market(sector.stiffness, MatrixSymmetry::symmetric));
-  if (sector.feels_rotation()) {
+  if (sector.gyroscopic.size() != 0)
     files.add(name + "_gyroscopic.mtx", write_matrix_market(sector.gyroscopic, MatrixSymmetry::general));
+  if (sector.stiffness_speed2.size() != 0) {
     files.add(name + "_stiffness_speed2.mtx",
               write_matrix_market(sector.stiffness_speed2, MatrixSymmetry::symmetric));
   }
@@ -67,9 +68,9 @@ std::string section(const std::string& name, const FiniteSector& sector, const S
       "\"{0}_stiffness.mtx\"\n"
       "left = \"{0}_left.txt\"\nright = \"{0}_right.txt\"\ncontact = [{2}]\n",
       name, sector.mass.rows(), fmt::join(contacts, ", "));
-  if (sector.feels_rotation())
-    text += fmt::format(
-        "gyroscopic = \"{0}_gyroscopic.mtx\"\nstiffness_speed2 = \"{0}_stiffness_speed2.mtx\"\n", name);
+  if (sector.gyroscopic.size() != 0) text += fmt::format("gyroscopic = \"{}_gyroscopic.mtx\"\n", name);
+  if (sector.stiffness_speed2.size() != 0)
+    text += fmt::format("stiffness_speed2 = \"{}_stiffness_speed2.mtx\"\n", name);
   if (damping.reference > 0) {
     text += fmt::format("damping_kind = \"viscous\"\nreference_frequency = {}\n", damping.reference);
   } else {

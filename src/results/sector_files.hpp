@@ -34,9 +34,9 @@ struct SectorCase {
   double eta_to = 0;
 };
 
-/// Writes base_mass.mtx, base_stiffness.mtx, of what turns base_gyroscopic.mtx and
-/// base_stiffness_speed2.mtx, base_left.txt, base_right.txt and base_load.txt, the same of the
-/// damper but for the load, and case.toml, all of them or none. Throws OutputError.
+/// Writes base_mass.mtx, base_stiffness.mtx, of what turns base_stiffness_speed2.mtx
+/// and, where Coriolis' forces act, base_gyroscopic.mtx, base_left.txt, base_right.txt and base_load.txt, the
+/// same of the damper but for the load, and case.toml, all of them or none. Throws OutputError.
 void write_sector_case(const std::string& folder, const SectorCase& input);
 
 }  // namespace arcslip

@@ -1,5 +1,6 @@
 #include "arcslip/sectors/annular_plate.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,15 +28,51 @@ Shapes product(const Eigen::Vector4d& radial, const Eigen::Vector4d& angular) {
   return shapes;
 }
 
+/// The stresses in the plane of a plate that turns at one radian.
+class SpinStress {
+ public:
+  explicit SpinStress(const AnnularPlate& plate) : nu_(plate.poisson_ratio), load_(plate.density / 8) {
+    Eigen::Matrix2d conditions;
+    Eigen::Vector2d loads;
+    const auto set = [&](int row, EdgeSupport edge, double r) {
+      const double r2 = r * r;
+      if (edge == EdgeSupport::clamped) {  // E u/r = s_t - nu s_r
+        conditions.row(row) << 1 - nu_, (1 + nu_) / r2;
+        loads(row) = (1 - nu_ * nu_) * load_ * r2;
+      } else {
+        conditions.row(row) << 1, -1 / r2;
+        loads(row) = (3 + nu_) * load_ * r2;
+      }
+    };
+    set(0, plate.inner_edge, plate.inner_radius);
+    set(1, plate.outer_edge, plate.outer_radius);
+    constants_ = conditions.partialPivLu().solve(loads);
+  }
+
+  double radial(double r) const {
+    return constants_(0) - constants_(1) / (r * r) - (3 + nu_) * load_ * r * r;
+  }
+  double hoop(double r) const {
+    return constants_(0) + constants_(1) / (r * r) - (1 + 3 * nu_) * load_ * r * r;
+  }
+
+ private:
+  double nu_;
+  double load_;
+  Eigen::Vector2d constants_;
+};
+
 struct ElementMatrices {
   ElementMatrix mass = ElementMatrix::Zero();
   ElementMatrix stiffness = ElementMatrix::Zero();
+  ElementMatrix stiffness_speed2 = ElementMatrix::Zero();
 };
 
 /// Element from radius `inner` over `length`, through `angle`.
 ElementMatrices element(const AnnularPlate& plate, double inner, double length, double angle) {
   const double nu = plate.poisson_ratio;
   const double bending = plate.youngs_modulus * std::pow(plate.thickness, 3) / (12 * (1 - nu * nu));
+  const SpinStress stress(plate);
   ElementMatrices matrices;
   // The rule is exact but for 1/r^3, which adds less than the elements' own error.
   for (const auto& [s, radial_weight] : gauss_points()) {
@@ -56,6 +93,11 @@ ElementMatrices element(const AnnularPlate& plate, double inner, double length, 
           bending * area *
           (sum * sum.transpose() -
            (1 - nu) * (k_r * k_t.transpose() + k_t * k_r.transpose() - 2 * k_rt * k_rt.transpose()));
+      const Shapes w_r = product(along.first, around.value);
+      const Shapes w_t = product(along.value, around.first) / r;
+      matrices.stiffness_speed2 +=
+          plate.thickness * area *
+          (stress.radial(r) * w_r * w_r.transpose() + stress.hoop(r) * w_t * w_t.transpose());
     }
   }
   return matrices;
@@ -93,9 +135,22 @@ struct Numbering {
   }
 };
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
+/// Entries of the matrices of a sector.
+struct PlateEntries {
+  using Triplets = std::vector<Eigen::Triplet<double>>;
+  Triplets mass;
+  Triplets stiffness;
+  Triplets stiffness_speed2;
 
-void assemble(const AnnularPlate& plate, const Numbering& numbering, Triplets& mass, Triplets& stiffness) {
+  static SparseMatrix matrix(const Triplets& entries, int size) {
+    SparseMatrix made(size, size);
+    made.setFromTriplets(entries.begin(), entries.end());
+    return made;
+  }
+};
+
+PlateEntries assemble(const AnnularPlate& plate, const Numbering& numbering) {
+  PlateEntries entries;
   const double length =
       (plate.outer_radius - plate.inner_radius) / static_cast<double>(plate.radial_elements);
   const double angle = two_pi / static_cast<double>(plate.sectors * plate.angular_elements);
@@ -112,12 +167,14 @@ void assemble(const AnnularPlate& plate, const Numbering& numbering, Triplets& m
       for (int a = 0; a < 16; ++a) {
         for (int b = 0; b < 16; ++b) {
           if (dof(a) < 0 || dof(b) < 0) continue;
-          mass.emplace_back(dof(a), dof(b), matrices.mass(a, b));
-          stiffness.emplace_back(dof(a), dof(b), matrices.stiffness(a, b));
+          entries.mass.emplace_back(dof(a), dof(b), matrices.mass(a, b));
+          entries.stiffness.emplace_back(dof(a), dof(b), matrices.stiffness(a, b));
+          entries.stiffness_speed2.emplace_back(dof(a), dof(b), matrices.stiffness_speed2(a, b));
         }
       }
     }
   }
+  return entries;
 }
 
 }  // namespace
@@ -125,14 +182,11 @@ void assemble(const AnnularPlate& plate, const Numbering& numbering, Triplets& m
 FiniteSector annular_plate_sector(const AnnularPlate& plate) {
   check(plate);
   const Numbering numbering(plate);
-  Triplets mass;
-  Triplets stiffness;
-  assemble(plate, numbering, mass, stiffness);
+  const PlateEntries entries = assemble(plate, numbering);
   FiniteSector sector;
-  sector.mass.resize(numbering.count, numbering.count);
-  sector.stiffness.resize(numbering.count, numbering.count);
-  sector.mass.setFromTriplets(mass.begin(), mass.end());
-  sector.stiffness.setFromTriplets(stiffness.begin(), stiffness.end());
+  sector.mass = PlateEntries::matrix(entries.mass, numbering.count);
+  sector.stiffness = PlateEntries::matrix(entries.stiffness, numbering.count);
+  if (plate.turns) sector.stiffness_speed2 = PlateEntries::matrix(entries.stiffness_speed2, numbering.count);
   sector.load = ComplexVector::Zero(numbering.count);
   const int line_dofs = numbering.count / static_cast<int>(plate.angular_elements + 1);
   for (int k = 0; k < line_dofs; ++k) {

@@ -69,8 +69,7 @@ void check(const SolidRing& ring) {
   const bool shape = ring.radius > 0 && ring.width > 0 && ring.height > 0 && ring.height < 2 * ring.radius;
   const bool material =
       ring.youngs_modulus > 0 && ring.density > 0 && ring.poisson_ratio > -1 && ring.poisson_ratio < 0.5;
-  const bool may_turn = !ring.turns || ring.motion() == SolidRingMotion::in_plane;
-  if (!shape || !material || !may_turn || ring.sectors < 1 || ring.elements < 1) {
+  if (!shape || !material || ring.sectors < 1 || ring.elements < 1) {
     throw std::invalid_argument("ring_sector: a quantity of the ring is out of its range");
   }
 }
@@ -94,6 +93,7 @@ FiniteSector ring_sector(const SolidRing& ring) {
   Matrix stiffness = mass;
   Matrix gyroscopic = mass;
   Matrix stretched = mass;
+  Matrix slid = mass;
   for (const auto& [s, weight] : gauss_points()) {
     const Hermite cubics(s, angle);
     const Quartic quartics(s, angle);
@@ -106,12 +106,16 @@ FiniteSector ring_sector(const SolidRing& ring) {
     mass += length * weights.first_mass * first * first.transpose() +
             length * weights.second_mass * second * second.transpose();
     const Shapes turn = (cubic(cubics.first) - second) / ring.radius;
+    const Shapes slope = cubic(cubics.first) / ring.radius;
     const double tension = weights.first_mass * ring.radius * ring.radius;
     gyroscopic += 2 * length * weights.first_mass * (second * first.transpose() - first * second.transpose());
+    slid += length * tension * slope * slope.transpose();
     stretched += length * tension * (strain.first * strain.first.transpose() + turn * turn.transpose());
   }
   const Index contact = ring.contact == RingDirection::tangential ? 2 : 0;
   if (!ring.turns) return chain_sector(mass, stiffness, node_dofs, ring.elements, contact);
+  if (ring.motion() == SolidRingMotion::out_of_plane)
+    return chain_sector(mass, stiffness, node_dofs, ring.elements, contact, {}, slid);
   return chain_sector(mass, stiffness, node_dofs, ring.elements, contact, gyroscopic, stretched - mass);
 }
 

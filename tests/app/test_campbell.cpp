@@ -107,18 +107,26 @@ TEST_CASE("What has no Campbell diagram is refused in one line", "[rotation]") {
   CHECK_THAT(wrong.err, ContainsSubstring("two speeds, 0 <= low < high"));
 }
 
-TEST_CASE("Rings that turn are written with their matrices, and run", "[rotation]") {
+TEST_CASE("Rings and plates that turn are written with their matrices, and run", "[rotation]") {
   const TemporaryFolder folder;
-  const std::string sector =
-      "sector ring --elements 3 --ring-elements 3 --speed 40 -o '" + folder.path("r") + "' ";
-  const Outcome flat = arcslip_program(sector + "--contact axial");
-  CHECK(flat.status == 1);
-  CHECK_THAT(flat.err, ContainsSubstring("--speed: expected --contact radial or tangential"));
-  const Outcome made = arcslip_program(sector + "--contact radial --wave-number 3");
-  CAPTURE(made.err);
-  REQUIRE(made.status == 0);
-  CHECK_THAT(read(folder.path("r/case.toml")), ContainsSubstring("gyroscopic = \"base_gyroscopic.mtx\""));
-  CHECK(arcslip_program("run '" + folder.path("r/case.toml") + "' --set branch.for_each.preload=[1.0] -o '" +
-                        folder.path("o") + "'")
-            .status == 0);
+  const auto make = [&](const std::string& options) {
+    const Outcome made =
+        arcslip_program("sector " + options + " --speed 40 --wave-number 3 -o '" + folder.path("r") + "'");
+    CAPTURE(made.err);
+    REQUIRE(made.status == 0);
+    CHECK_THAT(read(folder.path("r/case.toml")), ContainsSubstring("\nspeed = 40\n"));
+    CHECK(arcslip_program("run '" + folder.path("r/case.toml") +
+                          "' --set branch.for_each.preload=[1.0] -o '" + folder.path("o") + "'")
+              .status == 0);
+    return read(folder.path("r/case.toml"));
+  };
+  const std::string ring = "ring --elements 3 --ring-elements 3 --contact ";
+  CHECK_THAT(make(ring + "radial"), ContainsSubstring("gyroscopic = \"base_gyroscopic.mtx\""));
+  for (const std::string& flat :
+       {ring + "axial", std::string("plate --radial-elements 3 --angular-elements 3 "
+                                    "--ring-elements 3")}) {
+    const std::string text = make(flat);  // along the axis Coriolis' forces do not act
+    CHECK_THAT(text,
+               !ContainsSubstring("gyroscopic") && ContainsSubstring("\"damper_stiffness_speed2.mtx\""));
+  }
 }

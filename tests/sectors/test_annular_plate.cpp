@@ -136,6 +136,115 @@ TEST_CASE("A free plate resists no rigid motion: w = 1, and w = r cos theta but 
   CHECK(energy < std::pow(std::numbers::pi / 6, 4) / 720 * tilt.cwiseAbs2().dot(diagonal));
 }
 
+TEST_CASE("A free disk that turns has the frequencies of Lamb and Southwell's membrane") {
+  // (w/Omega)^2 = ((n + 2 s)(n + 2 s + 2)(3 + nu) - n^2 (1 + 3 nu))/8 of n diameters and s circles, without a
+  // hole.
+  AnnularPlate plate = disk(16, 12, 4);
+  plate.inner_radius = 0.01 * plate.outer_radius;
+  plate.inner_edge = EdgeSupport::free;
+  plate.turns = true;
+  FiniteSector sector = annular_plate_sector(plate);
+  sector.stiffness = sector.stiffness_speed2;
+  const double nu = plate.poisson_ratio;
+  struct Example {
+    int n, circles;
+  };
+  for (const auto& [n, circles] :
+       {Example{0, 1}, Example{1, 0}, Example{1, 1}, Example{2, 0}, Example{3, 0}}) {
+    const double m = n + 2 * circles;
+    const double expected = (m * (m + 2) * (3 + nu) - n * n * (1 + 3 * nu)) / 8;
+    CAPTURE(n, circles);
+    CHECK_THAT(testing::squared_frequencies(sector, n, 16)(circles), WithinRel(expected, 1e-3));
+  }
+}
+
+TEST_CASE("A free plate that turns and leans stays where it is in space, whatever its hole") {
+  AnnularPlate plate = disk(12, 3, 2);
+  plate.inner_edge = EdgeSupport::free;
+  plate.turns = true;
+  FiniteSector sector = annular_plate_sector(plate);
+  CHECK(sector.gyroscopic.size() == 0);
+  const double omega = 2000;
+  sector.stiffness += omega * omega * sector.stiffness_speed2;
+  // Of the plate's own stiffness the elements' error in r cos theta is left.
+  CHECK_THAT(std::sqrt(testing::squared_frequencies(sector, 1, 12)(0)), WithinRel(omega, 1e-4));
+}
+
+TEST_CASE("The stresses of a plate that turns are those of least energy, with each support of its edges") {
+  const auto inner = GENERATE(EdgeSupport::clamped, EdgeSupport::supported);
+  const auto outer = GENERATE(EdgeSupport::free, EdgeSupport::clamped);
+  AnnularPlate plate = disk(90, 2, 1);
+  plate.inner_edge = inner;
+  plate.outer_edge = outer;
+  plate.turns = true;
+  // u = r^k by least energy, E/(1 - nu^2) (u'^2 + 2 nu u' u/r + u^2/r^2)/2 - rho r u, times what holds the
+  // edges.
+  const double a = plate.inner_radius;
+  const double b = plate.outer_radius;
+  const double nu = plate.poisson_ratio;
+  constexpr int count = 12;
+  using Terms = Eigen::Matrix<double, count, 1>;
+  const auto radial_motion = [&](double r) {
+    Terms value;
+    Terms slope;
+    const double x = (2 * r - a - b) / (b - a);
+    for (int k = 0; k < count; ++k) {
+      const double p = inner == EdgeSupport::clamped ? r - a : 1;
+      const double q = outer == EdgeSupport::clamped ? b - r : 1;
+      const double p1 = inner == EdgeSupport::clamped ? 1 : 0;
+      const double q1 = outer == EdgeSupport::clamped ? -1 : 0;
+      const double power = std::pow(x, k);
+      value(k) = p * q * power;
+      slope(k) = (p1 * q + p * q1) * power + (k > 0 ? p * q * k * std::pow(x, k - 1) * 2 / (b - a) : 0);
+    }
+    return std::pair(value, slope);
+  };
+  constexpr int pieces = 400;
+  const auto integral = [&](const auto& add) {
+    for (int i = 0; i < pieces; ++i) {
+      for (const double s : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
+        const double r = a + (b - a) * (i + 0.5 + 0.5 * s) / pieces;
+        add(r, 0.5 * (b - a) / pieces * r);
+      }
+    }
+  };
+  Eigen::Matrix<double, count, count> energy = Eigen::Matrix<double, count, count>::Zero();
+  Terms load = Terms::Zero();
+  integral([&](double r, double area) {
+    const auto [value, slope] = radial_motion(r);
+    energy += area * (slope * slope.transpose() + value * value.transpose() / (r * r) +
+                      nu / r * (slope * value.transpose() + value * slope.transpose()));
+    load += area * (1 - nu * nu) * plate.density * r * value;  // over E
+  });
+  const Terms motion = energy.ldlt().solve(load);
+  // The work of these stresses on a wave of n = 3 that rises to 1 halfway and falls again, a cubic on each
+  // half.
+  const int n = 3;
+  double work = 0;
+  integral([&](double r, double area) {
+    const auto [value, slope] = radial_motion(r);
+    const double stretch = slope.dot(motion);
+    const double round = value.dot(motion) / r;
+    const double half = 0.5 * (b - a);
+    const double s = r < a + half ? (r - a) / half : (b - r) / half;
+    const double w = s * s * (3 - 2 * s);
+    const double w_r = 6 * s * (1 - s) / half;
+    work += area / (1 - nu * nu) * plate.thickness *
+            ((stretch + nu * round) * w_r * w_r + (round + nu * stretch) * n * n * w * w / (r * r));
+  });
+  FiniteSector sector = annular_plate_sector(plate);
+  sector.stiffness = sector.stiffness_speed2;
+  SectorReduction reduction(sector);
+  reduction.set_forward(forward(n, plate.sectors));
+  ComplexVector wave = ComplexVector::Zero(reduction.size());
+  const Index node = inner == EdgeSupport::clamped ? 0 : 2;  // slopes of the supported edge stand before it
+  wave(node) = 1;
+  wave(node + 2) = Complex(0, -n);
+  // (n angle)^4/720 is the error of the cubics round a sector.
+  CHECK_THAT(wave.dot(reduction.stiffness() * wave).real(),
+             WithinRel(two_pi / static_cast<double>(plate.sectors) * work, 1e-5));
+}
+
 TEST_CASE("Supports of a plate hold the dofs of their edge and no others") {
   AnnularPlate plate = disk(12, 3, 2);
   const FiniteSector sector = annular_plate_sector(plate);

@@ -10,6 +10,15 @@
 // in elements with cubic Hermite polynomials of r times such of theta, which conform. Their dofs, four to a
 // node, are w, w_r, w_theta and w_r,theta: they turn with the sector, so that its boundaries pair as they
 // are. Frequencies converge as the fourth power of the element's length, from above.
+//
+// Of a plate that turns about its axis at Omega the stresses in its plane [Timoshenko and Goodier, Theory of
+// elasticity, article 32]
+//
+//   s_r = A - B/r^2 - (3 + nu)/8 rho Omega^2 r^2,   s_t = A + B/r^2 - (1 + 3 nu)/8 rho Omega^2 r^2
+//
+// stiffen it by h int s_r w_r^2 + s_t (w_t/r)^2 r dr dtheta [Lamb and Southwell, Proceedings of the Royal
+// Society A 99 (1921)]. s_r = 0 where an edge is free or supported, which slides in its plane, and a clamped
+// one keeps its radius. Motion along the axis meets neither Coriolis' force nor the centrifugal one.
 
 #include "arcslip/sectors/finite_sector.hpp"
 
@@ -33,6 +42,7 @@ struct AnnularPlate {
   Index sectors = 1;
   Index radial_elements = 1;
   Index angular_elements = 1;  ///< of one sector
+  bool turns = false;          ///< whether what rotation adds to the stiffness is wanted
 };
 
 /// The sector, checked. Nodes count along the radius from inside, then from left to right; dofs that the

@@ -18,7 +18,8 @@
 //
 //   (e^2 + (u_t - v)^2/R^2)/2
 //
-// in the plane: K_2 is that times the tension less the mass, G couples u and v.
+// in the plane: K_2 is that times the tension less the mass, G couples u and v. Out of it the tension
+// stretches by w_t^2/(2 R^2), and what p adds is of the square of the section's size over R.
 
 #include "arcslip/sectors/finite_sector.hpp"
 
@@ -41,7 +42,7 @@ struct SolidRing {
   RingDirection contact = RingDirection::axial;
   Index sectors = 1;
   Index elements = 1;  ///< of one sector
-  bool turns = false;  ///< whether what rotation adds is wanted, of motion in the plane
+  bool turns = false;  ///< whether what rotation adds is wanted
 
   /// What the contact moves; the other motion is not coupled with it.
   SolidRingMotion motion() const {
@@ -56,7 +57,7 @@ double torsion_constant(double width, double height);
 /// The sector, checked. Dofs of a node are u, u_theta, v in the plane and w, w_theta, p out of it; they turn
 /// with the sector. Contacts and outputs are those in the direction of the contact of each node but the last.
 /// Throws std::invalid_argument unless the quantities are positive, height < 2 radius, -1 < poisson_ratio <
-/// 1/2 and the counts at least 1, and of rings that turn unless they move in their plane.
+/// 1/2 and the counts at least 1.
 FiniteSector ring_sector(const SolidRing& ring);
 
 }  // namespace arcslip

@@ -44,6 +44,7 @@ Examples
   arcslip sector plate --radial-elements 8 --angular-elements 4 -o coarse_rotor
   arcslip sector ring --contact tangential --wave-number 4 -o ring
   arcslip sector ring --contact radial --speed 50 -o turning_ring
+  arcslip sector plate --speed 100 -o turning_rotor
   arcslip sector beams --wave-number 1 -o beams   figure 8 from matrices
   arcslip sector plate --help                     all of a kind's options, with what they are if not given)";
 
@@ -120,6 +121,9 @@ void add_solid(CLI::App* app, SectorOptions& options) {
                   "N/m, of each; of the inner half of the ring in shear if not given")
       ->type_name("X")
       ->check(CLI::PositiveNumber);
+  positive(app, "--speed", options.solid.speed,
+           "Of both, revolutions a second along the numbers of the sectors")
+      ->default_str("");
 }
 
 CLI::App* add_plate(CLI::App* sector, SectorOptions& options) {
@@ -161,9 +165,6 @@ void add_rings(CLI::App* sector, SectorOptions& options) {
   app->add_option("--contact", options.ring.contact, "Direction in which it rubs: radial, tangential, axial")
       ->type_name("DIRECTION")
       ->transform(CLI::CheckedTransformer(directions));
-  positive(app, "--speed", options.solid.speed,
-           "Of both, revolutions a second along the numbers of the sectors; of rings in their plane")
-      ->default_str("");
   add_ring(app, options.ring, "--", "the base");
   add_ring(app, options.solid.damper, "--ring-", "the damper");
 }
@@ -220,7 +221,7 @@ SectorCase make(const SectorOptions& given) {
   const bool plate = options.plates->parsed();
   damper.sectors = plate ? options.plate.sectors : options.ring.sectors;
   damper.contact = plate ? RingDirection::axial : options.ring.contact;
-  damper.turns = options.ring.turns = !plate && options.solid.speed > 0;
+  damper.turns = options.ring.turns = options.plate.turns = options.solid.speed > 0;
   return plate ? plate_case(options.pair, options.plate, options.solid)
                : ring_case(options.pair, options.ring, options.solid);
 }
