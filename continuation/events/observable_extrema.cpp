@@ -1,9 +1,18 @@
 // Extrema of the tracked observables.
 
+#include <algorithm>
+
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
 namespace {
+
+/// Where a slope vanishes that is a line between the ends of a step, aside from both.
+Zero where_line_vanishes(double from, double to, double upper) {
+  constexpr double off_ends = 0.01;  // of the step
+  const double part = from * to < 0 ? from / (from - to) : 0;
+  return {Zero::State::found, upper * std::clamp(part, off_ends, 1 - off_ends)};
+}
 
 /// Pairs of them are left to the step, which has to resolve the observable.
 void search_extrema(StepSearch& step) {
@@ -12,8 +21,11 @@ void search_extrema(StepSearch& step) {
     const std::size_t slope = step.readings.slope(i);
     const int before = step.signs.observables[m];
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
+    const bool changes = before * sign_of(after) < 0;
+    const bool is_rough = changes && step.tolerances.extremum >= 1;
     step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
-              step.turn(slope, before, before * sign_of(after) < 0));
+              is_rough ? where_line_vanishes(step.stepper.step().from[m].slope, after, step.upper())
+                       : step.turn(slope, before, changes));
   }
 }
 

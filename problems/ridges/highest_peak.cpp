@@ -40,13 +40,16 @@ double slope_of(const EnvelopePiece& piece, double x) {
 
 }  // namespace
 
-HighestPeak::HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted)
-    : responses_(responses) {
+HighestPeak::HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted,
+                         Looks looks)
+    : responses_(responses), looks_(looks) {
   const double length = std::log(to / from);
   const double count = std::max(2.0, std::ceil(per_decade * length / std::numbers::ln10));
+  const double stride = looks == Looks::followed ? 2 : 1;
   add(std::log(to), to);
-  for (double i = count - 1; i > 0; --i) add(std::log(from) + length * i / count);
+  for (double i = count - stride; i > 0; i -= stride) add(std::log(from) + length * i / count);
   add(std::log(from), from);
+  for (double i = count - 1; i > 0; --i) add(std::log(from) + length * i / count);
   for (const double value : wanted) add(std::log(value), value);
 }
 
@@ -64,14 +67,22 @@ double HighestPeak::value(double x) const {
 
 const PeakSample& HighestPeak::add(double x) { return add(x, std::exp(x)); }
 
+PeakSample HighestPeak::whole_sample(double x, double value) {
+  PeakSample sample{x, value, responses_.at(value), 0};
+  if (sample.peaks.empty()) throw std::runtime_error("there is no peak in the window");
+  sample.top = highest_of(sample.peaks);
+  return sample;
+}
+
 const PeakSample& HighestPeak::add(double x, double value) {
   const std::size_t place = position(x);
   if (place < samples_.size() && samples_[place].x == x) return samples_[place];
   if (samples_.size() >= most)
     throw std::runtime_error("the preload with the lowest peak is not settled by 400 responses");
-  PeakSample sample{x, value, responses_.at(value), 0};
-  if (sample.peaks.empty()) throw std::runtime_error("there is no peak in the window");
-  sample.top = highest_of(sample.peaks);
+  const bool may_follow = looks_ == Looks::followed && place > 0 && place < samples_.size();
+  std::optional<PeakSample> followed;
+  if (may_follow) followed = followed_peaks(responses_, samples_[place - 1], samples_[place], x, value);
+  PeakSample sample = followed ? *std::move(followed) : whole_sample(x, value);
   return *samples_.insert(samples_.begin() + static_cast<std::ptrdiff_t>(place), std::move(sample));
 }
 
@@ -287,6 +298,21 @@ bool HighestPeak::settle_flat(Lowest& lowest) {
   return true;
 }
 
+/// Whether the response there was looked at whole, and those on both sides of what seems a corner, which a
+/// peak that was not followed may have made; from now on they are.
+bool HighestPeak::is_confirmed(const Lowest& lowest) {
+  const std::size_t at = position(lowest.x);
+  const std::size_t beside = lowest.kind == OptimumKind::corner ? 1 : 0;
+  bool all = true;
+  for (std::size_t i = at - std::min(at, beside); i <= std::min(at + beside, samples_.size() - 1); ++i) {
+    PeakSample& known = samples_[i];
+    if (known.is_whole) continue;
+    known = whole_sample(known.x, known.value);
+    all = false;
+  }
+  return all;
+}
+
 HighestPeak::Lowest HighestPeak::lowest(double precise) {
   Lowest lowest;
   // On the way to one minimum a lower one may show, in a valley between samples.
@@ -294,7 +320,9 @@ HighestPeak::Lowest HighestPeak::lowest(double precise) {
   for (int i = 0; i < most_valleys; ++i) {
     bound();
     if (!settle_flat(lowest)) settle(lowest);
-    if (sample(least()).highest().log_height >= sample(lowest.x).highest().log_height - settled) break;
+    const bool is_least =
+        sample(least()).highest().log_height >= sample(lowest.x).highest().log_height - settled;
+    if (is_least && is_confirmed(lowest)) break;
   }
   const double level = sample(lowest.x).highest().log_height + std::numbers::ln2;
   lowest.low = leaves(lowest.x, level, -1, precise);

@@ -104,15 +104,15 @@ class ResponsePeaks::Slopes {
 ResponsePeaks::ResponsePeaks(PeakedResponse response)
     : response_(std::move(response)),
       along_(continuation::index_of(response_.problem->parameter_names(), response_.along)),
-      across_(continuation::index_of(response_.problem->parameter_names(), response_.across)) {
+      across_(continuation::index_of(response_.problem->parameter_names(), response_.across)),
+      objective_(
+          continuation::index_of(continuation::observable_names(*response_.problem), response_.objective)) {
   const std::vector<continuation::Observable> all = response_.problem->observables();
-  const Index objective =
-      continuation::index_of(continuation::observable_names(*response_.problem), response_.objective);
-  const continuation::Observable& wanted = all[static_cast<std::size_t>(objective)];
+  const continuation::Observable& wanted = all[static_cast<std::size_t>(objective_)];
   if (!wanted.has_gradient || wanted.period > 0)
     throw std::invalid_argument(fmt::format("ResponsePeaks: {} has no {}", response_.objective,
                                             wanted.has_gradient ? "height" : "gradient"));
-  slopes_ = std::make_shared<Slopes>(*response_.problem, along_, across_, objective);
+  slopes_ = std::make_shared<Slopes>(*response_.problem, along_, across_, objective_);
   response_.options.stop_at.clear();
   response_.options.stop_after.clear();
   response_.options.extrema_of = {response_.objective};
@@ -131,16 +131,17 @@ const Guess& ResponsePeaks::start(double across) {
       (place != starts_.begin() && across / value(*(place - 1)) < value(*place) / across))
     near = place - 1;
   constexpr double beside = 1e-6;  // too near for steps between the two
-  if (std::abs(across / value(*near) - 1) < beside) {
+  constexpr double same = 1e-3;    // of a solution: what hardly depends on it is the same one
+  const bool is_beside = std::abs(across / value(*near) - 1) < beside;
+  if (is_beside || response_.is_polished) {
     Guess guess = *near;
     guess.parameters(across_) = across;
     const continuation::Solution solution = continuation::solve(*response_.problem, guess);
     guess.unknowns = solution.unknowns;
-    const double on_border = response_.options.tolerances.both_sides;
-    if (solution.outcome == continuation::Correction::converged &&
-        crossed_border(*response_.problem, guess.unknowns, guess.parameters, guess.regime, on_border) < 0) {
+    const bool is_same =
+        is_beside || (guess.unknowns - near->unknowns).norm() <= same * near->unknowns.norm();
+    if (solution.outcome == continuation::Correction::converged && is_same && is_inside(guess))
       return *starts_.insert(place, std::move(guess));
-    }
   }
   continuation::TraceOptions options = response_.options;
   options.parameter = response_.across;
@@ -157,22 +158,25 @@ const Guess& ResponsePeaks::start(double across) {
   return *starts_.insert(place, guess_at(way.points.back()));
 }
 
-Branch ResponsePeaks::trace_over(double across, double longest) {
+Branch ResponsePeaks::trace_over(double across, double longest, bool is_rough) {
   continuation::TraceOptions options = response_.options;
   options.parameter = response_.along;
   options.from = response_.from;
   options.to = response_.to;
   options.max_step = longest;
+  if (is_rough) options.tolerances.extremum = 1;
   ++traced_;
   return trace(*response_.problem, start(across), options);
 }
 
-Branch ResponsePeaks::response_at(double across) {
-  Branch branch = trace_over(across, response_.options.max_step);
+Branch ResponsePeaks::response_at(double across) { return traced_at(across, false); }
+
+Branch ResponsePeaks::traced_at(double across, bool is_rough) {
+  Branch branch = trace_over(across, response_.options.max_step, is_rough);
   if (branch.stop == continuation::Stop::time_limit || branch.stop == continuation::Stop::interrupted)
     throw continuation::Unfinished(branch.stop, branch.explanation);
   constexpr double finer = 0.2;  // of the longest step: other points, so that a chance is not met again
-  if (!branch.complete()) branch = trace_over(across, finer * response_.options.max_step);
+  if (!branch.complete()) branch = trace_over(across, finer * response_.options.max_step, is_rough);
   if (!branch.complete() || branch.points.back().parameters(along_) != response_.to) {
     throw std::runtime_error(fmt::format("the response at {} = {:.10g} could not be traced: {}",
                                          response_.across, across, branch.explanation));
@@ -181,9 +185,51 @@ Branch ResponsePeaks::response_at(double across) {
 }
 
 std::vector<ResponsePeak> ResponsePeaks::at(double across) {
-  const Branch branch = response_at(across);
-  const Edge first = edge(branch.points.front());
-  const Edge last = edge(branch.points.back());
+  if (!response_.is_polished) return peaks_of(traced_at(across, false));
+  if (std::optional<std::vector<ResponsePeak>> peaks = polished(traced_at(across, true)))
+    return *std::move(peaks);
+  return peaks_of(traced_at(across, false));
+}
+
+/// Whether the height rises from a point to a peak as to one that is level there, with no other between.
+bool ResponsePeaks::rises_to(const BranchPoint& point, const ResponsePeak& peak) const {
+  constexpr double unlike = 0.2;    // of what the slope at the point tells
+  constexpr double nothing = 1e-9;  // of ln height
+  continuation::Gradient gradient{Vector::Zero(point.unknowns.size()), Vector::Zero(point.parameters.size())};
+  const double height =
+      response_.problem->observe(point.unknowns, point.parameters, point.regime, objective_, gradient);
+  const double per_place = point.tangent(point.tangent.size() - 1);
+  const double slope = continuation::rate(gradient, along_, point.tangent) / (height * per_place);
+  const double expected = 0.5 * slope * (peak.place - point.parameters(along_));
+  const double risen = peak.log_height - std::log(height);
+  return std::abs(risen - expected) <= unlike * std::abs(risen) + nothing;
+}
+
+/// The peaks next to those that were located roughly, with the ends; none where one is not found there.
+std::optional<std::vector<ResponsePeak>> ResponsePeaks::polished(const Branch& branch) {
+  std::vector<ResponsePeak> peaks;
+  const auto& points = branch.points;
+  const Edge first = edge(guess_at(points.front()));
+  const Edge last = edge(guess_at(points.back()));
+  if (first.slope < 0) peaks.push_back(first.peak);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    if (points[i].type != PointType::peak) continue;
+    const std::optional<ResponsePeak> found = next_to(guess_at(points[i]), ResponsePeakSite::smooth);
+    const auto leads_there = [&](const BranchPoint& point) { return rises_to(point, *found); };
+    if (!found || !std::all_of(points.begin() + static_cast<std::ptrdiff_t>(i) - 1,
+                               points.begin() + static_cast<std::ptrdiff_t>(i) + 2, leads_there))
+      return std::nullopt;
+    peaks.push_back(*found);
+  }
+  if (last.slope > 0) peaks.push_back(last.peak);
+  if (peaks.empty()) return std::nullopt;
+  return peaks;
+}
+
+/// Those of a branch on whose points they lie.
+std::vector<ResponsePeak> ResponsePeaks::peaks_of(const Branch& branch) {
+  const Edge first = edge(guess_at(branch.points.front()));
+  const Edge last = edge(guess_at(branch.points.back()));
   std::vector<ResponsePeak> peaks;
   if (first.slope < 0) peaks.push_back(first.peak);
   for (std::size_t i = 1; i + 1 < branch.points.size(); ++i) {
@@ -195,12 +241,84 @@ std::vector<ResponsePeak> ResponsePeaks::at(double across) {
   return peaks;
 }
 
-ResponsePeaks::Edge ResponsePeaks::edge(const BranchPoint& point) {
-  const Guess at = guess_at(point);
+ResponsePeaks::Edge ResponsePeaks::edge(const Guess& at) {
   const Slopes::Values slopes = slopes_->at(at);
-  return {{ResponsePeakSite::edge, at, point.parameters(along_), slopes.log_height,
-           slopes.across * point.parameters(across_)},
+  return {{ResponsePeakSite::edge, at, at.parameters(along_), slopes.log_height,
+           slopes.across * at.parameters(across_)},
           slopes.along};
+}
+
+bool ResponsePeaks::is_inside(const Guess& at) const {
+  return crossed_border(*response_.problem, at.unknowns, at.parameters, at.regime,
+                        response_.options.tolerances.both_sides) < 0;
+}
+
+std::optional<ResponsePeak> ResponsePeaks::edge_next_to(const Guess& guess) {
+  const continuation::Solution solution = continuation::solve(*response_.problem, guess);
+  const Guess at{solution.unknowns, guess.parameters, guess.regime, {}};
+  if (solution.outcome != continuation::Correction::converged || !is_inside(at)) return std::nullopt;
+  const Edge found = edge(at);
+  const bool is_first = guess.parameters(along_) == response_.from;
+  return found.slope * (is_first ? -1 : 1) > 0 ? std::optional(found.peak) : std::nullopt;
+}
+
+/// Where the height is level, by secants along the branch, with the branch's direction there.
+std::optional<Guess> ResponsePeaks::level_next_to(const Guess& guess, Vector& direction) const {
+  constexpr int most = 12;           // corrections
+  constexpr double farthest = 0.05;  // at once, in the problem's scale
+  constexpr double settled = 1e-7;   // of the last correction but one, which leaves far less
+  const continuation::Problem& problem = *response_.problem;
+  continuation::Corrector corrector(problem, along_, {});
+  continuation::CurvePoint origin = corrector.make_point();
+  origin.unknowns = guess.unknowns;
+  origin.parameters = guess.parameters;
+  origin.regime = guess.regime;
+  corrector.set_scale(origin);
+  const Vector by_parameter = Vector::Unit(problem.size() + 1, problem.size());
+  if (corrector.linearise(origin, by_parameter) != continuation::Correction::converged) return std::nullopt;
+  const Vector forward = corrector.direction().normalized();
+  continuation::Gradient gradient{Vector::Zero(problem.size()), Vector::Zero(origin.parameters.size())};
+  continuation::CurvePoint at = origin;
+  double bend =
+      -static_cast<double>(problem.size());  // d2L/ds2 of a single resonance, whose u is on a circle
+  double last_slope = 0;
+  double last_move = 0;
+  bool is_settled = false;
+  for (int i = 0; i < most; ++i) {
+    corrector.difference(at, origin, direction);
+    const double way = forward.dot(direction);
+    if (corrector.correct(at, origin, forward, way, is_settled) != continuation::Correction::converged)
+      return std::nullopt;
+    direction = corrector.direction();
+    if (is_settled) {
+      direction = direction.cwiseProduct(origin.scale);
+      return Guess{at.unknowns, at.parameters, at.regime, {}};
+    }
+    const double height = problem.observe(at.unknowns, at.parameters, at.regime, objective_, gradient);
+    const double slope = continuation::rate(gradient, along_, origin.scale, direction) / height;
+    if (i > 0) bend = (slope - last_slope) / last_move;
+    if (!(height > 0 && bend < 0)) return std::nullopt;
+    const double move = std::clamp(-slope / bend, -farthest, farthest);
+    is_settled = std::abs(move) <= settled;
+    last_slope = slope;
+    last_move = move;
+    at.unknowns += move * direction.head(problem.size()).cwiseProduct(origin.scale.head(problem.size()));
+    at.parameters(along_) += move * direction(problem.size()) * origin.scale(problem.size());
+  }
+  return std::nullopt;
+}
+
+std::optional<ResponsePeak> ResponsePeaks::next_to(const Guess& guess, ResponsePeakSite site) {
+  if (site == ResponsePeakSite::corner) return std::nullopt;
+  if (site == ResponsePeakSite::edge) return edge_next_to(guess);
+  Vector direction(response_.problem->size() + 1);
+  const std::optional<Guess> at = level_next_to(guess, direction);
+  if (!at || !is_inside(*at)) return std::nullopt;
+  const double place = at->parameters(along_);
+  if (!(place > response_.from && place < response_.to)) return std::nullopt;
+  const Slopes::Values slopes = slopes_->at(*at, &direction);
+  return ResponsePeak{ResponsePeakSite::smooth, *at, place, slopes.log_height,
+                      slopes.across * at->parameters(across_)};
 }
 
 /// A solution next to a point, forwards (way = 1) or backwards (-1) along the response: reached from the

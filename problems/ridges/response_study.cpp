@@ -142,11 +142,11 @@ PreloadStudy study_response(ResponsePeaks& responses, const PreloadRange& range,
                             const StudiedContacts& contacts, const StudyPrecision& precision) {
   PreloadStudy study;
   try {
-    HighestPeak highest(responses, range.from, range.to, range.stop_at);
+    HighestPeak highest(responses, range.from, range.to, range.stop_at, precision.looks);
     const HighestPeak::Lowest lowest = highest.lowest(precision.range);
     constexpr std::size_t most_samples = 300;
     if (precision.envelope > 0) highest.refine(precision.envelope, most_samples);
-    highest.settle_exchanges();
+    if (precision.looks == HighestPeak::Looks::whole) highest.settle_exchanges();
     Readings readings(*responses.response().problem, contacts);
     study.branches = Ridges(highest, range, lowest).branches(readings);
     const PeakSample& sample = highest.sample(lowest.x);

@@ -31,6 +31,7 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
     rows_.insert(rows_.end(), change.of.begin(), change.of.end());
   for (Index i = 0; i < count() * given_.contacts; ++i)
     contacts_.push_back({i / given_.contacts, i % given_.contacts});
+  for (Index i = 0; i < count() * ports_; ++i) places_.push_back({i / ports_, i % ports_});
 }
 
 /// The blocks of all lags between sectors, by a transformation over the waves of all entries at once.
@@ -85,6 +86,21 @@ RingPart::Stiffness RingPart::stiffness(double eta) const {
   return all;
 }
 
+/// D X, change by change.
+ComplexMatrix RingPart::times_changes(const ComplexMatrix& blocks, const ComplexMatrix& x) const {
+  const auto is_single = [](const RingChange& change) { return change.of.size() == 1; };
+  if (std::all_of(given_.changes.begin(), given_.changes.end(), is_single))
+    return blocks.diagonal().asDiagonal() * x;
+  ComplexMatrix product(x.rows(), x.cols());
+  Index at = 0;
+  for (const RingChange& change : given_.changes) {
+    const Index own = std::ssize(change.of);
+    product.middleRows(at, own) = blocks.block(at, at, own, own).lazyProduct(x.middleRows(at, own));
+    at += own;
+  }
+  return product;
+}
+
 ComplexMatrix RingPart::times_rows(const Tuned& tuned, bool by_eta, const Places& places) const {
   ComplexMatrix product = ComplexMatrix::Zero(std::ssize(places), std::ssize(rows_));
   for (Index k = 0; k < product.cols(); ++k) {
@@ -125,8 +141,8 @@ ComplexVector RingPart::of_rows(const ComplexMatrix& motions) const {
 
 RingPart::Rows RingPart::rows(const Solved& all, const Places& places) const {
   Rows found{times_rows(all.tuned, false, places), times_rows(all.tuned, true, places), {}, {}, {}};
-  const ComplexMatrix met = all.changes.value * found.left.transpose();
-  found.held.noalias() = all.factors.solve(met).transpose();
+  found.held.noalias() =
+      all.factors.solve(times_changes(all.changes.value, found.left.transpose())).transpose();
   found.rate = found.left_eta;
   found.rate.noalias() -= 0.5 * (found.held * all.between_eta);
   if (all.changes.by_eta.isZero(0)) return found;
@@ -145,7 +161,7 @@ std::shared_ptr<const RingPart::Solved> RingPart::solved(double eta) const {
     all->changes = stiffness(eta);
     all->between = between_rows(all->tuned, false);
     all->between_eta = between_rows(all->tuned, true);
-    ComplexMatrix turned = all->changes.value * all->between;
+    ComplexMatrix turned = times_changes(all->changes.value, all->between);
     turned.diagonal().array() += 1.0;
     all->factors.compute(turned);
     all->contacts = rows(*all, contacts_);
@@ -182,8 +198,13 @@ ContactReceptance RingPart::at(double eta, double load, Index port) const {
   auto compliance = response.compliance.block(first, 0, size, columns);
   auto compliance_eta = response.compliance_eta.block(first, 0, size, columns);
   compliance.noalias() -= own.held * of_contacts.left.transpose();
-  compliance_eta.noalias() -= own.rate * of_contacts.held.transpose();
-  compliance_eta.noalias() -= own.held * of_contacts.rate.transpose();
+  const ComplexMatrix half = own.rate * of_contacts.held.transpose();
+  compliance_eta -= half;
+  if (port < 0) {
+    compliance_eta -= half.transpose();
+  } else {
+    compliance_eta.noalias() -= own.held * of_contacts.rate.transpose();
+  }
   const ComplexVector x = load * of_rows(all->tuned.free);
   const ComplexVector met = all->factors.solve(all->changes.value * x);  // by the changes
   response.free.tail(size).noalias() -= own.held * x;

@@ -79,6 +79,7 @@ class RingPart {
     ComplexMatrix by_eta;
   };
   Stiffness stiffness(double eta) const;
+  ComplexMatrix times_changes(const ComplexMatrix& blocks, const ComplexMatrix& x) const;
 
   /// Rows of the compliance of the changed whole, C_pc' = C_pc - H_p R^T with R = C_cB, L = C_pB,
   /// H = L (D^-1 + B^T C B)^-1, and what its derivative takes: with V = L_eta - H B^T C_eta B/2
@@ -108,9 +109,11 @@ class RingPart {
   Index place(Index sector, Index port) const { return sector * ports_ + port; }
   /// Of one port's motion per force on another one, each by `place`.
   Complex entry(const Tuned& tuned, bool by_eta, Index to, Index from) const {
-    const Index lag = (to / ports_ - from / ports_ + count()) % count();
+    const auto& [to_sector, to_port] = places_[static_cast<std::size_t>(to)];
+    const auto& [from_sector, from_port] = places_[static_cast<std::size_t>(from)];
+    const Index lag = to_sector - from_sector + (to_sector < from_sector ? count() : 0);
     const Index half = by_eta ? ports_ * ports_ : 0;
-    return tuned.entries(half + from % ports_ * ports_ + to % ports_, lag);
+    return tuned.entries(half + from_port * ports_ + to_port, lag);
   }
   /// Rows of C B for ports (sector, port) in a list, and of B^T C as its transpose, since C is symmetric.
   ComplexMatrix times_rows(const Tuned& tuned, bool by_eta,
@@ -126,6 +129,7 @@ class RingPart {
   std::vector<bool> is_loaded_;                      // of each wave
   std::vector<std::vector<RingChange::Term>> rows_;  // of all changes
   std::vector<std::array<Index, 2>> contacts_;       // sector and port of each
+  std::vector<std::array<Index, 2>> places_;         // the same of each `place`
   mutable std::atomic<std::shared_ptr<const Solved>>
       last_;  // that was asked for, which outputs ask for again
 };

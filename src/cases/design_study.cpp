@@ -50,7 +50,7 @@ problems::ResponsePeaks responses(const StudyCase& study, const StudyDesign& des
                                          design.range.to, subject.failure));
   return problems::ResponsePeaks({in_one_piece(design, subject.built.problem), "eta", "P",
                                   design.range.eta_low, design.range.eta_high, study.objective, subject.guess,
-                                  study.options});
+                                  study.options, design.pattern > 0});
 }
 
 problems::StudiedContacts contacts_of(const SystemParameters& system) {
@@ -121,7 +121,10 @@ PreloadStudy study_with(const StudyCase& study, const StudyDesign& design, const
   problems::ResponsePeaks peaks = responses(study, design, orders);
   problems::StudyPrecision precision;
   if (study.patterns > 0) precision.envelope = 1e-3;  // well below what samples of the scatter tell
-  if (design.pattern > 0) precision.range = 0.05;     // of which nothing is told
+  if (design.pattern > 0) {
+    precision.range = 0.05;  // of which nothing is told
+    precision.looks = problems::HighestPeak::Looks::followed;
+  }
   return problems::study_response(peaks, design.range, contacts_of(design.system), precision);
 }
 

@@ -11,7 +11,8 @@
 namespace arcslip {
 namespace {
 
-constexpr Index few = 16;  // contacts, of which products by entries are faster than calls
+constexpr Index few_rows = 32;  // of matrices inverted in place
+constexpr Index few = 16;       // contacts, of which products by entries are faster than calls
 
 /// Whether nothing holds a mode: at rest no force is met by a rigid motion.
 bool drifts(const ContactMode& mode, double eta) { return eta == 0 && mode.is_rigid(); }
@@ -97,11 +98,11 @@ ContactModes ContactModes::turned(const Complex& turn) const {
 
 void invert(ContactMatrix& a) {
   const Index m = a.rows();
-  if (m > few) {
+  if (m > few_rows) {
     a = ContactMatrix(a.partialPivLu().inverse());
     return;
   }
-  std::array<Index, few> rows;
+  std::array<Index, few_rows> rows;
   for (Index k = 0; k < m; ++k) {
     Index& best = rows[static_cast<std::size_t>(k)] = k;
     for (Index i = k + 1; i < m; ++i) {

@@ -5,6 +5,7 @@
 
 #include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/continuation/problem/one_piece.hpp"
+#include "arcslip/problems/ridges/highest_peak.hpp"
 #include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "cases/design_study.hpp"
@@ -15,6 +16,9 @@
 using namespace arcslip;
 using namespace arcslip::testing;
 using continuation::OnePiece;
+using problems::ResponsePeak;
+using problems::ResponsePeaks;
+using problems::ResponsePeakSite;
 
 namespace {
 
@@ -78,6 +82,17 @@ double highest(const std::string& text, std::size_t pattern, double preload) {
   return most;
 }
 
+/// Of a pattern over the window of `sweep`.
+ResponsePeaks responses_of(std::size_t pattern, bool is_polished) {
+  const Case input = case_texts::read_text(beams_of_six + uneven + branch_over_eta,
+                                           {fmt::format("ring.pattern={}", pattern), "system.preload=5.0"});
+  const CaseBranch& request = input.branches.front();
+  const Subject subject = build(request.problem, "eta", request.options.from);
+  return ResponsePeaks({std::make_shared<const OnePiece>(subject.built.problem), "eta", "P",
+                        request.options.from, request.options.to, "Y_max", subject.guess, request.options,
+                        is_polished});
+}
+
 }  // namespace
 
 TEST_CASE("An equal ring under its wave has the best preload of one sector", "[ring study]") {
@@ -115,6 +130,77 @@ TEST_CASE("Peaks of an uneven ring are the same in pieces and in one", "[ring st
     CHECK(continuation::regime_at(*subject.built.problem, others[i].unknowns, others[i].parameters) ==
           peaks[i].regime);
   }
+}
+
+TEST_CASE("Peaks of an uneven ring beside rough ones are those of points on them", "[ring study]") {
+  const double preload = GENERATE(0.5, 0.8, 1.2, 2.0, 3.5);
+  CAPTURE(preload);
+  ResponsePeaks exact = responses_of(2, false);
+  ResponsePeaks polished = responses_of(2, true);
+  const std::vector<ResponsePeak> there = exact.at(preload);
+  const std::vector<ResponsePeak> found = polished.at(preload);
+  REQUIRE(found.size() == there.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CHECK(found[i].site == there[i].site);
+    CHECK_THAT(found[i].place, WithinRel(there[i].place, 1e-8));
+    CHECK_THAT(found[i].log_height, WithinAbs(there[i].log_height, 1e-11));
+    CHECK_THAT(found[i].slope, WithinAbs(there[i].slope, 1e-7));
+  }
+}
+
+TEST_CASE("A peak is found from beside it, an edge while it rises, and neither elsewhere", "[ring study]") {
+  ResponsePeaks responses = responses_of(1, false);
+  const ResponsePeak peak = responses.at(3.5).front();
+  REQUIRE(peak.site == ResponsePeakSite::smooth);
+  continuation::Guess guess = peak.at;
+  guess.parameters(0) *= 1.0005;
+  guess.unknowns *= 0.99;
+  const auto again = responses.next_to(guess, peak.site);
+  REQUIRE(again.has_value());
+  CHECK_THAT(again->place, WithinRel(peak.place, 1e-9));
+  CHECK_THAT(again->log_height, WithinAbs(peak.log_height, 1e-12));
+  CHECK(!responses.next_to(guess, ResponsePeakSite::corner));
+  const continuation::Branch branch = responses.response_at(3.5);
+  const auto end = [](const BranchPoint& point) {
+    return continuation::Guess{point.unknowns, point.parameters, point.regime, {}};
+  };
+  CHECK(!responses.next_to(end(branch.points.front()), ResponsePeakSite::edge));  // it rises away from both
+  CHECK(!responses.next_to(end(branch.points.back()), ResponsePeakSite::edge));
+  const auto trough = of_type(branch, PointType::trough);
+  for (const BranchPoint& point : trough) CHECK(!responses.next_to(end(point), ResponsePeakSite::smooth));
+}
+
+TEST_CASE("A study that follows peaks finds what one that traces all responses does", "[ring study]") {
+  const std::size_t pattern = GENERATE(std::size_t{1}, std::size_t{2}, std::size_t{3});
+  CAPTURE(pattern);
+  using problems::HighestPeak;
+  constexpr double tolerance = 1e-3;
+  const auto envelope = [&](ResponsePeaks& responses, HighestPeak::Looks looks, HighestPeak::Lowest& lowest,
+                            double& best) {
+    HighestPeak highest(responses, 0.5, 5.0, {}, looks);
+    lowest = highest.lowest(0.05);
+    CHECK(highest.refine(tolerance, 300) <= tolerance);
+    best = highest.sample(lowest.x).highest().log_height;
+    CHECK(highest.sample(lowest.x).is_whole);
+    const auto& samples = highest.samples();
+    const bool all_are_whole =
+        std::all_of(samples.begin(), samples.end(), [](const auto& sample) { return sample.is_whole; });
+    CHECK(all_are_whole == (looks == HighestPeak::Looks::whole));
+    return problems::EnvelopeCurve(highest.pieces());
+  };
+  ResponsePeaks traced = responses_of(pattern, false);
+  ResponsePeaks followed = responses_of(pattern, true);
+  HighestPeak::Lowest lowest_of_traced;
+  HighestPeak::Lowest lowest_of_followed;
+  double best_of_traced = 0;
+  double best_of_followed = 0;
+  const auto all = envelope(traced, HighestPeak::Looks::whole, lowest_of_traced, best_of_traced);
+  const auto some = envelope(followed, HighestPeak::Looks::followed, lowest_of_followed, best_of_followed);
+  CHECK(lowest_of_followed.kind == lowest_of_traced.kind);
+  CHECK_THAT(lowest_of_followed.x, WithinAbs(lowest_of_traced.x, 1e-7));
+  CHECK_THAT(best_of_followed, WithinAbs(best_of_traced, 1e-10));
+  for (double P = 0.5; P <= 5; P *= 1.07)
+    CHECK_THAT(some.at(std::log(P)), WithinAbs(all.at(std::log(P)), 2 * tolerance));
 }
 
 TEST_CASE("Patterns are those of their numbers", "[ring study]") {

@@ -16,9 +16,16 @@ namespace arcslip::problems {
 /// Keeps the samples, and refers to the responses of which they are taken. To be used from one thread.
 class HighestPeak {
  public:
+  /// How responses are looked at.
+  enum class Looks {
+    whole,    ///< all of them are traced
+    followed  ///< their peaks are followed from neighbours on both sides that have the same ones, if these do
+  };
+
   /// Samples b = from .. to, both > 0, and the values `wanted` between them. Throws std::runtime_error where
   /// a response cannot be traced or has no peak.
-  HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted);
+  HighestPeak(ResponsePeaks& responses, double from, double to, const std::vector<double>& wanted,
+              Looks looks = Looks::whole);
 
   /// Where M is lowest.
   struct Lowest {
@@ -68,7 +75,11 @@ class HighestPeak {
   bool settle_flat(Lowest& lowest);
   double leaves(double x, double level, int way, double precision);
 
+  PeakSample whole_sample(double x, double value);
+  bool is_confirmed(const Lowest& lowest);
+
   ResponsePeaks& responses_;
+  Looks looks_;
   std::vector<PeakSample> samples_;
 };
 

@@ -2,6 +2,7 @@
 
 // The peaks of a response at one value of its second parameter b, and which of them go on at another one.
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct PeakSample {
   double value = 0;                 ///< b
   std::vector<ResponsePeak> peaks;  ///< in the order of the response, one at least
   std::size_t top = 0;              ///< the highest
+  bool is_whole = true;             ///< whether these are all, or those alone that were followed
 
   /// The peak at `top`.
   const ResponsePeak& highest() const { return peaks[top]; }
@@ -23,5 +25,10 @@ struct PeakSample {
 /// Pairs (of a, of b) of peaks of two samples that are one ridge, in the order of the response, in which
 /// ridges cannot change places.
 std::vector<std::pair<std::size_t, std::size_t>> joined_peaks(const PeakSample& a, const PeakSample& b);
+
+/// The peaks at b, with x = ln b between two samples, that go on from one to the other, without tracing the
+/// response; none where one that may be the highest between them does not, or is not found.
+std::optional<PeakSample> followed_peaks(ResponsePeaks& responses, const PeakSample& below,
+                                         const PeakSample& above, double x, double value);
 
 }  // namespace arcslip::problems

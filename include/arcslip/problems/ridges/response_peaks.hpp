@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ struct PeakedResponse {
   std::string objective;                                 ///< an observable > 0 with a gradient
   continuation::Guess start;           ///< a solution at `from`, for some value > 0 of `across`
   continuation::TraceOptions options;  ///< tolerance and limits of steps
+  bool is_polished = false;  ///< whether peaks are located beside the response, from roughly where they are
 };
 
 /// What makes a peak.
@@ -63,11 +65,18 @@ class ResponsePeaks {
   /// or Unfinished for want of time, where it cannot be traced from end to end.
   std::vector<ResponsePeak> at(double across);
 
+  /// The peak next to a guess, at the guess's own `across`: where `site` is an edge the solution there, if
+  /// the height still rises towards it. None where it is not met within a few steps, or is a corner.
+  std::optional<ResponsePeak> next_to(const continuation::Guess& guess, ResponsePeakSite site);
+
   /// The whole response there; what `at` throws.
   continuation::Branch response_at(double across);
 
   /// How many responses were traced.
   long traced() const { return traced_; }
+
+  /// The position of that parameter.
+  Index across() const { return across_; }
 
   /// What was asked for.
   const PeakedResponse& response() const { return response_; }
@@ -76,14 +85,21 @@ class ResponsePeaks {
   class Slopes;
 
   const continuation::Guess& start(double across);
-  continuation::Branch trace_over(double across, double longest);
+  continuation::Branch trace_over(double across, double longest, bool is_rough);
+  continuation::Branch traced_at(double across, bool is_rough);
+  std::vector<ResponsePeak> peaks_of(const continuation::Branch& branch);
+  std::optional<std::vector<ResponsePeak>> polished(const continuation::Branch& branch);
   void add_peak(const continuation::Branch& branch, std::size_t i, std::vector<ResponsePeak>& peaks);
   /// An end of a branch, which is a peak where the height rises towards it.
   struct Edge {
     ResponsePeak peak;
     double slope;  // of ln height
   };
-  Edge edge(const continuation::BranchPoint& point);
+  Edge edge(const continuation::Guess& at);
+  std::optional<ResponsePeak> edge_next_to(const continuation::Guess& guess);
+  std::optional<continuation::Guess> level_next_to(const continuation::Guess& guess, Vector& direction) const;
+  bool is_inside(const continuation::Guess& at) const;
+  bool rises_to(const continuation::BranchPoint& point, const ResponsePeak& peak) const;
   ResponsePeak corner(const continuation::Guess& before, const continuation::Guess& behind,
                       const Vector& direction);
   continuation::Guess beside(const continuation::Branch& branch, std::size_t i, int way) const;
@@ -91,6 +107,7 @@ class ResponsePeaks {
   PeakedResponse response_;
   Index along_;
   Index across_;
+  Index objective_;
   std::shared_ptr<Slopes> slopes_;
   std::vector<continuation::Guess> starts_;  ///< solutions at `from`, by rising values of `across`
   long traced_ = 0;

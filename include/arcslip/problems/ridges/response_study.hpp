@@ -23,6 +23,7 @@ struct StudiedContacts {
 struct StudyPrecision {
   double envelope = 0;  ///< of ln Y_max by cubics between them; 0: as well as the optimum asks for
   double range = 1e-6;  ///< of the preloads between which Y_max stays within a factor 2, relative
+  HighestPeak::Looks looks = HighestPeak::Looks::whole;  ///< how it looks at the responses
 };
 
 /// The peaks of the response, over eta, as P varies over the range. Of PreloadStudy `free_eta`, `free_Y` and
