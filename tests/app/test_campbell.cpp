@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "catch.hpp"
@@ -122,6 +123,15 @@ TEST_CASE("Rings and plates that turn are written with their matrices, and run",
   };
   const std::string ring = "ring --elements 3 --ring-elements 3 --contact ";
   CHECK_THAT(make(ring + "radial"), ContainsSubstring("gyroscopic = \"base_gyroscopic.mtx\""));
+  // Free, it flies away under n = 1; the case's own wave is held.
+  const Outcome modes =
+      arcslip_program("modes '" + folder.path("r/case.toml") + "' --to 3 -o '" + folder.path("m") + "'");
+  CHECK(modes.status == 0);
+  CHECK_THAT(modes.out,
+             ContainsSubstring("\n    1  none: base: the stiffness K + Omega^2 K_2 is not positive"));
+  std::set<std::string> waves;
+  for (const auto& row : read_csv(folder.path("m/modes.csv"))) waves.insert(row[0]);
+  CHECK((waves.count("3") == 1 && waves.count("-3") == 1 && waves.count("1") == 0));
   for (const std::string& flat :
        {ring + "axial", std::string("plate --radial-elements 3 --angular-elements 3 "
                                     "--ring-elements 3")}) {
