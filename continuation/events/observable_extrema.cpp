@@ -23,8 +23,10 @@ void search_extrema(StepSearch& step) {
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0;
     const bool is_rough = changes && step.tolerances.extremum >= 1;
+    const Step& taken = step.stepper.step();
     step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
-              is_rough ? where_line_vanishes(step.stepper.step().from[m].slope, after, step.upper())
+              is_rough ? where_line_vanishes(taken.from[m].slope, step.at_upper(slope, taken.to[m].slope),
+                                             step.upper())
                        : step.turn(slope, before, changes));
   }
 }

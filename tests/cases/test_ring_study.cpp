@@ -83,8 +83,9 @@ double highest(const std::string& text, std::size_t pattern, double preload) {
 }
 
 /// Of a pattern over the window of `sweep`.
-ResponsePeaks responses_of(std::size_t pattern, bool is_polished) {
-  const Case input = case_texts::read_text(beams_of_six + uneven + branch_over_eta,
+ResponsePeaks responses_of(std::size_t pattern, bool is_polished,
+                           const std::string& text = beams_of_six + uneven) {
+  const Case input = case_texts::read_text(text + branch_over_eta,
                                            {fmt::format("ring.pattern={}", pattern), "system.preload=5.0"});
   const CaseBranch& request = input.branches.front();
   const Subject subject = build(request.problem, "eta", request.options.from);
@@ -145,6 +146,31 @@ TEST_CASE("Peaks of an uneven ring beside rough ones are those of points on them
     CHECK_THAT(found[i].place, WithinRel(there[i].place, 1e-8));
     CHECK_THAT(found[i].log_height, WithinAbs(there[i].log_height, 1e-11));
     CHECK_THAT(found[i].slope, WithinAbs(there[i].slope, 1e-7));
+  }
+}
+
+TEST_CASE("Of two peaks close to each other it is the higher one that stands", "[ring study]") {
+  const std::string text = R"([system]
+model = "beams"
+wave_number = 1
+elements = 8
+mass_ratio = 5.0
+frequency_ratio = 4.0
+slenderness = 33.3
+force = 1.0
+preload = 1.0
+damping = { base = 3e-3, damper = 3e-3 }
+[ring]
+preload = { scatter = 0.3, seed = 1, correlation = 1.5 }
+stiffness = { scatter = 0.1, seed = 2 }
+)";
+  for (const bool is_polished : {false, true}) {
+    CAPTURE(is_polished);
+    ResponsePeaks responses = responses_of(34, is_polished, text);
+    const std::vector<ResponsePeak> peaks = responses.at(1.09499258);  // there is one at 3.840 as well
+    const ResponsePeak& highest = peaks[problems::highest_of(peaks)];
+    CHECK_THAT(highest.place, WithinRel(3.82546933, 1e-7));
+    CHECK_THAT(std::exp(highest.log_height), WithinRel(0.00702540289, 1e-7));
   }
 }
 
