@@ -53,6 +53,20 @@ SystemParameters at_preload(SystemParameters one, double preload) {
   return one;
 }
 
+/// Under this part of the preload below which one of its contacts begins to slip.
+SystemParameters slipping(SystemParameters system, double eta, double part = .5) {
+  constexpr double sticks = 1e6;
+  const auto problem = testing::response_of(system);
+  const ComplexMatrix relative = problems::sector_motions(problem, problem.guess(eta, sticks)).relative;
+  double holding = 0;
+  for (Index i = 0; i < relative.size(); ++i) {
+    const SectorContact& contact = problem.system().contacts[static_cast<std::size_t>(i)];
+    holding = std::max(holding, std::abs(relative.reshaped()(i)) / contact.slip_per_preload);
+  }
+  system.preload = part * holding;
+  return system;
+}
+
 /// Contacts, blades and one link that differ, viscously damped.
 SystemParameters uneven_disk(Index sectors, double preload, Course course, double base_damping) {
   SystemParameters one =
@@ -95,9 +109,11 @@ TEST_CASE("All sectors alike move in time as one of them", "[ring][whole ring]")
                           {disk(6, 3), 560},
                           {disk(4, 0), 500},
                           {disk(5, 3), 553}}) {
-    const WholeTimed expected = whole_timed(of.one, of.eta);
-    const WholeTimed found = whole_timed(whole_of(of.one, ring_of(of.one, Course::travelling)), of.eta);
+    const SystemParameters one = slipping(of.one, of.eta);
+    const WholeTimed expected = whole_timed(one, of.eta);
+    const WholeTimed found = whole_timed(whole_of(one, ring_of(one, Course::travelling)), of.eta);
     CAPTURE(of.one.elements, of.one.wave_number, of.eta, expected.slips);
+    CHECK(expected.slips);
     CHECK(std::abs(found.base - expected.base) < 1e-9 * std::abs(expected.base));
     CHECK(std::abs(found.forward - expected.forward) < 1e-9 * std::abs(expected.base));
     CHECK_THAT(found.growth, WithinRel(expected.growth, 1e-8));
@@ -124,28 +140,38 @@ TEST_CASE("The disturbances of all sectors alike are those of one", "[stability]
                           {disk(4, 2, -.002), 560},
                           {disk(3, 0, -.002), 550}}) {
     CAPTURE(of.one.elements, of.one.wave_number, of.eta);
+    const SystemParameters one = slipping(of.one, of.eta);
     for (const int highest : {3, 7}) {
-      const double expected = balanced_growth(of.one, of.eta, highest);
-      const SystemParameters whole = whole_of(of.one, ring_of(of.one, Course::travelling));
+      const double expected = balanced_growth(one, of.eta, highest);
+      const SystemParameters whole = whole_of(one, ring_of(one, Course::travelling));
       CHECK_THAT(balanced_growth(whole, of.eta, highest), WithinRel(expected, 1e-8));
     }
   }
 }
 
 TEST_CASE("Disturbances of unequal sectors are those of their motion in time", "[stability][whole ring]") {
+  constexpr double near = 5e-3;
+  int unstable = 0;
+  double worst = 0;
   for (const double damping : {.01, -.004}) {
     for (const Course course : {Course::standing, Course::point, Course::travelling}) {
       for (const Index sectors : {3, 4, 6}) {
-        const SystemParameters system = uneven_disk(sectors, .2, course, damping);
-        SystemParameters wide = system;
-        wide.harmonics = odd_up_to(9);
-        const WholeTimed expected = whole_timed(wide, 553);
-        CAPTURE(sectors, to_string(course), damping, expected.growth, expected.slips);
-        CHECK(std::abs(balanced_growth(system, 553, 9) - expected.growth) < 2e-3);
-        CHECK((expected.growth > 1) == (damping < 0));
+        SystemParameters system =
+            slipping(uneven_disk(sectors, .2, course, damping), 553, damping > 0 ? .5 : .9);
+        system.harmonics = odd_up_to(9);
+        const WholeTimed expected = whole_timed(system, 553);
+        const double found = balanced_growth(system, 553, 9);
+        CAPTURE(sectors, to_string(course), damping, expected.growth, found);
+        CHECK(expected.slips);
+        CHECK(std::abs(found - expected.growth) < near);
+        worst = std::max(worst, std::abs(found - expected.growth));
+        if (expected.growth > 1 + near) ++unstable;
       }
     }
   }
+  CAPTURE(worst);
+  CHECK(unstable > 0);
+  CHECK(unstable < 18);
 }
 
 TEST_CASE("A whole ring has modes where its damping keeps them apart", "[whole ring]") {
