@@ -150,7 +150,7 @@ TEST_CASE("The disturbances of all sectors alike are those of one", "[stability]
 }
 
 TEST_CASE("Disturbances of unequal sectors are those of their motion in time", "[stability][whole ring]") {
-  constexpr double near = 5e-3;
+  constexpr double near = 1e-3;
   int unstable = 0;
   double worst = 0;
   for (const double damping : {.01, -.004}) {
