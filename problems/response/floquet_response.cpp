@@ -48,7 +48,9 @@ std::vector<int> other_orders(const SystemParameters& parameters) {
   if (2 * highest + 1 > most) return up_to(std::max(1, highest / 2));
   const int wide = std::min(4 * highest + 3, most);
   const Index waves = parameters.elements / std::gcd(parameters.first_wave(), parameters.elements);
-  return up_to(RingDisturbances::is_exact(waves, wide) ? wide : 2 * highest + 1);
+  const bool is_exact =
+      structures_of(parameters).whole() != nullptr || RingDisturbances::is_exact(waves, wide);
+  return up_to(is_exact ? wide : 2 * highest + 1);
 }
 
 }  // namespace
@@ -258,7 +260,8 @@ void FloquetOf<Motion>::observe(const Vector& u, const Vector& p, const continua
   const double stable = found.growth + error <= 1 ? 1 : found.growth - error > 1 ? 0 : none;
   const Index before = values.size();
   values.conservativeResize(before + 4);
-  values.tail<4>() << found.growth, error, static_cast<double>(found.wave), stable;
+  const bool is_whole = this->system().sectors > 1;  // whose disturbances are of many waves
+  values.tail<4>() << found.growth, error, is_whole ? none : static_cast<double>(found.wave), stable;
 }
 
 template <class Motion>
@@ -335,6 +338,7 @@ template class FloquetOf<HarmonicResponse>;
 template class FloquetOf<HarmonicCycle>;
 
 std::set<Index> disturbed_waves(const SystemParameters& parameters) {
+  if (structures_of(parameters).whole() != nullptr) return {0};
   std::set<Index> all;
   for (const std::vector<int>& orders : {parameters.harmonics, other_orders(parameters)})
     all.merge(RingDisturbances::waves(parameters.first_wave(), parameters.elements, orders));

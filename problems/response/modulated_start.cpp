@@ -89,6 +89,8 @@ std::optional<ModulatedStart> modulated_response(const SystemParameters& paramet
   const auto* known = dynamic_cast<const Floquet*>(&response);
   if (known == nullptr)
     throw std::invalid_argument("a modulated response leaves one that knows its stability");
+  if (response.system().sectors > 1)
+    throw std::invalid_argument("in a whole ring no node need do what another one does");
   const auto all = known->disturbances(at.unknowns, at.parameters, at.regime);
   const RingDisturbances::Disturbance* nearest = nullptr;
   for (const auto& one : all) {

@@ -20,6 +20,18 @@ bool is_structural(const SystemParameters& system) {
   return losses.base(system).structural != 0 || losses.damper(system).structural != 0;
 }
 
+/// Refuses whole rings that have no modes of their own.
+void check_whole_modes(const TomlSection& section, const SystemParameters& system) {
+  if (structures_of(system).whole() == nullptr) return;
+  SystemParameters modal = system;
+  modal.structures = structures_of(system).in_modes();
+  try {
+    static_cast<void>(structures_of(modal).wave(modal));
+  } catch (const std::invalid_argument& error) {
+    section.fail("stability", fmt::format("disturbances are told by modes: {}", error.what()));
+  }
+}
+
 /// Refuses sectors that disturbances cannot run through.
 void check_disturbed_waves(const TomlSection& section, const SystemParameters& system) {
   for (const Index wave : problems::disturbed_waves(system)) {
@@ -66,8 +78,6 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
   if (!problem.stability) return;
   if (problem.model != nullptr) section.fail("stability", "only for systems with friction");
   if (branch.curve) section.fail("stability", "not beside curve");
-  if (structures_of(system).whole() != nullptr)
-    section.fail("stability", "not of whole rings, whose disturbances are not of one wave");
   if (feels_rotation(system))
     section.fail("stability", "not of sectors that turn, whose modes rotation couples");
   using Kind = SystemParameter::Kind;
@@ -94,6 +104,7 @@ void check_stability(const TomlSection& section, const CaseBranch& branch) {
                  fmt::format("disturbances are told by modes, which this damping couples: {}", error.what()));
   }
   check_disturbed_waves(section, system);
+  check_whole_modes(section, system);
 }
 
 }  // namespace arcslip

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "arcslip/assembly/structures.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
@@ -40,7 +41,8 @@ std::vector<Balance> balances_beyond(const TracedBranch& traced, PointType type)
   std::vector<Balance> all;
   if (type == PointType::symmetry_breaking && all_odd(system.harmonics))
     all.push_back({orders_up_to(highest, periods, false), system.subharmonic_wave});
-  if (type == PointType::period_doubling && 2 * periods <= most_doubled) {
+  const bool is_whole = structures_of(system).whole() != nullptr;  // of one period alone
+  if (type == PointType::period_doubling && 2 * periods <= most_doubled && !is_whole) {
     for (const Index wave : subharmonic_waves(system.first_wave(), system.elements, 2))
       all.push_back({orders_up_to(2 * highest, 2 * periods, false), wave});
   }

@@ -282,7 +282,8 @@ RingDisturbances::Disturbances RingDisturbances::at(double eta, std::span<const 
 
 Complex RingDisturbances::turned(const Disturbance& one, double eta) const {
   const double node = 2 * pi / static_cast<double>(waves_.nodes());
-  return std::exp(one.exponent * (node * static_cast<double>(waves_.wave_number()) / eta) -
+  const Index turns = waves_.wave_number() == 0 ? waves_.nodes() : waves_.wave_number();
+  return std::exp(one.exponent * (node * static_cast<double>(turns) / eta) -
                   Complex(0, node * static_cast<double>(one.wave)));
 }
 

@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 
+#include "arcslip/problems/tasks/verification.hpp"
+#include "arcslip/time/ring_record.hpp"
+#include "arcslip/time/ring_response.hpp"
 #include "catch.hpp"
 #include "whole_rings.hpp"
 
@@ -213,8 +216,8 @@ TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][num
       load.sectors.emplace_back(1 + drawn(i, 4 + draw), drawn(i, 5 + draw));
     }
     const double eta = draw == 0 ? 556 : 548;
-    const HarmonicResponse problem =
-        response_of(changed(n, .05, preload, contacts, load, zeta, orders, mass_damping));
+    const SystemParameters system = changed(n, .05, preload, contacts, load, zeta, orders, mass_damping);
+    const HarmonicResponse problem = response_of(system);
     const Guess at = problem.guess(eta, preload);
     const SectorMotions found = sector_motions(problem, at);
     const ComplexVector d =
@@ -229,5 +232,15 @@ TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][num
     }
     CAPTURE(worst / d.cwiseAbs().maxCoeff());
     CHECK(worst < 1e-5 * d.cwiseAbs().maxCoeff());
+    RingMotion motion(build_ring(system), eta, preload);
+    const SettledMotion settled = shoot(motion, motion.travelling(problems::ring_harmonics(problem, at)));
+    REQUIRE(settled.settled);
+    HarmonicRecord record(motion, {1});
+    next_state(motion, settled.state, &record);
+    double timed = std::abs(record.base()(0) - d(0));
+    for (Index i = 0; i < n; ++i)
+      timed = std::max(timed, std::abs(record.motion(i)(0) - (d(3 * n + i) - d(3 * i))));
+    CAPTURE(timed / d.cwiseAbs().maxCoeff());
+    CHECK(timed < 2e-6 * d.cwiseAbs().maxCoeff());
   }
 }

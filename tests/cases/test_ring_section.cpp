@@ -190,7 +190,6 @@ TEST_CASE("What no whole ring has is refused on one line", "[ring section]") {
             replaced(ring, "[ring]", "[ring]\namplification = true") +
                 "[branch]\nparameter = \"P\"\neta = 4.0\nfrom = 3.0",
             "", "branch.parameter", "amplification of [ring]", ""},
-           {"to = 5.0", "to = 5.0\nstability = true", "", "stability", "not of whole rings", ""},
            {"parameter = \"eta\"\nfrom = 3.0\nto = 5.0",
             "parameter = \"zeta_B\"\neta = 4.0\nfrom = 0.01\nto = 0.02", "", "branch.parameter", "F, K_FD",
             "zeta_B"}}) {
@@ -232,4 +231,20 @@ TEST_CASE("The amplification is over the highest amplitude of the equal ring", "
   CHECK(own != equal);
   CHECK_THAT(highest(traced, "amplification"), WithinRel(own / equal, 1e-10));
   CHECK_THAT(highest(run("amplification = true\n"), "amplification"), WithinRel(1.0, 1e-12));
+}
+
+TEST_CASE("The case of an unevenly pressed ring's stability has the points that it says", "[ring section]") {
+  const Run run("uneven_stability");
+  REQUIRE(run.traced.size() == 1);
+  const auto etas = [&](PointType type) {
+    std::vector<double> all;
+    for (const BranchPoint& point : points(run.traced[0], type)) all.push_back(point.parameters(0));
+    return all;
+  };
+  REQUIRE(etas(PointType::neimark_sacker).size() == 1);
+  CHECK_THAT(etas(PointType::neimark_sacker)[0], WithinRel(1.6847, 1e-4));
+  const std::vector<double> broken = etas(PointType::symmetry_breaking);
+  REQUIRE(broken.size() == 4);
+  CHECK_THAT(broken.front(), WithinRel(1.7432, 1e-4));
+  CHECK_THAT(broken.back(), WithinRel(1.7766, 1e-4));
 }
