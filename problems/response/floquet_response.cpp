@@ -49,7 +49,7 @@ std::vector<int> other_orders(const SystemParameters& parameters) {
   const int wide = std::min(4 * highest + 3, most);
   const Index waves = parameters.elements / std::gcd(parameters.first_wave(), parameters.elements);
   const bool is_exact =
-      structures_of(parameters).whole() != nullptr || RingDisturbances::is_exact(waves, wide);
+      structures_of(parameters).whole() == nullptr && RingDisturbances::is_exact(waves, wide);
   return up_to(is_exact ? wide : 2 * highest + 1);
 }
 

@@ -41,8 +41,7 @@ std::vector<Balance> balances_beyond(const TracedBranch& traced, PointType type)
   std::vector<Balance> all;
   if (type == PointType::symmetry_breaking && all_odd(system.harmonics))
     all.push_back({orders_up_to(highest, periods, false), system.subharmonic_wave});
-  const bool is_whole = structures_of(system).whole() != nullptr;  // of one period alone
-  if (type == PointType::period_doubling && 2 * periods <= most_doubled && !is_whole) {
+  if (type == PointType::period_doubling && 2 * periods <= most_doubled) {
     for (const Index wave : subharmonic_waves(system.first_wave(), system.elements, 2))
       all.push_back({orders_up_to(2 * highest, 2 * periods, false), wave});
   }
@@ -94,6 +93,8 @@ std::vector<TracedBranch> departures_in(const Balance& balance, const std::vecto
                                         const continuation::TimeBudget& time,
                                         const continuation::Observer& observer) {
   CaseBranch request = *specials.front().of->request;
+  if (balance.harmonics.front() > 1 && structures_of(request.problem.system).whole() != nullptr)
+    throw std::invalid_argument("whole rings are calculated over one period of the load");
   request.problem.system.harmonics = balance.harmonics;
   request.problem.system.subharmonic_wave = balance.subharmonic_wave;
   request.problem.harmonics_tolerance.reset();

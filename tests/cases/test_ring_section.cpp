@@ -6,6 +6,7 @@
 #include "arcslip/assembly/reduced_pair.hpp"
 #include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/problems/response/sector_motions.hpp"
+#include "arcslip/problems/tasks/verification.hpp"
 #include "case_runs.hpp"
 #include "cases/ring_numbers.hpp"
 #include "catch.hpp"
@@ -247,4 +248,19 @@ TEST_CASE("The case of an unevenly pressed ring's stability has the points that 
   REQUIRE(broken.size() == 4);
   CHECK_THAT(broken.front(), WithinRel(1.7432, 1e-4));
   CHECK_THAT(broken.back(), WithinRel(1.7766, 1e-4));
+  // All contacts in time say the same where the harmonics left out do not decide.
+  const TracedBranch& traced = run.traced[0];
+  std::size_t held = 0;
+  for (const problems::Verification& point : problems::verify(
+           traced.request->problem.system, traced.base.harmonics, traced.branch, {.samples = 0})) {
+    const BranchPoint& at = traced.branch.points[point.point];
+    CAPTURE(at.parameters(0), at.type_name(), point.growth);
+    const double stable = value(traced, at, "stable");
+    const double error = value(traced, at, "growth_error");
+    CHECK(std::abs(point.Y_time / value(traced, at, "Y") - 1) < 0.02);
+    CHECK(std::abs(point.growth - value(traced, at, "growth")) < 3 * error + 1e-3);
+    if (!std::isnan(stable)) CHECK((point.growth <= 1) == (stable == 1));
+    ++held;
+  }
+  CHECK(held > 4);
 }
