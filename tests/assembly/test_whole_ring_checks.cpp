@@ -198,12 +198,16 @@ ComplexVector marched(const Assembled& base, const Assembled& damper, const std:
 }  // namespace
 
 TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][numbers]") {
-  constexpr Index n = 6;
   constexpr double zeta = .02;
   constexpr double mass_damping = 100;
   constexpr double preload = .1;
   const std::vector<int> orders{1, 3, 5, 7, 9, 11, 13, 15};
-  for (const int draw : {0, 1}) {
+  struct Drawn {
+    Index sectors;
+    int draw;
+    double eta;
+  };
+  for (const auto& [n, draw, eta] : {Drawn{6, 0, 556}, Drawn{6, 1, 548}, Drawn{12, 0, 553}}) {
     RingContacts contacts;
     std::vector<double> stiffness;
     std::vector<double> limits;
@@ -215,14 +219,13 @@ TEST_CASE("Unequal sectors that slip move as they do in time", "[whole ring][num
       limits.push_back(preload * contacts.limit.back());
       load.sectors.emplace_back(1 + drawn(i, 4 + draw), drawn(i, 5 + draw));
     }
-    const double eta = draw == 0 ? 556 : 548;
     const SystemParameters system = changed(n, .05, preload, contacts, load, zeta, orders, mass_damping);
     const HarmonicResponse problem = response_of(system);
     const Guess at = problem.guess(eta, preload);
     const SectorMotions found = sector_motions(problem, at);
     const ComplexVector d =
         marched(disk(n, .05), ring(n, n - 1), stiffness, limits, load, eta, zeta, mass_damping);
-    CAPTURE(draw, problem.describe(at.regime));
+    CAPTURE(n, draw, problem.describe(at.regime));
     CHECK(problem.describe(at.regime) != "stick");
     double worst = 0;
     for (Index i = 0; i < n; ++i) {

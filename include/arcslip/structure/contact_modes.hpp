@@ -21,7 +21,7 @@ namespace arcslip {
 using ContactVector = ComplexVector;
 using ContactMatrix = ComplexMatrix;
 
-/// Inverts in place, with partial pivoting. Allocates nothing for up to 16 rows, of which calls would cost
+/// Inverts in place, with partial pivoting. Allocates nothing for up to 32 rows, of which calls would cost
 /// more than arithmetic.
 void invert(ContactMatrix& a);
 
