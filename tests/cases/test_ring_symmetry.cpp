@@ -6,6 +6,7 @@
 #include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
+#include "mistakes.hpp"
 #include "program.hpp"
 
 using namespace arcslip;
@@ -152,4 +153,20 @@ TEST_CASE("Branches without symmetry end where they have one again, however near
       }
     }
   }
+}
+
+TEST_CASE("Stability of mistuned sectors needs damping that is one of matrices", "[ring section][messages]") {
+  const TemporaryFolder folder;
+  std::string text = hardening_ring(folder, 4,
+                                    "load = \"standing\"\n[[ring.mistuning]]\npart = \"base\"\ndofs = [1]\n"
+                                    "mass = 0.1\nfactors = [1, 1, 1, 1.5]") +
+                     "stability = true\n";
+  text = replaced(text, "preload = 1.0\n", "preload = 1.0\ndamping = { base = 1e-3 }\n");
+  text = replaced(text, "contact = [1]\n", "contact = [1]\ndamping_kind = \"modal\"\n");
+  const auto read = [&](const std::string& one) { read_case(folder.write("case.toml", one)); };
+  const std::string error = error_of([&] { read(text); });
+  CHECK(error.find('\n') == std::string::npos);
+  CHECK_THAT(error, ContainsSubstring("branch.stability"));
+  CHECK_THAT(error, ContainsSubstring("modal damping is that of equal sectors"));
+  CHECK_NOTHROW(read(replaced(text, "\"modal\"", "\"viscous\"\nreference_frequency = 0.16")));
 }
