@@ -22,7 +22,7 @@ void search_extrema(StepSearch& step) {
     const int before = step.signs.observables[m];
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0;
-    const bool is_rough = changes && step.tolerances.extremum >= 1;
+    const bool is_rough = changes && step.stepper.has_rough_extrema();
     const Step& taken = step.stepper.step();
     step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,
               is_rough ? where_line_vanishes(taken.from[m].slope, step.at_upper(slope, taken.to[m].slope),

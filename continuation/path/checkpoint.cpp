@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <istream>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
@@ -188,10 +189,8 @@ void progress(Archive& archive, Way& way) {
   if (archive.version >= 4) archive(way.rescaled);
 }
 
-Stop stop_named(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(Stop::no_start); ++i) {
-    if (name == to_string(static_cast<Stop>(i))) return static_cast<Stop>(i);
-  }
+Stop read_stop(const std::string& name) {
+  if (const std::optional<Stop> stop = stop_named(name)) return *stop;
   throw std::runtime_error(fmt::format("read_checkpoint: '{}' is no reason to stop", name));
 }
 
@@ -236,7 +235,7 @@ void all(Archive& archive, State& state) {
   maybe(archive, state.ahead, way);
   std::string stop(to_string(state.stop_ahead));
   archive(stop);
-  if constexpr (Archive::reads) state.stop_ahead = stop_named(stop);
+  if constexpr (Archive::reads) state.stop_ahead = read_stop(stop);
   maybe(archive, state.back, way);
   maybe(archive, state.begin_back, [&](auto& guess) {
     list(archive, guess.unknowns, number);
@@ -280,7 +279,7 @@ void journal_entry(Archive& archive, Entry& entry) {
   list(archive, branch.points, [&](auto& point) { branch_point(archive, point); });
   std::string stop(to_string(branch.stop));
   archive(stop);
-  if constexpr (Archive::reads) branch.stop = stop_named(stop);
+  if constexpr (Archive::reads) branch.stop = read_stop(stop);
   archive(branch.explanation);
   archive(branch.warning);
   auto& work = branch.work;

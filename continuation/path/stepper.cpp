@@ -8,12 +8,13 @@
 namespace arcslip::continuation {
 
 Stepper::Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-                 bool pairs, const Tolerances& tolerances)
+                 bool pairs, const Tolerances& tolerances, bool rough_extrema)
     : problem_(problem),
       corrector_(corrector),
       tolerances_(tolerances),
       max_step_(max_step),
       pairs_(pairs),
+      rough_extrema_(rough_extrema),
       monitors_(problem, corrector.parameter(), std::move(tracked)),
       prober_(corrector, monitors_, step_),
       crossings_(corrector, prober_, step_, tolerances),

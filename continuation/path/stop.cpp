@@ -24,6 +24,13 @@ std::string_view to_string(Stop stop) {
   return "";
 }
 
+std::optional<Stop> stop_named(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(Stop::no_start); ++i) {
+    if (name == to_string(static_cast<Stop>(i))) return static_cast<Stop>(i);
+  }
+  return std::nullopt;
+}
+
 bool is_end(Stop stop) {
   return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
          stop == Stop::own_image || stop == Stop::requested || stop == Stop::left_regime;

@@ -110,6 +110,21 @@ Guess settled(const Problem& problem, Index active, const BranchPoint& point, co
   return {found.unknowns, found.parameters, at.regime, {}};
 }
 
+/// Both ways along each branch through a branch point, from where its own conditions have it.
+std::vector<Guess> ways_through(const Problem& problem, Index active, const BranchPoint& point,
+                                const Tolerances& tolerances) {
+  const Guess at = settled(problem, active, point, tolerances);
+  const auto form = branch_point_form(problem, active, at, tolerances);
+  std::vector<Guess> ways;
+  if (!form) return ways;
+  for (const Vector& direction : form->directions) {
+    if (direction.size() == 0) continue;
+    ways.push_back({at.unknowns, at.parameters, at.regime, direction});
+    ways.push_back({at.unknowns, at.parameters, at.regime, -direction});
+  }
+  return ways;
+}
+
 /// Traces branches one after the other, each way once.
 class Network {
  public:
@@ -156,18 +171,15 @@ class Network {
   }
 
  private:
-  /// The ways through the point where a branch became its own image, as other branches through it know them.
+  /// The way along which a branch became its own image, both ways, as other branches through the point know
+  /// it.
   void pass_settled(const BranchPoint& point) {
     const Index active = index_of(problem_.parameter_names(), options_.parameter);
-    const Guess at = settled(problem_, active, point, options_.tolerances);
-    const auto form = branch_point_form(problem_, active, at, options_.tolerances);
-    if (!form) return;
-    const Way arrival = map_.way(at.unknowns, at.parameters, point.arriving());
-    std::optional<Way> best;
     double straightest = 0.5;
-    for (const Vector& direction : form->directions) {
-      if (direction.size() == 0) continue;
-      Way way = map_.way(at.unknowns, at.parameters, direction);
+    std::optional<Way> best;
+    for (const Guess& guess : ways_through(problem_, active, point, options_.tolerances)) {
+      Way way = map_.way(guess.unknowns, guess.parameters, guess.direction);
+      const Way arrival = map_.way(guess.unknowns, guess.parameters, point.arriving());
       const double along = std::abs(way.direction.dot(arrival.direction));
       if (along < straightest) continue;
       straightest = along;
@@ -211,19 +223,11 @@ class Network {
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
                               const Tolerances& tolerances) {
   const Index active = index_of(problem.parameter_names(), parameter);
-  Guess at{point.unknowns, point.parameters, point.regime, {}};
   std::vector<Guess> ways;
   if (point.type == PointType::branch_point) {
-    at = settled(problem, active, point, tolerances);
-    const auto form = branch_point_form(problem, active, at, tolerances);
-    if (!form) return {};
-    for (const Vector& direction : form->directions) {
-      if (direction.size() == 0) continue;
-      ways.push_back({at.unknowns, at.parameters, at.regime, direction});
-      ways.push_back({at.unknowns, at.parameters, at.regime, -direction});
-    }
+    ways = ways_through(problem, active, point, tolerances);
   } else if (point.type == PointType::regime_switch) {
-    ways = leaving_pieces(problem, active, at, tolerances);
+    ways = leaving_pieces(problem, active, {point.unknowns, point.parameters, point.regime, {}}, tolerances);
   }
   Map map(problem, active, tolerances);
   map.pass(point);

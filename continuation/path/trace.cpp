@@ -51,6 +51,14 @@ double TimeBudget::seconds_left() const {
   return options_.max_seconds - spent.count();
 }
 
+TraceOptions unwatched(TraceOptions options) {
+  options.extrema_of.clear();
+  options.events.clear();
+  options.stop_after.clear();
+  options.journal = nullptr;
+  return options;
+}
+
 TraceOptions TimeBudget::rest() const {
   TraceOptions rest = options_;
   rest.max_seconds = std::max(seconds_left(), std::numeric_limits<double>::min());

@@ -45,7 +45,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       parameter_(index_of(problem.parameter_names(), options.parameter)),
       corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
-               looks_for_pairs(problem, options), options.tolerances),
+               looks_for_pairs(problem, options), options.tolerances, options.rough_extrema),
       watch_(problem, options.events),
       targets_(problem, parameter_, options),
       image_(options.symmetries, options.tolerances.same_solution) {

@@ -338,10 +338,10 @@ template class FloquetOf<HarmonicResponse>;
 template class FloquetOf<HarmonicCycle>;
 
 std::set<Index> disturbed_waves(const SystemParameters& parameters) {
-  if (structures_of(parameters).whole() != nullptr) return {0};
+  const RingNodes nodes = ring_nodes(parameters);
   std::set<Index> all;
   for (const std::vector<int>& orders : {parameters.harmonics, other_orders(parameters)})
-    all.merge(RingDisturbances::waves(parameters.first_wave(), parameters.elements, orders));
+    all.merge(RingDisturbances::waves(nodes.wave_number, nodes.count, orders));
   return all;
 }
 

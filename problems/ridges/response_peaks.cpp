@@ -164,7 +164,7 @@ Branch ResponsePeaks::trace_over(double across, double longest, bool is_rough) {
   options.from = response_.from;
   options.to = response_.to;
   options.max_step = longest;
-  if (is_rough) options.tolerances.extremum = 1;
+  options.rough_extrema = is_rough;
   ++traced_;
   return trace(*response_.problem, start(across), options);
 }

@@ -68,10 +68,15 @@ class JsonColumn {
 /// What of a table nobody looks at in a picture.
 bool is_shown(const std::string& column) { return column != "iterations" && column != "residual"; }
 
-/// A table; of too many rows those that are special, and of the others as many as there is room for.
-std::string table_text(const ResultTable& table) {
+std::size_t count_rows(const ResultTable& table) {
   std::size_t rows = 0;
   table.for_each_row([&](const std::vector<std::string>& /*fields*/) { ++rows; });
+  return rows;
+}
+
+/// A table; of too many rows those that are special, and of the others as many as there is room for.
+std::string table_text(const ResultTable& table) {
+  const std::size_t rows = count_rows(table);
   const std::size_t every = (rows + most_report_rows - 1) / most_report_rows;
   const std::optional<std::size_t> type =
       table.has("type") ? std::optional(table.place("type")) : std::nullopt;
@@ -111,9 +116,8 @@ std::string run_text(const fs::path& folder, const ordered_json& summary) {
     const ResultTable sectors(folder / "sectors.csv",
                               {"branch", "point", "type", "eta", "P", "sector", "contact", "state"},
                               "contacts");
-    std::size_t rows = 0;
-    sectors.for_each_row([&](const std::vector<std::string>& /*fields*/) { ++rows; });
-    if (rows > 0 && rows <= most_report_rows) more += R"(,"sectors":)" + table_text(sectors);
+    if (const std::size_t rows = count_rows(sectors); rows > 0 && rows <= most_report_rows)
+      more += R"(,"sectors":)" + table_text(sectors);
   }
   const std::string drawn = drawn_table(folder.string());
   ordered_json own = summary;

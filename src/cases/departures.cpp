@@ -56,15 +56,6 @@ struct Special {
   std::size_t last;
 };
 
-/// Without what is asked of the problem that a special point is on, and of its branches.
-TraceOptions unwatched(TraceOptions options) {
-  options.extrema_of.clear();
-  options.events.clear();
-  options.stop_after.clear();
-  options.journal = nullptr;
-  return options;
-}
-
 /// The branch point that a special point is in a wider balance: the first on the way from some points before,
 /// for other harmonics have it at another place.
 std::optional<BranchPoint> branch_point_at(const Special& special, const HarmonicProblem& wider) {

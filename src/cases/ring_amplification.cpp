@@ -24,12 +24,9 @@ std::shared_ptr<const CaseBranch> with_equal_peak(const CaseBranch& branch,
   const WholeRing& ring = *ring_of(branch);
   ProblemRequest equal = branch.problem;
   equal.system = ring.equal(equal.system);
-  continuation::TraceOptions options = time.rest();
+  continuation::TraceOptions options = unwatched(time.rest());
   options.extrema_of = {"Y_max"};
   options.stop_at.clear();
-  options.stop_after.clear();
-  options.events.clear();
-  options.journal = nullptr;
   const Subject subject = build(equal, options.parameter, options.from, options);
   auto told = std::make_shared<CaseBranch>(branch);
   if (!subject.failure.empty()) return told;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "arcslip/continuation/path/stop.hpp"
 #include "cases/unit_names.hpp"
 #include "results/answer.hpp"
 
@@ -143,14 +144,12 @@ Sentences symmetries_answer(const ordered_json& branches) {
 
 /// Which branches did not come to an end that is as good as any.
 Sentences ends_answer(const ordered_json& branches) {
-  constexpr std::array ends = {"reached_end", "left_range", "closed_loop",
-                               "own_image",   "requested",  "left_regime"};
   constexpr std::size_t most = 3;
   Sentences sentences;
   std::size_t open = 0;
   for (const ordered_json& branch : branches) {
-    const std::string stop = branch.at("stop").get<std::string>();
-    if (std::find(ends.begin(), ends.end(), stop) != ends.end()) continue;
+    const auto stop = continuation::stop_named(branch.at("stop").get<std::string>());
+    if (stop && is_end(*stop)) continue;
     if (++open <= most)
       sentences.push_back(fmt::format("Branch {} is not whole: {}.", branch.at("branch").get<std::size_t>(),
                                       branch.at("explanation").get<std::string>()));

@@ -13,13 +13,8 @@ struct Equation {
 
 Equation equation_of(const RingMotion& motion, const VaryingForces& forces) {
   const Ring& ring = motion.ring();
-  Matrix gain = forces.linear.asDiagonal();
-  for (Index i = 0; i < gain.rows(); ++i) {
-    const Index other = forces.other[static_cast<std::size_t>(i)];
-    if (other >= 0) gain(i, other) += forces.cross(i);
-  }
   Equation all{ring.stiffness.asDiagonal(), ring.damping.asDiagonal(), -forces.motion.transpose()};
-  all.stiffness.noalias() += forces.motion.transpose() * (gain * forces.motion);
+  all.stiffness.noalias() += forces.motion.transpose() * (forces.gain() * forces.motion);
   all.damping.noalias() += motion.dragged().transpose() * motion.dragged();
   if (ring.coupling.size() == 0) return all;
   for (Index c = 0; c < ring.coordinates(); ++c)

@@ -67,11 +67,7 @@ LinearLeap::LinearLeap(const Ring& ring, const VaryingForces& forces, double rat
   const Index count = std::ssize(forces.rows);
   const Collocation at(16 + static_cast<Index>(std::ceil(rate * length)));
   const Index points = at.points.size();
-  gain_ = forces.linear.asDiagonal();
-  for (Index i = 0; i < count; ++i) {
-    const Index other = forces.other[static_cast<std::size_t>(i)];
-    if (other >= 0) gain_(i, other) += forces.cross(i);
-  }
+  gain_ = forces.gain();
   free_.resize(count * points, 2 * all);
   pushed_.resize(2 * all, count * points);
   Matrix back(2 * all, count * points);

@@ -22,6 +22,14 @@ double bound_of(const Matrix& rows) {
 
 }  // namespace
 
+Matrix VaryingForces::gain() const {
+  Matrix gain = linear.asDiagonal();
+  for (Index i = 0; i < gain.rows(); ++i) {
+    if (const Index beside = other[static_cast<std::size_t>(i)]; beside >= 0) gain(i, beside) += cross(i);
+  }
+  return gain;
+}
+
 Vector RingSegment::value(const Matrix& series, double ratio) {
   Vector sum = series.col(series.cols() - 1);
   for (Index m = series.cols() - 2; m >= 0; --m) sum = sum * ratio + series.col(m);

@@ -141,13 +141,17 @@ std::vector<Oscillator> RingWaves::at(Index wave, std::span<const Coordinate> ot
                      others);
 }
 
+RingNodes ring_nodes(const SystemParameters& parameters) {
+  if (structures_of(parameters).whole() != nullptr) return {1, 0};
+  return {parameters.elements, parameters.first_wave()};
+}
+
 RingWaves ring_waves(const SystemParameters& parameters, int highest) {
   SystemParameters wide = parameters;
   wide.force = 0;
   wide.eta_high = wide.eta_high * highest / parameters.periods();
-  const bool is_whole = structures_of(parameters).whole() != nullptr;
-  const Index nodes = is_whole ? 1 : parameters.elements;
-  return {is_whole ? 0 : parameters.first_wave(), nodes, [wide](Index wave) {
+  const RingNodes nodes = ring_nodes(parameters);
+  return {nodes.wave_number, nodes.count, [wide](Index wave) {
             SystemParameters one = wide;
             one.wave_number = wave;
             ContactSystem system = build_wave(one);

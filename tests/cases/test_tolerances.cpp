@@ -13,19 +13,19 @@ using continuation::Tolerances;
 namespace {
 
 constexpr std::array all = {
-    &Tolerances::same_value,      &Tolerances::on_target,        &Tolerances::start_moves,
-    &Tolerances::on_border,       &Tolerances::outside,          &Tolerances::together,
-    &Tolerances::leaves,          &Tolerances::tangential,       &Tolerances::settled,
-    &Tolerances::last_bits,       &Tolerances::both_sides,       &Tolerances::one_place,
-    &Tolerances::located,         &Tolerances::extremum,         &Tolerances::just_passed,
-    &Tolerances::one_zero,        &Tolerances::one_branch_point, &Tolerances::off_by_rounding,
-    &Tolerances::nearest_look,    &Tolerances::as_cusp,          &Tolerances::tiny_step,
-    &Tolerances::turns,           &Tolerances::no_rate,          &Tolerances::on_axis,
-    &Tolerances::rough,           &Tolerances::significant,      &Tolerances::surely_imaginary,
-    &Tolerances::zero_eigenvalue, &Tolerances::coincides,        &Tolerances::same_point,
-    &Tolerances::same_solution,   &Tolerances::same_direction,   &Tolerances::no_slope,
-    &Tolerances::plain_slope,     &Tolerances::same_slope,       &Tolerances::touches,
-    &Tolerances::on_extremum,     &Tolerances::beside_extremum};
+    &Tolerances::same_value,       &Tolerances::on_target,        &Tolerances::start_moves,
+    &Tolerances::on_border,        &Tolerances::outside,          &Tolerances::together,
+    &Tolerances::leaves,           &Tolerances::tangential,       &Tolerances::settled,
+    &Tolerances::last_bits,        &Tolerances::both_sides,       &Tolerances::one_place,
+    &Tolerances::located,          &Tolerances::just_passed,      &Tolerances::one_zero,
+    &Tolerances::one_branch_point, &Tolerances::off_by_rounding,  &Tolerances::nearest_look,
+    &Tolerances::as_cusp,          &Tolerances::tiny_step,        &Tolerances::turns,
+    &Tolerances::no_rate,          &Tolerances::on_axis,          &Tolerances::rough,
+    &Tolerances::significant,      &Tolerances::surely_imaginary, &Tolerances::zero_eigenvalue,
+    &Tolerances::coincides,        &Tolerances::same_point,       &Tolerances::same_solution,
+    &Tolerances::same_direction,   &Tolerances::no_slope,         &Tolerances::plain_slope,
+    &Tolerances::same_slope,       &Tolerances::touches,          &Tolerances::on_extremum,
+    &Tolerances::beside_extremum};
 static_assert(sizeof(Tolerances) == all.size() * sizeof(double), "one of them is left out");
 
 std::vector<TracedBranch> traced(const Case& input, const Tolerances& tolerances) {

@@ -88,6 +88,9 @@ struct VaryingForces {
   std::vector<std::pair<Index, std::vector<double>>> curved;  ///< place and powers of those not linear
   std::vector<Circle> circles;
 
+  /// Stiffnesses of linear ones between their coordinates.
+  Matrix gain() const;
+
   /// Whether all forces are linear.
   bool are_linear() const { return curved.empty() && circles.empty(); }
 };

@@ -72,8 +72,16 @@ class RingWaves {
   Build build_;
 };
 
-/// Those of a system of rods, beams or sectors; of sectors with the modes that serve up to its harmonic
-/// `highest` in the window of eta. A whole ring, in modes, is a single node. `at` throws SectorError.
+/// The nodes round a ring of which each does what the next one did, and the waves in which they do. A whole
+/// ring is a single node.
+struct RingNodes {
+  Index count;        ///< N
+  Index wave_number;  ///< n
+};
+RingNodes ring_nodes(const SystemParameters& parameters);
+
+/// Those of a system of rods, beams or sectors, or of a whole ring in modes; of sectors with the modes that
+/// serve up to its harmonic `highest` in the window of eta. `at` throws SectorError.
 RingWaves ring_waves(const SystemParameters& parameters, int highest);
 
 }  // namespace arcslip

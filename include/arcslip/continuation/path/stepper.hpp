@@ -17,14 +17,17 @@ namespace arcslip::continuation {
 class Stepper {
  public:
   /// `tracked` are the observables whose extrema are looked for; a step is kept only if it resolves them.
-  /// Without `pairs` no two branch points are looked for that one step may pass.
+  /// Without `pairs` no two branch points are looked for that one step may pass; `rough_extrema` are not
+  /// located within it.
   Stepper(const Problem& problem, Corrector& corrector, std::vector<Index> tracked, double max_step,
-          bool pairs = true, const Tolerances& tolerances = {});
+          bool pairs = true, const Tolerances& tolerances = {}, bool rough_extrema = false);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
   /// By which it judges.
   const Tolerances& tolerances() const { return tolerances_; }
+  /// Whether extrema lie where the slopes at both ends of a step tell.
+  bool has_rough_extrema() const { return rough_extrema_; }
   /// On the residual.
   double tolerance() const { return corrector_.options().tolerance; }
 
@@ -101,7 +104,8 @@ class Stepper {
   Corrector& corrector_;
   Tolerances tolerances_;
   double max_step_;
-  bool pairs_;  // of branch points are looked for
+  bool pairs_;
+  bool rough_extrema_;  // of branch points are looked for
   StepLimits limits_;
   Step step_;
   Monitors monitors_;

@@ -2,6 +2,7 @@
 
 // Why a branch ends.
 
+#include <optional>
 #include <string_view>
 
 namespace arcslip::continuation {
@@ -28,6 +29,9 @@ enum class Stop {
 
 /// As written to files: `reached_end`, `left_range`, and so on.
 std::string_view to_string(Stop stop);
+
+/// The reason of this name, or none.
+std::optional<Stop> stop_named(std::string_view name);
 
 /// Whether a branch that stops so has come to an end of its own or to one that was asked for.
 bool is_end(Stop stop);

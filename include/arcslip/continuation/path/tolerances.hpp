@@ -27,7 +27,6 @@ struct Tolerances {
   // Places in a step, of its length.
   double one_place = 1e-12;        ///< events closer together fall on one point: rounding of places
   double located = 1e-10;          ///< a function vanishes at another event: as well as both are located
-  double extremum = 1e-15;         ///< of an observable; 1: where the slopes at the ends of a step tell
   double just_passed = 1e-7;       ///< of its change, what one is just behind a zero: the root of rounding
   double one_zero = 1e-9;          ///< zeros of one function closer together are one: its values are rounding
   double one_branch_point = 1e-9;  ///< and branch points: so close their determinant is rounding

@@ -48,8 +48,9 @@ struct TraceOptions {
   double to = 1;                        ///< its last value, on which the branch ends exactly
   std::vector<double> stop_at;          ///< values to put a `user` point on, in any order
   std::vector<std::string> extrema_of;  ///< observables whose extrema become `peak` and `trough` points
-  std::vector<UserEvent> events;        ///< user's functions whose zeros become `event` points
-  std::vector<StopAfter> stop_after;    ///< the first of these to be met ends the branch
+  bool rough_extrema = false;     ///< whether these lie where the slopes at both ends of a step tell alone
+  std::vector<UserEvent> events;  ///< user's functions whose zeros become `event` points
+  std::vector<StopAfter> stop_after;  ///< the first of these to be met ends the branch
   /// Whether two branch points within one step are looked for, where the Jacobian's determinant leaves room.
   /// By default they are, but with several switches and more than 24 unknowns: there the determinant jumps
   /// and changes so fast that nearly every step leaves room. A problem that is known to have none is traced
@@ -76,6 +77,10 @@ struct TraceOptions {
   /// Where the branches are kept, to be had again by the same work done anew; null: nowhere.
   Journal* journal = nullptr;
 };
+
+/// The same for a branch of its own: without what is watched on this one, extrema, events and their counts,
+/// and without its journal.
+TraceOptions unwatched(TraceOptions options);
 
 /// Thrown where a search ended before it had found what it looked for, for want of time or by an interrupt.
 class Unfinished : public std::runtime_error {
