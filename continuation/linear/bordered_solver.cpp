@@ -21,6 +21,10 @@ void BorderedSolver::set_jacobian(const SparseMatrix& /*jacobian*/, const Vector
   throw std::logic_error("set_jacobian: a dense solver was given a sparse Jacobian");
 }
 
+void BorderedSolver::set_jacobian(const CondensedJacobian& /*jacobian*/, const Vector& /*column_scale*/) {
+  throw std::logic_error("set_jacobian: another solver was given a condensed Jacobian");
+}
+
 double BorderedSolver::permutation_sign(const int* image, std::vector<char>& seen) {
   std::fill(seen.begin(), seen.end(), char{0});
   double sign = 1;

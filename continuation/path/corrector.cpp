@@ -17,7 +17,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       options_(options),
       tolerance_(options.tolerance),
       linearization_(problem),
-      solver_(make_bordered_solver(size_, 1, problem.sparse())),
+      solver_(linearization_.make_solver(1)),
       correction_(size_ + 1),
       direction_(size_ + 1),
       unknown_scale_(size_),

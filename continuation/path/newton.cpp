@@ -21,7 +21,7 @@ class Newton {
       : problem_(problem),
         options_(options),
         at_(problem),
-        solver_(make_bordered_solver(problem.size(), 1, problem.sparse())),
+        solver_(at_.make_solver(1)),
         scale_(problem.size()),
         parameter_scale_(static_cast<Index>(problem.parameter_names().size())),
         absolute_(problem.size()),

@@ -9,7 +9,7 @@
 namespace arcslip::continuation {
 
 ExtendedProblem::ExtendedProblem(const Problem& base, Index active, Index conditions)
-    : at_(base), base_(base), active_(active), conditions_(conditions), values_(conditions) {
+    : at_(base, true), base_(base), active_(active), conditions_(conditions), values_(conditions) {
   const Index parameters = static_cast<Index>(base.parameter_names().size());
   gradients_.setZero(conditions, base.size() + parameters + conditions - 1);
   scale_.setOnes(base.size());

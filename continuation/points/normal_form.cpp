@@ -86,7 +86,7 @@ class CubicTerm {
     };
     if (!std::isfinite(differentiate(product, step_, bend).error)) return {};
     if (!at_.evaluate(point_.unknowns, point_.parameters, point_.regime)) return {};
-    const auto solver = make_bordered_solver(n, 1, problem_.sparse());
+    const auto solver = at_.make_solver(1);
     at_.fill(*solver, scale_.head(n));
     solver->columns().col(0) = psi_;
     solver->rows().row(0) = v.cwiseQuotient(scale_.head(n)).transpose();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/continuation/problem/one_piece.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 
 namespace arcslip::problems {
@@ -24,6 +25,9 @@ class HarmonicResponse::LoadPath : public continuation::Problem {
 
   Index size() const override { return response_.size(); }
   std::vector<std::string> parameter_names() const override { return {"load"}; }
+  std::unique_ptr<continuation::CondensedJacobian> condensed_jacobian() const override {
+    return response_.condensed_jacobian();
+  }
 
   bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                 const continuation::Evaluation& out) const override {
@@ -71,6 +75,7 @@ std::optional<Guess> HarmonicResponse::reached(const continuation::Problem& path
   options.from = start.parameters(parameter);
   options.to = to;
   options.bound *= std::max(1.0, to / options.from);  // as under a load, which motions grow with
+  options.branch_point_pairs = false;
   options.max_points = 10000;  // a hundred do, unless the branch winds round a negative damping
   options.max_seconds = limits.max_seconds;
   options.go_on = limits.go_on;
@@ -130,7 +135,15 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
     if (holding <= 1) return guess;
     guess.parameters(preload) =
         1.5 * holding * pressing({}, parameters) - pressing({}, parameters) + preload_value;
-    if (const auto end = reached(*this, guess, preload, preload_value, limits)) return *end;
+    // Contacts of a whole ring begin to slip one after the other, which joins smoothly.
+    const std::shared_ptr<const HarmonicResponse> own(std::shared_ptr<const void>(), this);
+    const continuation::OnePiece joined(own);
+    const bool joins = system_.sectors > 1;
+    auto end = joins ? reached(joined, guess, preload, preload_value, limits)
+                     : reached(*this, guess, preload, preload_value, limits);
+    if (end && joins)
+      end->regime = continuation::regime_at(*this, end->unknowns, end->parameters, end->regime);
+    if (end) return *end;
     throw std::invalid_argument("HarmonicResponse: the way from a high preload leads back there");
   }
   // Near a resonance of what the elements make of it a branch may fold back below its first force.

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "arcslip/problems/response/contact_problem.hpp"
+#include "arcslip/structure/block_circulant.hpp"
+#include "harmonic_jacobian.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -21,12 +23,13 @@ void store(const ContactVector& values, Index which, Index n, Column&& column) {
 
 }  // namespace
 
-HarmonicResponse::HarmonicResponse(HarmonicSystem system)
+HarmonicResponse::HarmonicResponse(HarmonicSystem system, Index matrix_up_to)
     : HarmonicProblem(std::move(system), {.eta = {Place::parameters, eta},
                                           .preload = {Place::parameters, preload},
                                           .real = {Place::unknowns, 0},
                                           .imaginary = {Place::unknowns, 1}}),
-      is_odd_(all_odd(system_.orders)) {
+      is_odd_(all_odd(system_.orders)),
+      matrix_up_to_(matrix_up_to) {
   if (system_.varied) layout_.varied = {Place::parameters, further};
   quantities_ = {{"R", Measure::amplitude},
                  {"S", Measure::threshold},
@@ -151,7 +154,7 @@ void HarmonicResponse::set_order(Index which, const Vector& p, const continuatio
   } else {
     order.bordered.resize(0, 0);
     order.inverse = joint.compliance;
-    invert(order.inverse);
+    if (!invert_block_circulant(order.inverse, system_.sectors)) invert(order.inverse);
   }
   set_weight(order);
 }
@@ -172,13 +175,16 @@ bool HarmonicResponse::evaluate(const Vector& u, const Vector& p, const continua
         u.segment(2 * coordinates_.first(e) * harmonics(), 2 * count * harmonics()).isZero(0))
       return false;
   }
-  const bool derivatives = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
+  const bool derivatives =
+      out.jacobian != nullptr || out.parameter_jacobian != nullptr || out.condensed_jacobian != nullptr;
   const std::vector<ElementForce>& elements = forces(u, p, regime, derivatives);
   if (derivatives && !remembers_mean(elements, p, regime)) return false;
   thread_local Rows rows;
+  rows.condensed = static_cast<HarmonicJacobian*>(out.condensed_jacobian);
   fill_rows(elements, share, u, p, regime, rows, out.parameter_jacobian);
   if (out.residual != nullptr) *out.residual = rows.residual;
   if (out.jacobian != nullptr) fill_jacobian(rows, elements, u, regime, *out.jacobian);
+  if (rows.condensed != nullptr) fill_condensed(rows, elements, u, regime);
   return true;
 }
 
@@ -187,7 +193,7 @@ void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, doub
                                  Matrix* parameter_jacobian) const {
   rows.residual.resize(size());
   rows.weight.resize(harmonics());
-  rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
+  if (rows.condensed == nullptr) rows.own.resize(harmonics(), coordinates_.size() * coordinates_.size());
   rows.drifts = onto_drifts(regime);
   for (Index a = 0; a < harmonics(); ++a) {
     set_order(a, p, regime, rows.order);
@@ -196,12 +202,13 @@ void HarmonicResponse::fill_rows(const std::vector<ElementForce>& elements, doub
   if (rows.drifts.size() > 0) set_drifts(u, rows, nullptr);
 }
 
-void HarmonicResponse::fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
-                            const continuation::Regime& regime, Matrix& jacobian,
-                            Matrix& parameter_jacobian) const {
-  Rows rows;
-  fill_rows(elements, 1, u, p, regime, rows, &parameter_jacobian);
-  fill_jacobian(rows, elements, u, regime, jacobian);
+std::unique_ptr<continuation::CondensedJacobian> HarmonicResponse::condensed_jacobian() const {
+  if (size() <= matrix_up_to_ || system_.sectors == 1 || rigid_.count() > 0) return nullptr;
+  std::vector<Index> sectors;
+  const Index each = contacts() / system_.sectors;
+  for (Index i = 0; i < coordinates_.size(); ++i)
+    sectors.push_back(i < contacts() ? i / each : coordinates_[i].sector);
+  return std::make_unique<HarmonicJacobian>(harmonics(), std::move(sectors));
 }
 
 /// The rows of one harmonic but for their derivatives by the unknowns.
@@ -227,9 +234,13 @@ void HarmonicResponse::fill_order(Order& order, const std::vector<ElementForce>&
   order.residual = weight * (order.f + order.held.head(m));
   store(order.residual, which, harmonics(), rows.residual);
   rows.weight(which) = weight;
-  for (Index j = 0; j < m; ++j) {
-    for (Index i = 0; i < m; ++i)
-      rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
+  if (rows.condensed != nullptr) {
+    rows.condensed->set_order(which, order.inverse, weight);
+  } else {
+    for (Index j = 0; j < m; ++j) {
+      for (Index i = 0; i < m; ++i)
+        rows.own(which, j * m + i) = weight * ((i == j ? 1.0 : 0.0) - order.inverse(i, j));
+    }
   }
   if (parameter_jacobian != nullptr) fill_by_parameters(order, elements, share, p, rows, *parameter_jacobian);
 }
@@ -293,6 +304,44 @@ void HarmonicResponse::add_linear_part(Order& order, const ContactMatrix& compli
   order.gap.noalias() += weight * (order.solver().topRows(m) * order.f);
 }
 
+/// How f/K - x of all harmonics in one coordinate changes with one harmonic of another one, by Re and Im.
+void HarmonicResponse::set_change(const ElementForce& element, Index from, Index to, Index order,
+                                  Rows& rows) const {
+  const Index by = place(from, order);
+  const double per_k = 1 / rows.order.stiffness(to);
+  const auto linear = element.linear.col(by).segment(place(to, 0), harmonics());
+  const auto conjugate = element.conjugate.col(by).segment(place(to, 0), harmonics());
+  rows.sum = (linear + conjugate) * per_k;
+  rows.difference = (linear - conjugate) * Complex(0, per_k);
+  if (to != from) return;
+  rows.sum(order) -= 1;
+  rows.difference(order) -= Complex(0, 1);
+}
+
+/// Of the elements that are not linear.
+void HarmonicResponse::fill_condensed(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
+                                      const continuation::Regime& regime) const {
+  const Index n = harmonics();
+  rows.condensed->clear_elements();
+  for (Index e = 0; e < coordinates_.elements(); ++e) {
+    const Index first = coordinates_.first(e);
+    const Index own = coordinates_.element(e).coordinates();
+    if (is_odd_ && is_linear(regime, first)) continue;  // f = x
+    Matrix& change = rows.condensed->add_element(first, own);
+    for (Index column = 0; column < own * n; ++column) {
+      for (Index j = 0; j < own; ++j) {
+        set_change(elements[at(e)], first + column / n, first + j, column % n, rows);
+        for (Index a = 0; a < n; ++a) {
+          const Index row = 2 * (j * n + a);
+          change.block<2, 2>(row, 2 * column) << rows.sum(a).real(), rows.difference(a).real(),
+              rows.sum(a).imag(), rows.difference(a).imag();
+        }
+      }
+    }
+  }
+  rows.condensed->set_size(rows.residual, u);
+}
+
 /// Column by column, in which the harmonics of a coordinate's rows follow one another.
 void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
                                      const continuation::Regime& regime, Matrix& jacobian) const {
@@ -307,18 +356,8 @@ void HarmonicResponse::fill_jacobian(Rows& rows, const std::vector<ElementForce>
     if (is_odd_ && is_linear(regime, from)) continue;  // f = x
     const Index of = coordinates_.element_of(from);
     const Index first = coordinates_.first(of);
-    const Index by = place(from, order);
-    const ElementForce& element = elements[at(of)];
     for (Index j = first; j < first + coordinates_.element(of).coordinates(); ++j) {
-      const double per_k = 1 / rows.order.stiffness(j);
-      const auto linear = element.linear.col(by).segment(place(j, 0), n);
-      const auto conjugate = element.conjugate.col(by).segment(place(j, 0), n);
-      rows.sum = (linear + conjugate) * per_k;
-      rows.difference = (linear - conjugate) * Complex(0, per_k);
-      if (j == from) {
-        rows.sum(order) -= 1;
-        rows.difference(order) -= Complex(0, 1);
-      }
+      set_change(elements[at(of)], from, j, order, rows);
       for (Index i = 0; i < m; ++i) {
         const auto part = [&](Index real_column) {
           return Eigen::Map<Eigen::ArrayXcd>(

@@ -5,6 +5,7 @@
 
 #include "arcslip/continuation/problem/second_derivative.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
+#include "harmonic_jacobian.hpp"
 
 namespace arcslip::problems {
 
@@ -34,16 +35,29 @@ bool HarmonicResponse::second(const Vector& u, const Vector& p, const continuati
     changes.push_back(std::move(change));
   }
   const Index parameters = p.size();
-  Matrix jacobian(size(), size());
+  const auto condensed = condensed_jacobian();
+  Rows rows;
+  rows.condensed = static_cast<HarmonicJacobian*>(condensed.get());
+  Matrix jacobian;
+  if (condensed == nullptr) jacobian.resize(size(), size());
   Matrix parameter_jacobian(size(), parameters);
+  Vector by_unknowns(size());
   const auto along = [&](double h, Vector& value) {
     const Vector moved = p + h * dp;
     if (!has_value(moved)) return false;
     std::vector<ElementForce> there = elements;
     for (std::size_t k = 0; k < there.size(); ++k) there[k].add(changes[k], h);
-    fill(there, u + h * du, moved, regime, jacobian, parameter_jacobian);
+    const Vector x = u + h * du;
+    fill_rows(there, 1, x, moved, regime, rows, &parameter_jacobian);
+    if (condensed != nullptr) {
+      fill_condensed(rows, there, x, regime);
+      condensed->multiply_transposed(w, by_unknowns);
+    } else {
+      fill_jacobian(rows, there, x, regime, jacobian);
+      by_unknowns.noalias() = jacobian.transpose() * w;
+    }
     value.resize(size() + parameters);
-    value << jacobian.transpose() * w, parameter_jacobian.transpose() * w;
+    value << by_unknowns, parameter_jacobian.transpose() * w;
     return value.allFinite();
   };
   Vector unknown_scale(size());

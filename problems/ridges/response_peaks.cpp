@@ -46,7 +46,7 @@ class ResponsePeaks::Slopes {
         across_(across),
         objective_(objective),
         at_(problem),
-        solver_(continuation::make_bordered_solver(problem.size(), 1, problem.sparse())),
+        solver_(at_.make_solver(1)),
         ones_(Vector::Ones(problem.size())) {
     gradient_.unknowns.setZero(problem.size());
     gradient_.parameters.setZero(static_cast<Index>(problem.parameter_names().size()));

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "arcslip/continuation/linear/condensed_jacobian.hpp"
 #include "arcslip/continuation/linear/log_product.hpp"
 #include "arcslip/types.hpp"
 
@@ -30,10 +31,11 @@ class BorderedSolver {
   Matrix& rows() { return rows_; }        ///< C^T, borders x n
   Matrix& corner() { return corner_; }    ///< D, borders x borders
 
-  /// Sets J = `jacobian` diag(`column_scale`), n x n; of the scale, the first n entries count. The two throw
-  /// std::logic_error in a solver of the other kind.
+  /// Sets J = `jacobian` diag(`column_scale`), n x n; of the scale, the first n entries count. They throw
+  /// std::logic_error in a solver of another kind.
   virtual void set_jacobian(const Matrix& jacobian, const Vector& column_scale);
   virtual void set_jacobian(const SparseMatrix& jacobian, const Vector& column_scale);
+  virtual void set_jacobian(const CondensedJacobian& jacobian, const Vector& column_scale);
 
   /// Factors the whole and returns the sign of its determinant: 0 if it is singular or not finite.
   virtual double factor() = 0;

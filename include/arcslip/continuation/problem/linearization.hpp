@@ -1,6 +1,6 @@
 #pragma once
 
-// F and its derivatives at one point, whether the problem is dense or sparse.
+// F and its derivatives at one point, whether the problem is dense, sparse or condensed.
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
@@ -11,8 +11,8 @@ namespace arcslip::continuation {
 /// The problem must outlive it.
 class Linearization {
  public:
-  /// Nothing is evaluated yet.
-  explicit Linearization(const Problem& problem);
+  /// Nothing is evaluated yet. `as_matrix` asks those that condense their Jacobian for a matrix as well.
+  explicit Linearization(const Problem& problem, bool as_matrix = false);
 
   /// Evaluates F with all its derivatives, as `continuation::evaluate` does. `u` n, `p` number of parameters.
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime);
@@ -22,7 +22,7 @@ class Linearization {
   const Vector& residual() const { return residual_; }                      ///< F, n
   const Matrix& parameter_jacobian() const { return parameter_jacobian_; }  ///< n x number of parameters
 
-  /// dF/du, n x n: one is set, the other empty.
+  /// dF/du, n x n: one is set, the other empty, or both are where it is condensed.
   bool sparse() const { return sparse_; }
   const Matrix& jacobian() const { return jacobian_; }
   const SparseMatrix& sparse_jacobian() const { return sparse_jacobian_; }
@@ -32,8 +32,11 @@ class Linearization {
   void multiply_transposed(const Vector& x, Vector& out) const;  ///< out = (dF/du)^T x
   void multiply_absolute(const Vector& x, Vector& out) const;    ///< out = |dF/du| |x|, by entries
 
+  /// A solver for it with so many borders.
+  std::unique_ptr<BorderedSolver> make_solver(Index borders) const;
+
   /// Sets the solver's J = dF/du diag(column_scale); of the scale, the first n entries count. Throws
-  /// std::logic_error if only one of the two is sparse.
+  /// std::logic_error if the solver is of another kind.
   void fill(BorderedSolver& solver, const Vector& column_scale) const;
 
  private:
@@ -44,6 +47,7 @@ class Linearization {
   Matrix parameter_jacobian_;
   Matrix jacobian_;
   SparseMatrix sparse_jacobian_;
+  std::unique_ptr<CondensedJacobian> condensed_;
 };
 
 }  // namespace arcslip::continuation

@@ -33,6 +33,9 @@ class OnePiece final : public Problem {
     return pieces_->second(u, p, regime_at(*pieces_, u, p, regime), w, du, dp, out);
   }
   bool sparse() const override { return pieces_->sparse(); }
+  std::unique_ptr<CondensedJacobian> condensed_jacobian() const override {
+    return pieces_->condensed_jacobian();
+  }
   long revision() const override { return pieces_->revision(); }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
     pieces_->scale(u, p, unknowns, parameters);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/continuation/linear/condensed_jacobian.hpp"
 #include "arcslip/continuation/points/point_type.hpp"
 #include "arcslip/continuation/problem/regime.hpp"
 #include "arcslip/continuation/problem/symmetry.hpp"
@@ -21,6 +22,7 @@ struct Evaluation {
   Matrix* jacobian = nullptr;               ///< dF/du, n x n, of a problem that is not sparse
   Matrix* parameter_jacobian = nullptr;     ///< dF/dp, n x (number of parameters)
   SparseMatrix* sparse_jacobian = nullptr;  ///< dF/du of a sparse problem, compressed, always of one pattern
+  CondensedJacobian* condensed_jacobian = nullptr;  ///< what the problem has made, in place of `jacobian`
 };
 
 /// A scalar function of (u, p) with its exact gradient.
@@ -83,6 +85,10 @@ class Problem {
 
   /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
   virtual bool sparse() const { return false; }
+
+  /// What `evaluate` fills where it is asked to, in place of `jacobian`: of large problems that are linear
+  /// but for few unknowns; else null.
+  virtual std::unique_ptr<CondensedJacobian> condensed_jacobian() const { return nullptr; }
 
   /// Counts how often F was scaled anew, which changes its values and leaves its zeros.
   virtual long revision() const { return 0; }

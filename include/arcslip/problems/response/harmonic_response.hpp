@@ -23,6 +23,8 @@
 
 namespace arcslip::problems {
 
+class HarmonicJacobian;
+
 /// The equations above.
 class HarmonicResponse : public HarmonicProblem {
  public:
@@ -35,12 +37,14 @@ class HarmonicResponse : public HarmonicProblem {
   /// contact, the greatest values in time R_peak, Y_peak, U_peak and the amplitudes R_h3, Y_h3, U_h3, ...
   enum Quantity : Index { R, S, R_over_S, Y, U, beta, alpha, psi, dissipated, T_max, slip };
 
-  /// Throws std::invalid_argument where base, damper and contacts differ in number.
-  explicit HarmonicResponse(HarmonicSystem system);
+  /// Of up to so many unknowns the Jacobian is a matrix, of more of a whole ring it is condensed. Throws
+  /// std::invalid_argument where base, damper and contacts differ in number.
+  explicit HarmonicResponse(HarmonicSystem system, Index matrix_up_to = 100);
 
   std::vector<std::string> parameter_names() const override { return names_with_varied({"eta", "P"}); }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
+  std::unique_ptr<continuation::CondensedJacobian> condensed_jacobian() const override;
   /// The loops' second derivatives are exact, one-sided where a slip begins; what else F consists of is
   /// smooth and differentiated by differences.
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
@@ -136,9 +140,10 @@ class HarmonicResponse : public HarmonicProblem {
     ComplexMatrix own;  // derivative by f: orders x pairs of coordinates, that of the column first
     ComplexVector sum;  // of the f of a coordinate by Re x_h and Im x_h of one
     ComplexVector difference;
-    Matrix drifts;       // onto those that go on; of size 0 where nothing is free to move
-    ComplexVector drag;  // on each rigid motion, of what damps masses
-    Matrix by_drag;      // of the mean's rows by the drifts of coordinates, through that
+    Matrix drifts;                          // onto those that go on; of size 0 where nothing is free to move
+    ComplexVector drag;                     // on each rigid motion, of what damps masses
+    Matrix by_drag;                         // of the mean's rows by the drifts of coordinates, through that
+    HarmonicJacobian* condensed = nullptr;  // which is filled in place of `own`, if there is one
   };
   void take_drifts(Order& order, const Vector& u, const Vector& p, Rows& rows) const;
   void set_drifts(const Vector& u, Rows& rows, Matrix* jacobian) const;
@@ -150,12 +155,11 @@ class HarmonicResponse : public HarmonicProblem {
                           const Vector& p, const Rows& rows, Matrix& parameter_jacobian) const;
   void add_linear_part(Order& order, const ContactMatrix& compliance, const ContactVector& free, double share,
                        double weight) const;
+  void set_change(const ElementForce& element, Index from, Index to, Index order, Rows& rows) const;
+  void fill_condensed(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
+                      const continuation::Regime& regime) const;
   void fill_jacobian(Rows& rows, const std::vector<ElementForce>& elements, const Vector& u,
                      const continuation::Regime& regime, Matrix& jacobian) const;
-
-  /// The derivatives of F with these forces of the elements.
-  void fill(const std::vector<ElementForce>& elements, const Vector& u, const Vector& p,
-            const continuation::Regime& regime, Matrix& jacobian, Matrix& parameter_jacobian) const;
 
   /// Whether the force in a coordinate is K x, be it under small motions alone.
   bool is_linear(const continuation::Regime& regime, Index coordinate) const {
@@ -166,7 +170,8 @@ class HarmonicResponse : public HarmonicProblem {
   std::optional<SparseMatrix> image_map(const std::function<Index(Index)>& image, double turns) const;
   [[nodiscard]] bool goes_with(const SparseMatrix& map) const;
   std::vector<double> ring_landmarks(double from, double to) const;
-  bool is_odd_;  ///< whether all harmonics are odd
+  bool is_odd_;         ///< whether all harmonics are odd
+  Index matrix_up_to_;  ///< unknowns
 
   /// Whether there is a response at these parameters.
   bool has_value(const Vector& p) const {

@@ -1,0 +1,167 @@
+#include "arcslip/continuation/linear/krylov_bordered_solver.hpp"
+
+#include <Eigen/Jacobi>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/linear/eigenvalues.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr Index most_steps = 200;        // of a cycle
+constexpr int most_cycles = 4;           // of a solution
+constexpr double solved = 1e-13;         // of the right-hand side, or as near as rounding lets it come
+constexpr double nearly_solved = 1e-10;  // where it comes no nearer
+
+}  // namespace
+
+KrylovBorderedSolver::KrylovBorderedSolver(Index size, Index borders)
+    : BorderedSolver(size, borders),
+      basis_(size + borders, most_steps + 1),
+      hessenberg_(most_steps + 1, most_steps) {}
+
+void KrylovBorderedSolver::set_jacobian(const CondensedJacobian& jacobian, const Vector& /*column_scale*/) {
+  jacobian_ = &jacobian;
+}
+
+double KrylovBorderedSolver::factor() {
+  sign_ = std::numeric_limits<double>::quiet_NaN();
+  near_ = jacobian_->precondition();
+  if (near_ == nullptr || near_->sign() == 0) return sign_;
+  borders_ = columns();
+  borders_transposed_ = rows().transpose();
+  Vector column;
+  for (Index k = 0; k < borders(); ++k) {
+    near_->solve(column = borders_.col(k));
+    borders_.col(k) = column;
+    near_->solve_transposed(column = borders_transposed_.col(k));
+    borders_transposed_.col(k) = column;
+  }
+  between_ = corner() - rows() * borders_;
+  const double determinant = between_.determinant();
+  sign_ = near_->sign() * (determinant < 0 ? -1 : 1);
+  log_determinant_ = near_->log_determinant() + std::log(std::abs(determinant));
+  Vector any = spread(size() + borders(), 0);
+  precondition(any, false);
+  const double enough = nearly_solved * any.norm();
+  if (!(cycle(any, enough, false) <= enough)) return sign_ = std::numeric_limits<double>::quiet_NaN();
+  add_eigenvalues();
+  return sign_;
+}
+
+/// Real eigenvalues of M^{-1} A below zero turn the sign.
+void KrylovBorderedSolver::add_eigenvalues() {
+  for (const Complex& value : eigenvalues(hessenberg_.topLeftCorner(steps_, steps_))) {
+    if (value.imag() == 0 && value.real() < 0) sign_ = -sign_;
+    log_determinant_ += std::log(std::abs(value));
+  }
+}
+
+void KrylovBorderedSolver::multiply_determinant(LogProduct& product) const {
+  product.multiply_exp(log_determinant_);
+}
+
+void KrylovBorderedSolver::solve(Vector& right_hand_side) { iterate(right_hand_side, false); }
+
+void KrylovBorderedSolver::solve_transposed(Vector& right_hand_side) { iterate(right_hand_side, true); }
+
+void KrylovBorderedSolver::multiply(const Vector& x, bool transposed, Vector& out) {
+  const auto& active = jacobian_->active();
+  spread_.setZero(jacobian_->weight().size());
+  spread_(active) = x.head(size());
+  out.resize(x.size());
+  if (transposed) {
+    jacobian_->couple_transposed(spread_, coupled_);
+    out.head(size()) = x.head(size()) + coupled_(active) + rows().transpose() * x.tail(borders());
+    out.tail(borders()) = columns().transpose() * x.head(size()) + corner().transpose() * x.tail(borders());
+  } else {
+    jacobian_->couple(spread_, coupled_);
+    out.head(size()) = x.head(size()) + coupled_(active) + columns() * x.tail(borders());
+    out.tail(borders()) = rows() * x.head(size()) + corner() * x.tail(borders());
+  }
+}
+
+void KrylovBorderedSolver::precondition(Vector& x, bool transposed) {
+  Vector own = x.head(size());
+  Vector rest = x.tail(borders());
+  if (transposed) {
+    near_->solve_transposed(own);
+    rest -= columns().transpose() * own;
+    x.tail(borders()) = between_.transpose().partialPivLu().solve(rest);
+    x.head(size()) = own - borders_transposed_ * x.tail(borders());
+  } else {
+    near_->solve(own);
+    rest -= rows() * own;
+    x.tail(borders()) = between_.partialPivLu().solve(rest);
+    x.head(size()) = own - borders_ * x.tail(borders());
+  }
+}
+
+/// Replaces the right-hand side by the solution, in cycles for what the last ones left.
+void KrylovBorderedSolver::iterate(Vector& x, bool transposed) {
+  const Vector right = x;
+  Vector left = right;
+  Vector product;
+  double whole = 0;
+  double last = std::numeric_limits<double>::infinity();
+  x.setZero();
+  for (int i = 0; i < most_cycles; ++i) {
+    precondition(left, transposed);
+    const double length = left.norm();
+    if (i == 0) whole = length;
+    const bool stands = !(length < 0.1 * last);
+    if (length <= solved * whole || (stands && length <= nearly_solved * whole)) return;
+    if (stands) break;
+    last = length;
+    cycle(left, solved * whole, transposed);
+    x += left;
+    multiply(x, transposed, product);
+    left = right - product;
+  }
+  x.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// One run of GMRES for M^{-1} r, which it replaces by the correction, until so much of it is left, which it
+/// returns.
+double KrylovBorderedSolver::cycle(Vector& x, double enough, bool transposed) {
+  Matrix triangle(most_steps + 1, most_steps);
+  std::vector<Eigen::JacobiRotation<double>> rotations;
+  Vector left = Vector::Zero(most_steps + 1);
+  left(0) = x.norm();
+  basis_.col(0) = x / left(0);
+  Vector next;
+  Vector part;
+  for (steps_ = 0; steps_ < most_steps && std::abs(left(steps_)) > enough;) {
+    const Index k = steps_++;
+    const auto known = basis_.leftCols(k + 1);
+    multiply(basis_.col(k), transposed, next);
+    precondition(next, transposed);
+    auto column = hessenberg_.col(k);
+    column.setZero();
+    for (int twice = 0; twice < 2; ++twice) {
+      part.noalias() = known.transpose() * next;
+      next.noalias() -= known * part;
+      column.head(k + 1) += part;
+    }
+    column(k + 1) = next.norm();
+    triangle.col(k) = column;
+    for (Index i = 0; i < k; ++i)
+      triangle.col(k).applyOnTheLeft(i, i + 1, rotations[static_cast<std::size_t>(i)].adjoint());
+    double length = 0;
+    Eigen::JacobiRotation<double>& rotation = rotations.emplace_back();
+    rotation.makeGivens(triangle(k, k), triangle(k + 1, k), &length);
+    triangle(k, k) = length;
+    left.applyOnTheLeft(k, k + 1, rotation.adjoint());
+    if (!(column(k + 1) > 0)) break;
+    basis_.col(k + 1) = next / column(k + 1);
+  }
+  const Vector along =
+      triangle.topLeftCorner(steps_, steps_).triangularView<Eigen::Upper>().solve(left.head(steps_));
+  x.noalias() = basis_.leftCols(steps_) * along;
+  return std::abs(left(steps_));
+}
+
+}  // namespace arcslip::continuation
