@@ -62,7 +62,8 @@ void HarmonicProblem::add_ring() {
   }
   if (system_.equal_peak) quantities_.push_back({"amplification", Measure::amplification, Body::base, 0});
   const Index half = system_.sectors / 2;
-  const Index own = std::min(system_.wave_number % system_.sectors, half);
+  const Index n = std::abs(system_.wave_number % system_.sectors);
+  const Index own = std::min(n, system_.sectors - n);
   for (Index q = 0; q <= half; ++q) {
     if (q <= most_waves || q == own)
       quantities_.push_back({fmt::format("Y_wave_{}", q), Measure::wave, Body::base, 0, 0, q});

@@ -105,6 +105,8 @@ bool HarmonicResponse::goes_with(const SparseMatrix& map) const {
   Vector p = Vector::Ones(static_cast<Index>(parameter_names().size()));
   p(eta) = resonances.empty() ? 1.37 : 0.93 * resonances.back();
   if (is_varied()) p(further) = system_.varied->value;
+  if (is_varied() && system_.varied->kind == SystemParameter::Kind::speed)
+    p(further) += 0.01 * p(eta);  // what mirrors at rest alone is none of the branch
   const double amplitude = system_.base.front().at(p(eta)).free.head(contacts()).cwiseAbs().maxCoeff();
   for (const SectorContact& contact : system_.contacts) {
     if (contact.stiffness > 0) p(preload) = amplitude / contact.slip_per_preload;

@@ -8,11 +8,18 @@ namespace {
 
 using Places = std::vector<std::array<Index, 2>>;  // sectors with ports
 
+Variation by_added_speed() {
+  Variation rate = Variation::none();
+  rate.speed = 1;
+  return rate;
+}
+
 }  // namespace
 
 RingPart::RingPart(Given given) : given_(std::move(given)) {
   const auto is_solved = [](const ContactModes& wave) { return wave.is_solved(); };
   is_modal_ = std::none_of(given_.waves.begin(), given_.waves.end(), is_solved);
+  given_.turns = given_.turns && !is_modal_;
   ports_ = given_.waves.front().contacts();
   for (Index q = 0; q < count(); ++q) {
     const double angle = two_pi * static_cast<double>(q) / static_cast<double>(count());
@@ -35,33 +42,43 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
 }
 
 /// The blocks of all lags between sectors, by a transformation over the waves of all entries at once.
-RingPart::Tuned RingPart::tuned(double eta) const {
+RingPart::Tuned RingPart::tuned(double eta, double speed) const {
   const Index n = count();
   const Index entries = ports_ * ports_;
-  ComplexMatrix waves(2 * entries, n);  // a column for each wave: its compliance, then the derivative
-  ComplexMatrix free = ComplexMatrix::Zero(2 * ports_, n);
-  const auto keep = [&](Index m, const auto& compliance, const auto& by_eta) {
-    Eigen::Map<ContactMatrix>(waves.col(m).data(), ports_, ports_) = compliance;
-    Eigen::Map<ContactMatrix>(waves.col(m).data() + entries, ports_, ports_) = by_eta;
+  ComplexMatrix waves = ComplexMatrix::Zero((1 + slopes()) * entries, n);
+  ComplexMatrix free = ComplexMatrix::Zero((1 + slopes()) * ports_, n);
+  const auto keep = [&](Index m, Slope slope, const auto& compliance) {
+    Eigen::Map<ContactMatrix>(waves.col(m).data() + slope * entries, ports_, ports_) = compliance;
   };
-  ContactReceptance one;
+  VariedReceptance one;
   for (Index m = 0; m < n; ++m) {
     const auto at = static_cast<std::size_t>(m);
+    const ContactModes& wave = given_.waves[at];
     const bool is_twin = is_modal_ && 2 * m > n;
     if (is_twin && !is_loaded_[at]) continue;
-    one.set_zero(ports_);
-    given_.waves[at].add(eta, one);
-    if (is_loaded_[at]) free.col(m) << one.free, one.free_eta;
+    if (wave.is_solved()) {
+      one = wave.varied(eta, {.speed = speed}, by_added_speed());
+    } else {
+      one.set_zero(ports_);
+      wave.add(eta, one);
+    }
+    if (is_loaded_[at]) free.col(m).head(2 * ports_) << one.free, one.free_eta;
     if (is_twin) continue;
-    keep(m, one.compliance, one.compliance_eta);
-    if (is_modal_ && m > 0 && 2 * m < n)
-      keep(n - m, one.compliance.transpose(), one.compliance_eta.transpose());
+    keep(m, itself, one.compliance);
+    keep(m, along_eta, one.compliance_eta);
+    if (is_modal_ && m > 0 && 2 * m < n) {
+      keep(n - m, itself, one.compliance.transpose());
+      keep(n - m, along_eta, one.compliance_eta.transpose());
+    }
+    if (!given_.varies_speed || !wave.is_solved()) continue;
+    free.col(m).tail(ports_) = one.free_rate;
+    keep(m, along_speed, one.compliance_rate);
   }
   Tuned sum;
   sum.entries.noalias() = waves * transform_;
   const double size = std::sqrt(static_cast<double>(n));
-  sum.free.noalias() = size * (free.topRows(ports_) * transform_);
-  sum.free_eta.noalias() = size * (free.bottomRows(ports_) * transform_);
+  for (Index k = 0; k <= slopes(); ++k)
+    sum.free.emplace_back(size * (free.middleRows(k * ports_, ports_) * transform_));
   return sum;
 }
 
@@ -101,21 +118,24 @@ ComplexMatrix RingPart::times_changes(const ComplexMatrix& blocks, const Complex
   return product;
 }
 
-ComplexMatrix RingPart::times_rows(const Tuned& tuned, bool by_eta, const Places& places) const {
+ComplexMatrix RingPart::times_rows(const Tuned& tuned, Slope slope, const Places& places,
+                                   bool of_forces) const {
   ComplexMatrix product = ComplexMatrix::Zero(std::ssize(places), std::ssize(rows_));
   for (Index k = 0; k < product.cols(); ++k) {
     for (const RingChange::Term& term : rows_[static_cast<std::size_t>(k)]) {
+      const Index changed = place(term.sector, term.port);
       for (Index i = 0; i < product.rows(); ++i) {
         const auto& [sector, port] = places[static_cast<std::size_t>(i)];
-        product(i, k) +=
-            term.weight * entry(tuned, by_eta, place(sector, port), place(term.sector, term.port));
+        const Index seen = place(sector, port);
+        product(i, k) += term.weight * (of_forces ? entry(tuned, slope, changed, seen)
+                                                  : entry(tuned, slope, seen, changed));
       }
     }
   }
   return product;
 }
 
-ComplexMatrix RingPart::between_rows(const Tuned& tuned, bool by_eta) const {
+ComplexMatrix RingPart::between_rows(const Tuned& tuned, Slope slope) const {
   const Index size = std::ssize(rows_);
   ComplexMatrix product = ComplexMatrix::Zero(size, size);
   for (Index k = 0; k < size; ++k) {
@@ -123,7 +143,7 @@ ComplexMatrix RingPart::between_rows(const Tuned& tuned, bool by_eta) const {
       for (const RingChange::Term& to : rows_[static_cast<std::size_t>(i)]) {
         for (const RingChange::Term& from : rows_[static_cast<std::size_t>(k)])
           product(i, k) += to.weight * from.weight *
-                           entry(tuned, by_eta, place(to.sector, to.port), place(from.sector, from.port));
+                           entry(tuned, slope, place(to.sector, to.port), place(from.sector, from.port));
       }
     }
   }
@@ -139,39 +159,51 @@ ComplexVector RingPart::of_rows(const ComplexMatrix& motions) const {
   return x;
 }
 
-RingPart::Rows RingPart::rows(const Solved& all, const Places& places) const {
-  Rows found{times_rows(all.tuned, false, places), times_rows(all.tuned, true, places), {}, {}, {}};
-  found.held.noalias() =
-      all.factors.solve(times_changes(all.changes.value, found.left.transpose())).transpose();
-  found.rate = found.left_eta;
-  found.rate.noalias() -= 0.5 * (found.held * all.between_eta);
-  if (all.changes.by_eta.isZero(0)) return found;
-  found.kept = found.left;
-  found.kept.noalias() -= found.held * all.between;
+RingPart::Rows RingPart::rows(const Solved& all, const Places& places, bool of_forces) const {
+  Rows found{times_rows(all.tuned, itself, places, of_forces), {}, {}, {}, {}};
+  if (of_forces || !given_.turns) {  // (1 + D S)^-1 D L^T
+    found.held.noalias() =
+        all.factors.solve(times_changes(all.changes.value, found.left.transpose())).transpose();
+  } else {  // D (1 + S^T D)^-1 L^T
+    const ComplexMatrix turned = all.factors.transpose().solve(found.left.transpose());
+    found.held.noalias() = times_changes(all.changes.value, turned).transpose();
+  }
+  const auto met = [&](const ComplexMatrix& between) -> ComplexMatrix {
+    if (of_forces) return found.held * between.transpose();
+    return found.held * between;
+  };
+  for (Index k = 0; k < slopes(); ++k) {
+    found.slope.push_back(times_rows(all.tuned, static_cast<Slope>(k + 1), places, of_forces));
+    found.rate.emplace_back(found.slope.back() - 0.5 * met(all.between_slope[static_cast<std::size_t>(k)]));
+  }
+  if (!all.changes.by_eta.isZero(0)) found.kept = found.left - met(all.between);
   return found;
 }
 
-std::shared_ptr<const RingPart::Solved> RingPart::solved(double eta) const {
+std::shared_ptr<const RingPart::Solved> RingPart::solved(double eta, double speed) const {
   std::shared_ptr<const Solved> known = last_.load();
-  if (known != nullptr && known->eta == eta) return known;
+  if (known != nullptr && known->eta == eta && known->speed == speed) return known;
   const auto all = std::make_shared<Solved>();
   all->eta = eta;
-  all->tuned = tuned(eta);
+  all->speed = speed;
+  all->tuned = tuned(eta, speed);
   if (!rows_.empty()) {
     all->changes = stiffness(eta);
-    all->between = between_rows(all->tuned, false);
-    all->between_eta = between_rows(all->tuned, true);
+    all->between = between_rows(all->tuned, itself);
+    for (Index k = 1; k <= slopes(); ++k)
+      all->between_slope.push_back(between_rows(all->tuned, static_cast<Slope>(k)));
     ComplexMatrix turned = times_changes(all->changes.value, all->between);
     turned.diagonal().array() += 1.0;
     all->factors.compute(turned);
-    all->contacts = rows(*all, contacts_);
+    all->contacts = rows(*all, contacts_, false);
+    if (given_.turns) all->forces = rows(*all, contacts_, true);
   }
   last_.store(all);
   return all;
 }
 
-ContactReceptance RingPart::at(double eta, double load, Index port) const {
-  const std::shared_ptr<const Solved> all = solved(eta);
+VariedReceptance RingPart::at(double eta, double load, double speed, Index port) const {
+  const std::shared_ptr<const Solved> all = solved(eta, speed);
   Places places = contacts_;
   if (port >= 0) {
     places.clear();
@@ -180,51 +212,73 @@ ContactReceptance RingPart::at(double eta, double load, Index port) const {
   const Index columns = std::ssize(contacts_);
   const Index first = port >= 0 ? columns : 0;
   const Index size = std::ssize(places);
-  ContactReceptance response;
+  VariedReceptance response;
   response.set_zero(first + size);
-  for (Index i = 0; i < size; ++i) {
-    const auto& [sector, of] = places[static_cast<std::size_t>(i)];
-    response.free(first + i) = load * all->tuned.free(of, sector);
-    response.free_eta(first + i) = load * all->tuned.free_eta(of, sector);
-    for (Index j = 0; j < columns; ++j) {
-      const auto& [to, contact] = contacts_[static_cast<std::size_t>(j)];
-      response.compliance(first + i, j) = entry(all->tuned, false, place(sector, of), place(to, contact));
-      response.compliance_eta(first + i, j) = entry(all->tuned, true, place(sector, of), place(to, contact));
+  response.compliance_rate.setZero(first + size, first + size);
+  response.free_rate.setZero(first + size);
+  const auto fill = [&](Slope slope, ContactMatrix& compliance, ContactVector& free) {
+    for (Index i = 0; i < size; ++i) {
+      const auto& [sector, of] = places[static_cast<std::size_t>(i)];
+      free(first + i) = load * all->tuned.free[static_cast<std::size_t>(slope)](of, sector);
+      for (Index j = 0; j < columns; ++j) {
+        const auto& [to, contact] = contacts_[static_cast<std::size_t>(j)];
+        compliance(first + i, j) = entry(all->tuned, slope, place(sector, of), place(to, contact));
+      }
     }
-  }
+  };
+  fill(itself, response.compliance, response.free);
+  fill(along_eta, response.compliance_eta, response.free_eta);
+  if (given_.varies_speed) fill(along_speed, response.compliance_rate, response.free_rate);
   if (rows_.empty()) return response;
-  const Rows& of_contacts = all->contacts;
-  const Rows own = port >= 0 ? rows(*all, places) : of_contacts;
-  auto compliance = response.compliance.block(first, 0, size, columns);
-  auto compliance_eta = response.compliance_eta.block(first, 0, size, columns);
-  compliance.noalias() -= own.held * of_contacts.left.transpose();
-  const ComplexMatrix half = own.rate * of_contacts.held.transpose();
-  compliance_eta -= half;
   if (port < 0) {
-    compliance_eta -= half.transpose();
+    add_changes(*all, all->contacts, load, response);
   } else {
-    compliance_eta.noalias() -= own.held * of_contacts.rate.transpose();
+    add_changes(*all, rows(*all, places, false), load, response);
   }
-  const ComplexVector x = load * of_rows(all->tuned.free);
-  const ComplexVector met = all->factors.solve(all->changes.value * x);  // by the changes
-  response.free.tail(size).noalias() -= own.held * x;
-  response.free_eta.tail(size).noalias() -=
-      own.left_eta * met + own.held * (load * of_rows(all->tuned.free_eta) - all->between_eta * met);
-  if (own.kept.size() == 0) return response;
-  compliance_eta.noalias() -= own.kept * (all->changes.by_eta * of_contacts.kept.transpose());
-  response.free_eta.tail(size).noalias() -= own.kept * (all->changes.by_eta * (x - all->between * met));
   return response;
 }
 
-CycleWork RingPart::work(double eta, double load, const ContactVector& forces) const {
+/// What they make of the last rows of a response.
+void RingPart::add_changes(const Solved& all, const Rows& own, double load,
+                           VariedReceptance& response) const {
+  const Rows& forces = all.from();
+  const Index columns = std::ssize(contacts_);
+  const Index size = own.left.rows();
+  const Index first = response.free.size() - size;
+  response.compliance.block(first, 0, size, columns).noalias() -= own.held * forces.left.transpose();
+  const ComplexVector x = load * of_rows(all.tuned.free[itself]);
+  const ComplexVector met = all.factors.solve(all.changes.value * x);  // by the changes
+  response.free.tail(size).noalias() -= own.held * x;
+  for (Index k = 0; k < slopes(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    auto compliance =
+        (k == 0 ? response.compliance_eta : response.compliance_rate).block(first, 0, size, columns);
+    auto free = (k == 0 ? response.free_eta : response.free_rate).tail(size);
+    const ComplexMatrix half = own.rate[at] * forces.held.transpose();
+    compliance -= half;
+    if (&own == &forces) {
+      compliance -= half.transpose();
+    } else {
+      compliance.noalias() -= own.held * forces.rate[at].transpose();
+    }
+    free.noalias() -= own.slope[at] * met +
+                      own.held * (load * of_rows(all.tuned.free[at + 1]) - all.between_slope[at] * met);
+  }
+  if (own.kept.size() == 0) return;
+  response.compliance_eta.block(first, 0, size, columns).noalias() -=
+      own.kept * (all.changes.by_eta * forces.kept.transpose());
+  response.free_eta.tail(size).noalias() -= own.kept * (all.changes.by_eta * (x - all.between * met));
+}
+
+CycleWork RingPart::work(double eta, double load, const ContactVector& forces, double speed) const {
   const Index n = count();
   const Index c = given_.contacts;
   ComplexMatrix on_ports = ComplexMatrix::Zero(ports_, n);
   for (Index i = 0; i < n * c; ++i) on_ports(i % c, i / c) = forces(i);
   CycleWork sum;
   if (!rows_.empty()) {
-    const std::shared_ptr<const Solved> all = solved(eta);
-    const ComplexVector x = load * of_rows(all->tuned.free) + all->contacts.left.transpose() * forces;
+    const std::shared_ptr<const Solved> all = solved(eta, speed);
+    const ComplexVector x = load * of_rows(all->tuned.free[itself]) + all->from().left.transpose() * forces;
     const ComplexVector taken = all->factors.solve(all->changes.value * x);  // what the changes meet it with
     const ComplexVector moved = x - all->between * taken;
     for (Index k = 0; k < x.size(); ++k) {
@@ -240,7 +294,8 @@ CycleWork RingPart::work(double eta, double load, const ContactVector& forces) c
     for (Index i = 0; i < n; ++i)
       of_wave += (part * std::conj(turns_[static_cast<std::size_t>(m * i % n)])) * on_ports.col(i);
     const ContactModes& wave = given_.waves[static_cast<std::size_t>(m)];
-    const CycleWork own = wave.varied(Variation{.load = load, .loss = wave.loss()}).work(eta, of_wave);
+    const CycleWork own =
+        wave.varied(Variation{.load = load, .loss = wave.loss(), .speed = speed}).work(eta, of_wave);
     sum.load += own.load;
     sum.damping += own.damping;
     sum.magnitude += own.magnitude;

@@ -24,15 +24,17 @@ class RingPart {
     std::vector<RingChange> changes = {};  ///< of this part
     Loss loss = {};                        ///< of the changes; its modal part does not count
     double circular_frequency = two_pi;    ///< w over eta
+    bool turns = false;         ///< whether waves m and N - m may differ by more than a transposition
+    bool varies_speed = false;  ///< whether rates by the speed are wanted
   };
   explicit RingPart(Given given);
 
-  /// Of the N x c contacts under this factor of the load. With a port (>= 0) rows for its motions in all
-  /// sectors follow, and nothing else is filled.
-  ContactReceptance at(double eta, double load, Index port = -1) const;
+  /// Of the N x c contacts under this factor of the load, with so many revolutions added to the speed; rates
+  /// are by it. With a port (>= 0) rows for its motions in all sectors follow, and nothing else is filled.
+  VariedReceptance at(double eta, double load, double speed, Index port = -1) const;
 
   /// Of the same, with what the changes take.
-  CycleWork work(double eta, double load, const ContactVector& forces) const;
+  CycleWork work(double eta, double load, const ContactVector& forces, double speed) const;
 
   /// The modes of the equal sectors as the whole's contacts see it, with their loads.
   ContactModes modes() const;
@@ -64,14 +66,17 @@ class RingPart {
   };
   ChangedModes with_changes(const RealModes& all) const;
 
+  /// What a number may be in a row of: itself and its slopes, by eta and by the speed.
+  enum Slope : Index { itself, along_eta, along_speed };
+
   /// Motions of all ports of all sectors under the load of each wave, ports x N, and compliances between
-  /// ports of sectors that are 0..N-1 apart, a column for each lag: its block, then the derivative of that.
+  /// ports of sectors that are 0..N-1 apart, a column for each lag: its block, then the slopes of that.
   struct Tuned {
     ComplexMatrix entries;
-    ComplexMatrix free;
-    ComplexMatrix free_eta;
+    std::vector<ComplexMatrix> free;  // by Slope
   };
-  Tuned tuned(double eta) const;
+  Tuned tuned(double eta, double speed) const;
+  Index slopes() const { return given_.varies_speed ? 2 : 1; }
 
   /// D(eta) of all changes, one after the other, with its derivative.
   struct Stiffness {
@@ -81,49 +86,53 @@ class RingPart {
   Stiffness stiffness(double eta) const;
   ComplexMatrix times_changes(const ComplexMatrix& blocks, const ComplexMatrix& x) const;
 
-  /// Rows of the compliance of the changed whole, C_pc' = C_pc - H_p R^T with R = C_cB, L = C_pB,
-  /// H = L (D^-1 + B^T C B)^-1, and what its derivative takes: with V = L_eta - H B^T C_eta B/2
-  ///   C_pc,eta' = C_pc,eta - V_p H_c^T - H_p V_c^T - K_p D_eta K_c^T,   K = L - H B^T C B,
-  /// and of the motions y' = y - H x with x = B^T y.
+  /// Rows of the compliance of the changed whole, with L = C_pB, S = B^T C B, T = (D^-1 + S)^-1 and H = L T:
+  ///   C_pc' = C_pc - H_p R_c^T,   C_pc,q' = C_pc,q - V_p H~_c^T - H_p V~_c^T - K_p D_q K~_c^T
+  /// by q = eta or the speed, V = L_q - H S_q/2, K = L - H S, and of the motions y' = y - H x with x = B^T y.
+  /// R^T = B^T C_c and what has ~ are those of C^T, the same where C is symmetric.
   struct Rows {
-    ComplexMatrix left;      // L
-    ComplexMatrix left_eta;  // its derivative
-    ComplexMatrix held;      // H
-    ComplexMatrix rate;      // V
-    ComplexMatrix kept;      // K, where D changes with eta
+    ComplexMatrix left;                // L
+    std::vector<ComplexMatrix> slope;  // L_q
+    ComplexMatrix held;                // H
+    std::vector<ComplexMatrix> rate;   // V
+    ComplexMatrix kept;                // K, where D changes with eta
   };
-  /// All that is found once for an eta.
+  /// All that is found once for an eta and a speed.
   struct Solved {
     double eta;
+    double speed;
     Tuned tuned;
     Stiffness changes;
-    ComplexMatrix between;                       // B^T C B
-    ComplexMatrix between_eta;                   // its derivative
-    Eigen::PartialPivLU<ComplexMatrix> factors;  // of 1 + D B^T C B
+    ComplexMatrix between;                       // S
+    std::vector<ComplexMatrix> between_slope;    // S_q
+    Eigen::PartialPivLU<ComplexMatrix> factors;  // of 1 + D S
     Rows contacts;
+    Rows forces;  // of C^T, where it is not the same
+
+    const Rows& from() const { return forces.left.size() > 0 ? forces : contacts; }
   };
-  std::shared_ptr<const Solved> solved(double eta) const;
-  Rows rows(const Solved& all, const std::vector<std::array<Index, 2>>& places) const;
+  std::shared_ptr<const Solved> solved(double eta, double speed) const;
+  Rows rows(const Solved& all, const std::vector<std::array<Index, 2>>& places, bool of_forces) const;
+  void add_changes(const Solved& all, const Rows& own, double load, VariedReceptance& response) const;
 
   Index count() const { return std::ssize(given_.waves); }
   Index place(Index sector, Index port) const { return sector * ports_ + port; }
   /// Of one port's motion per force on another one, each by `place`.
-  Complex entry(const Tuned& tuned, bool by_eta, Index to, Index from) const {
+  Complex entry(const Tuned& tuned, Slope slope, Index to, Index from) const {
     const auto& [to_sector, to_port] = places_[static_cast<std::size_t>(to)];
     const auto& [from_sector, from_port] = places_[static_cast<std::size_t>(from)];
     const Index lag = to_sector - from_sector + (to_sector < from_sector ? count() : 0);
-    const Index half = by_eta ? ports_ * ports_ : 0;
-    return tuned.entries(half + from_port * ports_ + to_port, lag);
+    return tuned.entries((slope * ports_ + from_port) * ports_ + to_port, lag);
   }
-  /// Rows of C B for ports (sector, port) in a list, and of B^T C as its transpose, since C is symmetric.
-  ComplexMatrix times_rows(const Tuned& tuned, bool by_eta,
-                           const std::vector<std::array<Index, 2>>& places) const;
-  ComplexMatrix between_rows(const Tuned& tuned, bool by_eta) const;
+  /// Rows of C B, or of C^T B, for ports (sector, port) in a list.
+  ComplexMatrix times_rows(const Tuned& tuned, Slope slope, const std::vector<std::array<Index, 2>>& places,
+                           bool of_forces) const;
+  ComplexMatrix between_rows(const Tuned& tuned, Slope slope) const;
   ComplexVector of_rows(const ComplexMatrix& motions) const;
 
   Given given_;
   Index ports_;
-  bool is_modal_;                                    // whether waves m and N - m differ by a transposition
+  bool is_modal_;                                    // whether all waves are sums over modes at rest
   std::vector<Complex> turns_;                       // e^{-2 pi j q/N}
   ComplexMatrix transform_;                          // e^{-j a_m i}/N
   std::vector<bool> is_loaded_;                      // of each wave

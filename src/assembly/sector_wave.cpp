@@ -52,6 +52,38 @@ struct Part {
     return turning ? solved.turning(turning) : solved;
   }
 
+  /// The outputs that are told, as combinations.
+  std::vector<Terms> told_outputs() const {
+    std::vector<Terms> all;
+    for (Index i = 0; i < std::ssize(part.sector.outputs) - part.untold; ++i) all.push_back({{i, 1}});
+    for (const auto& [name, terms] : part.combinations) all.push_back(terms);
+    return all;
+  }
+
+  /// Contacts and these outputs, solved for in the coordinates of the modes at rest. Of a ring, which keeps
+  /// what it needs of it again.
+  ContactModes solved_with_outputs() const {
+    constexpr std::size_t kept = 1;
+    const Index count = std::ssize(part.sector.contacts);
+    const std::vector<Terms> told = told_outputs();
+    auto seen = std::make_shared<SectorModes>(modes);
+    seen->shapes = ComplexMatrix::Zero(count + std::ssize(told), modes.shapes.cols());
+    seen->shapes.topRows(count) = modes.shapes.topRows(count);
+    for (Index i = 0; i < std::ssize(told); ++i) {
+      for (const auto& [place, weight] : told[static_cast<std::size_t>(i)])
+        seen->shapes.row(count + i) += weight * modes.shapes.row(count + place);
+    }
+    std::vector<ContactMode> list;
+    for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
+      const auto column = static_cast<Index>(k);
+      list.push_back({modes.frequencies[k], seen->shapes.col(column), force * modes.loads(column)});
+    }
+    const Index ports = seen->shapes.rows();
+    Part all = *this;
+    all.solves = std::make_shared<const ModalSolves>(std::move(seen), ports, loss, kept);
+    return all.solved_for({ports, std::move(list), loss});
+  }
+
   /// The rotation with so many revolutions more.
   std::function<Rotation(double)> at_speed() const {
     return [own = rotation](double speed) { return Rotation{own.fixed + speed, own.per_eta}; };
@@ -104,12 +136,14 @@ struct Part {
   }
 
   void add_outputs(std::vector<ContactOutput>& outputs) const {
-    for (Index i = 0; i < std::ssize(part.sector.outputs) - part.untold; ++i) {
-      const Index dof = part.sector.outputs[static_cast<std::size_t>(i)] + 1;
-      outputs.push_back({fmt::format("{}_{}", letter, dof), contacts({{i, 1}}), is_base});
+    const Index dofs = std::ssize(part.sector.outputs) - part.untold;
+    const std::vector<Terms> told = told_outputs();
+    for (Index i = 0; i < std::ssize(told); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const std::string name = i < dofs ? fmt::format("{}", part.sector.outputs[at] + 1)
+                                        : part.combinations[static_cast<std::size_t>(i - dofs)].name;
+      outputs.push_back({fmt::format("{}_{}", letter, name), contacts(told[at]), is_base});
     }
-    for (const auto& [name, terms] : part.combinations)
-      outputs.push_back({fmt::format("{}_{}", letter, name), contacts(terms), is_base});
   }
 };
 
@@ -182,6 +216,13 @@ ContactSystem SectorPair::wave(const SystemParameters& system) const {
   if (damper) damper->add_outputs(wave.outputs);
   if (system.tells_lag) wave.outputs.push_back(driven_motion(base.driven()));
   return wave;
+}
+
+ContactModes SectorPair::seen(const SystemParameters& system, bool is_base) const {
+  const bool is_solved = path_ == SectorPath::reduced && system.turns() && (is_base || damper_) &&
+                         (is_base ? base_ : *damper_).part.sector.feels_rotation();
+  return is_solved ? part_of(*this, system, is_base).solved_with_outputs()
+                   : Structures::seen(system, is_base);
 }
 
 std::vector<PartModes> SectorPair::modes(const SystemParameters& system) const {

@@ -153,7 +153,9 @@ std::shared_ptr<const RingPart> WholeRing::part(const SystemParameters& system, 
                         waves_of(sector(), one, is_base, amplitudes(system.wave_number), is_travelling),
                         {},
                         is_base ? losses.base(system) : losses.damper(system),
-                        circular_frequency()};
+                        circular_frequency(),
+                        arcslip::feels_rotation(system),
+                        system.varied == "speed"};
   const Index ports = is_base ? make_.base_ports : make_.damper_ports;
   const Index first = given.waves.front().contacts() - ports;
   for (const RingChange& change : make_.changes) {
@@ -172,14 +174,17 @@ ContactSystem WholeRing::wave(const SystemParameters& system) const {
   const auto base = part(system, true);
   const auto damper = part(system, false);
   if (make_.in_modes) {
+    if (arcslip::feels_rotation(system))
+      throw std::invalid_argument("a ring that turns has no modes at rest, which rotation couples");
     const Variation loaded{.load = system.force, .loss = base->modes().loss()};
     return {base->changed_modes().varied(loaded), damper->changed_modes(), system.contacts};
   }
   const auto solved = [](const std::shared_ptr<const RingPart>& of, double load) {
-    return of->modes().solved_by([of](double eta, double factor) { return of->at(eta, factor); }, load,
-                                 [of](double eta, double factor, const ContactVector& forces) {
-                                   return of->work(eta, factor, forces);
-                                 });
+    return of->modes().solved_at_speeds(
+        [of](double eta, double factor, double speed) { return of->at(eta, factor, speed); }, load,
+        [of](double eta, double factor, const ContactVector& forces, double speed) {
+          return of->work(eta, factor, forces, speed);
+        });
   };
   ContactSystem whole{solved(base, system.force), solved(damper, 0), system.contacts};
   const Index count = std::ssize(system.contacts);
@@ -189,10 +194,12 @@ ContactSystem WholeRing::wave(const SystemParameters& system) const {
     if (output.name.find('#') != std::string::npos) continue;
     const Index port = output.on_base ? port_of_base++ : port_of_damper++;
     const auto of = output.on_base ? base : damper;
-    const auto respond = [of, port](double eta, double factor) { return of->at(eta, factor, port); };
+    const auto respond = [of, port](double eta, double factor, double speed) {
+      return of->at(eta, factor, speed, port);
+    };
     const ContactModes none(count + make_.sectors, {}, {});
     whole.outputs.push_back(
-        {output.name, none.solved_by(respond, output.on_base ? system.force : 0), output.on_base});
+        {output.name, none.solved_at_speeds(respond, output.on_base ? system.force : 0), output.on_base});
   }
   return whole;
 }
@@ -220,6 +227,14 @@ void WholeRing::check(Index /*wave_number*/, Index nodes) const {
   for (Index m = 0; 2 * m <= nodes; ++m) sector().check(m, nodes);
 }
 
+bool WholeRing::feels_rotation() const { return sector().feels_rotation(); }
+
+std::vector<SystemParameter> WholeRing::parameters(const SystemParameters& system) const {
+  std::vector<SystemParameter> all = sector().parameters(system);
+  std::erase_if(all, [](const SystemParameter& one) { return one.kind != SystemParameter::Kind::speed; });
+  return all;
+}
+
 std::vector<PartModes> WholeRing::modes(const SystemParameters& system) const {
   return sector().modes(one_sector(system));
 }
@@ -230,7 +245,8 @@ std::vector<double> WholeRing::landmarks(const SystemParameters& system) const {
   SystemParameters one = one_sector(system);
   one.wanted.clear();
   std::vector<double> all;
-  for (Index m = 0; 2 * m <= make_.sectors; ++m) {
+  const bool turns = arcslip::feels_rotation(system);
+  for (Index m = 0; (turns ? m : 2 * m - 1) < make_.sectors; ++m) {
     one.wave_number = m;
     const ContactSystem wave = sector().wave(one);
     const Vector springs = contact_springs(wave.contacts);

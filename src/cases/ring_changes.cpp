@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/structure/chain_elements.hpp"
 #include "cases/ring_numbers.hpp"
 
@@ -40,10 +41,10 @@ bool is_mistuning(const TomlSection& section) { return section.name("").starts_w
 constexpr auto check_changed_dofs = [](const RingChangeSettings& settings, const TomlSection& section) {
   const std::size_t count = settings.dofs.size();
   if (!is_mistuning(section)) {
-    if (count != 2)
+    if (count != 2 && (count == 0 || count % 2 != 0 || !section.has("weights")))
       section.fail("dofs",
-                   fmt::format("expected two dofs, one of the sector behind which the link is and one "
-                               "of the next, got {}",
+                   fmt::format("expected two dofs, one of the sector behind which the link is and one of the "
+                               "next, or beside `weights` as many of each, got {}",
                                count));
     return;
   }
@@ -51,6 +52,17 @@ constexpr auto check_changed_dofs = [](const RingChangeSettings& settings, const
     section.fail("dofs", fmt::format("expected one dof, or two with a spring between them, got {}", count));
   if (count == 2 && settings.dofs[0] == settings.dofs[1])
     section.fail("dofs", "expected two dofs that differ");
+};
+
+constexpr auto check_link_weights = [](const RingChangeSettings& settings, const TomlSection& section) {
+  if (settings.weights.size() != settings.dofs.size())
+    section.fail("weights", fmt::format("expected {} numbers, one for each of `dofs`, got {}",
+                                        settings.dofs.size(), settings.weights.size()));
+  const auto half = settings.weights.begin() + std::ssize(settings.weights) / 2;
+  const auto is_zero = [](double weight) { return weight == 0; };
+  if (std::all_of(settings.weights.begin(), half, is_zero) ||
+      std::all_of(half, settings.weights.end(), is_zero))
+    section.fail("weights", "expected numbers of both sectors that are not 0");
 };
 
 /// Reads one but for its dofs alone.
@@ -79,7 +91,16 @@ Index dof_of(const RingChangeSettings& settings, std::size_t i) {
 /// Motions of a sector that a table is about.
 std::vector<WeightRow> motions_of(const RingChangeSettings& settings, bool mistuned) {
   if (settings.dofs.empty()) return {};
-  if (!mistuned) return {motion_row({dof_of(settings, 0)}, {1}), motion_row({dof_of(settings, 1)}, {1})};
+  if (!mistuned) {  // what both ends stretch the link by
+    std::vector<WeightRow> ends(2, motion_row({}, {}));
+    const std::size_t count = settings.dofs.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      WeightRow& end = ends[2 * i / count];
+      end.dofs.push_back(dof_of(settings, i));
+      end.weights.push_back(settings.weights.empty() ? (i == 0 ? -1 : 1) : settings.weights[i]);
+    }
+    return ends;
+  }
   if (settings.dofs.size() == 1) return {motion_row({dof_of(settings, 0)}, {1})};
   return {motion_row({dof_of(settings, 0), dof_of(settings, 1)}, {1, -1})};
 }
@@ -99,7 +120,7 @@ void add_cut(const RingChangeSettings& settings, Index port, std::vector<RingCha
   for (const Index i : settings.after) {
     const Index next = (i + 1) % settings.sectors;
     changes.push_back({settings.on_base,
-                       {{{i, port, -1}, {next, port + 1, 1}}},
+                       {{{i, port, 1}, {next, port + 1, 1}}},
                        Matrix::Constant(1, 1, -settings.stiffness)});
   }
 }
@@ -146,6 +167,27 @@ void read_element_changes(const TomlDocument& document, const SystemParameters& 
   }
 }
 
+/// Refuses masses on dofs that Coriolis' forces act on, since those of a further mass are not known.
+void check_turning_mass(const TomlSection& section, const RingChangeSettings& settings,
+                        const SystemParameters& system) {
+  const auto* pair = dynamic_cast<const SectorPair*>(system.structures.get());
+  if (settings.mass == 0 || pair == nullptr || !feels_rotation(system)) return;
+  const FiniteSector& sector = (settings.on_base ? pair->base() : *pair->damper()).sector;
+  if (sector.gyroscopic.size() == 0) return;
+  std::vector<Index> dofs{dof_of(settings, 0)};
+  for (std::size_t i = 0; i < sector.left.size(); ++i) {
+    if (sector.left[i] == dofs[0]) dofs.push_back(sector.right[i]);
+    if (sector.right[i] == dofs[0]) dofs.push_back(sector.left[i]);
+  }
+  for (const Index dof : dofs) {
+    if (sector.gyroscopic.col(dof).norm() > 0)
+      section.fail("mass",
+                   fmt::format("not on dof {:g}, which Coriolis' forces act on: those of the mass are "
+                               "not known",
+                               settings.dofs[0]));
+  }
+}
+
 }  // namespace
 
 const KeyTable<RingChangeSettings>& mistuning_keys() {
@@ -182,8 +224,12 @@ const KeyTable<RingChangeSettings>& cut_keys() {
        ChangeKey::special("after", "list of sectors", "behind which the link to the next one is missing",
                           read_after, required),
        ChangeKey("dofs", &RingChangeSettings::dofs, changed_dof_rule(),
-                 "the dof of the sector and that of the next one between which it is", required,
-                 then(check_changed_dofs)),
+                 "the dof of the sector and that of the next one between which it is, or as many of each, "
+                 "first those of the sector",
+                 required, then(check_changed_dofs)),
+       ChangeKey("weights", &RingChangeSettings::weights, any_number(),
+                 "of the dofs, in what stretches the link: that times `stiffness` is its force",
+                 otherwise("[-1, 1]"), then(check_link_weights)),
        ChangeKey("stiffness", &RingChangeSettings::stiffness, positive(), "of the link", required)}};
   return keys;
 }
@@ -222,6 +268,7 @@ void read_changes(const TomlDocument& document, const SystemParameters& system, 
       Index& ports = settings.on_base ? ring.base_ports : ring.damper_ports;
       if (!settings.on_base && system.fixed_damper) section.fail("part", "there is no damper that moves");
       const bool mistuned = is_mistuning(section);
+      if (mistuned) check_turning_mass(section, settings, system);
       mistuned ? add_mistuning(settings, ports, ring.changes) : add_cut(settings, ports, ring.changes);
       ports += std::ssize(motions_of(settings, mistuned));
     }

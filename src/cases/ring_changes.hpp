@@ -13,6 +13,7 @@ namespace arcslip {
 struct RingChangeSettings {
   bool on_base = true;               ///< or on the damper
   std::vector<double> dofs = {};     ///< of a sector, from 1; without them elements of rods and beams change
+  std::vector<double> weights = {};  ///< of the dofs of a cut, in what its link is stretched by
   double stiffness = 0;              ///< of a spring between two of them, or from one to ground
   double mass = 0;                   ///< of one
   std::vector<double> factors = {};  ///< of a mistuning, on these in each sector

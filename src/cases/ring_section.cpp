@@ -127,13 +127,18 @@ void check_ring_use(const TomlDocument& document, const TomlSection& section, co
     fail("expected a structure of sectors or nodes, as rods, beams, or model = \"sector\" with `sectors`");
   if (system.elements > most_sectors)
     fail(fmt::format("expected at most {} sectors, got {}", most_sectors, system.elements));
-  if (feels_rotation(system)) fail("not of sectors that turn, whose waves +n and -n differ");
   if (system.periods() > 1)
     fail("only of responses that repeat themselves with the load, not over `periods`");
 }
 
-/// Refuses loads that have a phase within a sector, but for the travelling one that it belongs to.
+/// Refuses loads that have a phase within a sector, but for the travelling one that it belongs to, and those
+/// that cannot stand still beside sectors that turn.
 void check_ring_load(const TomlSection& section, const WholeLoad& load, const SystemParameters& system) {
+  const bool is_fixed = load.course == WholeLoad::Course::standing || load.course == WholeLoad::Course::point;
+  if (system.rotation.per_eta != 0 && feels_rotation(system) && is_fixed)
+    section.fail("load", fmt::format("expected \"travelling\" or a list beside engine_order, whose load the "
+                                     "sectors pass, got \"{}\"",
+                                     to_string(load.course)));
   const auto* pair = dynamic_cast<const SectorPair*>(system.structures.get());
   if (load.course == WholeLoad::Course::travelling || pair == nullptr) return;
   if (!pair->base().sector.load.imag().isZero(0))

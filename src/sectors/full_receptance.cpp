@@ -98,12 +98,11 @@ CycleWork SectorSolves::work(double eta, double force, const ContactVector& forc
 }
 
 SectorResponse SectorSolves::response(double eta, const Rotation& rotation) const {
-  constexpr std::size_t most = 10000;
   const std::scoped_lock lock(mutex_);
   const std::pair<double, double> place(eta, rotation.at(eta));
   const auto known = known_.find(place);
   if (known != known_.end()) return known->second;
-  if (known_.size() == most) known_.clear();
+  if (known_.size() == kept_) known_.clear();
   try {
     return known_[place] = solved(eta, place.second);
   } catch (const std::domain_error&) {  // as the sum over undamped modes at one of their frequencies

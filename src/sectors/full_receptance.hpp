@@ -17,6 +17,8 @@ namespace arcslip {
 /// derivatives by eta are along it; the rates are by the speed.
 class SectorSolves {
  public:
+  /// Keeps so many responses.
+  explicit SectorSolves(std::size_t kept = 10000) : kept_(kept) {}
   virtual ~SectorSolves() = default;
 
   /// The response of the m contacts under `force` times the load; not finite where Z is singular.
@@ -44,6 +46,7 @@ class SectorSolves {
   virtual Index contacts() const = 0;
   virtual Index outputs() const = 0;
 
+  std::size_t kept_;
   mutable std::map<std::pair<double, double>, SectorResponse>
       known_;  // by eta and speed: points are seen again when written
 };

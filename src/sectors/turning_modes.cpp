@@ -71,8 +71,9 @@ SectorMotions modal_motions(const SectorModes& modes, Index contacts, const Loss
   return motions_of(modes, contacts, driven_modes(modes, contacts, stiffness.z.partialPivLu()));
 }
 
-ModalSolves::ModalSolves(std::shared_ptr<const SectorModes> modes, Index contacts, const Loss& loss)
-    : modes_(std::move(modes)), contacts_(contacts), loss_(loss) {}
+ModalSolves::ModalSolves(std::shared_ptr<const SectorModes> modes, Index contacts, const Loss& loss,
+                         std::size_t kept)
+    : SectorSolves(kept), modes_(std::move(modes)), contacts_(contacts), loss_(loss) {}
 
 SectorResponse ModalSolves::solved(double eta, double speed) const {
   const ModalStiffness stiffness(*modes_, loss_, eta, speed);

@@ -16,8 +16,9 @@ SectorMotions modal_motions(const SectorModes& modes, Index contacts, const Loss
 /// Solved for in these coordinates, exactly, with damping of any kind that the modes at rest diagonalise.
 class ModalSolves final : public SectorSolves {
  public:
-  /// `modes` of `contacts` contacts, found with rotations.
-  ModalSolves(std::shared_ptr<const SectorModes> modes, Index contacts, const Loss& loss);
+  /// `modes` of `contacts` contacts, found with rotations; so many responses are kept.
+  ModalSolves(std::shared_ptr<const SectorModes> modes, Index contacts, const Loss& loss,
+              std::size_t kept = 10000);
 
   int factorisations() const override { return modes_->factorisations; }
 

@@ -293,7 +293,6 @@ TEST_CASE("What is not calculated of sectors that turn is refused in one line", 
        ""},
       {"gyroscopic = \"g.mtx\"", "gyroscopic = \"k2.mtx\"", ":", "system.base", "not skew-symmetric", ""},
       {"from = 100", "from = 100\nstability = true", ":", "branch.stability", "not of sectors that turn", ""},
-      {"[branch]", "[ring]\nload = \"standing\"\n[branch]", ":", "ring", "not of sectors that turn", ""},
       {"wave_number = 3\nspeed = 8", "engine_order = 3\neven_harmonics = true", ":", "system.engine_order",
        "the mean, which even harmonics call for, is not balanced", ""},
   }));

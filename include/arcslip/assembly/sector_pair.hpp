@@ -96,6 +96,8 @@ class SectorPair : public Structures {
 
   // Of the system's contacts, any number of them; one alone where it is reduced.
   ContactSystem wave(const SystemParameters& system) const override;
+  /// Of what turns in the coordinates of its modes at rest.
+  ContactModes seen(const SystemParameters& system, bool is_base) const override;
   bool is_one_contact(const SystemParameters& system) const override;
   /// The speed, where it is felt and follows no engine order.
   std::vector<SystemParameter> parameters(const SystemParameters& system) const override;

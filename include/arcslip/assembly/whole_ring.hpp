@@ -9,9 +9,9 @@
 //
 //   C_ij = (1/N) sum_m c(m) e^{-j a_m (i - j)},   y_i = sum_m A_m y(m) e^{-j a_m i},
 //
-// A_m that of the load, p_i = sum_m A_m p e^{-j a_m i}. Waves m and N - m differ by a transposition. What is
-// not the same in all sectors is a linear element on some motions x = B^T d of base or damper, with the
-// stiffness D(eta) = K (1 + j loss) - w^2 M:
+// A_m that of the load, p_i = sum_m A_m p e^{-j a_m i}. Waves m and N - m differ by a transposition, but for
+// those of sectors that turn, of which each has its own c(m). What is not the same in all sectors is a linear
+// element on some motions x = B^T d of base or damper, with the stiffness D(eta) = K (1 + j loss) - w^2 M:
 //
 //   C' = C - C B (D^-1 + B^T C B)^-1 B^T C,   y' = y - C B (D^-1 + B^T C B)^-1 B^T y      [Woodbury]
 //
@@ -102,7 +102,7 @@ class WholeRing final : public Structures {
   SystemParameters told_over(const SystemParameters& system, double equal_peak) const;
 
   /// Resonances of base, damper and the stuck whole, and the stuck damper's antiresonances, of all waves of
-  /// the equal sectors.
+  /// the equal sectors, as they turn.
   std::vector<double> landmarks(const SystemParameters& system) const;
 
   ContactSystem wave(const SystemParameters& system) const override;
@@ -111,6 +111,9 @@ class WholeRing final : public Structures {
   double nodes(const SystemParameters& system) const override;
   double circular_frequency() const override;
   void check(Index wave_number, Index nodes) const override;
+  /// The speed, where it may be continued.
+  std::vector<SystemParameter> parameters(const SystemParameters& system) const override;
+  bool feels_rotation() const override;
   std::vector<PartModes> modes(const SystemParameters& system) const override;
   bool has_equations() const override;
   std::shared_ptr<const Structures> in_modes() const override;
