@@ -1,5 +1,7 @@
 // Branch points, which the step itself looks for: see crossing.cpp.
 
+#include <cmath>
+
 #include "arcslip/continuation/events/step_search.hpp"
 
 namespace arcslip::continuation {
@@ -15,6 +17,11 @@ void pass_branch_point(const Event& event, const Passage& passage) {
   passage.behind.parameter = sign_of(passage.stepper.step().crossing->rate_behind);
   if (event.told && passage.behind.parameter == passage.before.parameter)
     passage.behind.unstable += passage.real_crossings();
+  // A test that has no value where branches of other symmetry meet may have any sign behind.
+  for (std::size_t i = 0; i < passage.behind.functions.size(); ++i) {
+    if (passage.watch.type(i) == PointType::branch_point && std::isnan(passage.watch.functions()[i]))
+      passage.behind.functions[i] = 0;
+  }
 }
 
 }  // namespace

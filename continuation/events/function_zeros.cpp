@@ -15,6 +15,8 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     return;  // no zero is told
   if (!step.is_whole() && !step.readings.value(which, step.upper())) return;
   const int before = step.signs.functions[i];
+  // A determinant that is rounding as a branch begins, where symmetries are lost, tells nothing.
+  if (before == 0 && step.watch.type(i) == PointType::branch_point) return;
   const double after = step.at_upper(which, end);
   const bool changes = before != 0 && before != sign_of(after);
   const bool may_vanish = step.watch.function_may_vanish(i, step.chord(), after);
@@ -24,7 +26,10 @@ void search_function(StepSearch& step, const EventKind& kind, std::size_t i) {
     step.note(kind, step.watch.type(i), index,
               zeros.first_of_pieces({which, pieces}, before, may_vanish, 0, step.upper()));
   } else if (changes || may_vanish) {
-    ZeroSearch zeros(step.stepper, step.readings, {.jumps_count = false});
+    // A determinant is found to rounding, and runs through decades.
+    const bool is_sharp = step.watch.type(i) == PointType::branch_point;
+    ZeroSearch zeros(step.stepper, step.readings,
+                     {.jumps_count = false, .left_over = is_sharp ? 1e-8 : ZeroOptions{}.left_over});
     step.note(kind, step.watch.type(i), index,
               zeros.first(which, before, 0, step.upper(), step.tolerances.located));
   }
@@ -40,6 +45,8 @@ void pass_zero(const Event& event, const Passage& passage) {
   const auto i = static_cast<std::size_t>(event.index);
   passage.behind.functions[i] =
       passage.watch.piece_of(i) ? sign_of(passage.watch.functions()[i]) : -passage.before.functions[i];
+  if (event.told && event.type == PointType::branch_point)
+    passage.behind.unstable += passage.real_crossings();
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ void search_extrema(StepSearch& step) {
     const int before = step.signs.observables[m];
     const double after = step.at_upper(slope, sign_of_slope(step.stepper, m, step.stepper.step().to[m]));
     const bool changes = before * sign_of(after) < 0;
+    if (changes && step.stepper.is_near_meeting()) continue;
     const bool is_rough = changes && step.stepper.has_rough_extrema();
     const Step& taken = step.stepper.step();
     step.note(observable_extrema, before > 0 ? PointType::peak : PointType::trough, i,

@@ -33,4 +33,18 @@ std::optional<std::size_t> came_round(const Problem& problem, const std::vector<
   return std::nullopt;
 }
 
+bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points, Index active,
+                  const Tolerances& tolerances) {
+  constexpr std::size_t many = 8;  // of no curve at a distance of rounding
+  if (points.size() < many || points.back().type != PointType::fold) return false;
+  const BranchPoint& last = points.back();
+  Vector unknowns(last.unknowns.size());
+  Vector scale(last.parameters.size());
+  problem.scale(last.unknowns, last.parameters, unknowns, scale);
+  return std::all_of(points.end() - many, points.end(), [&](const BranchPoint& point) {
+    return point.type == PointType::fold && std::abs(point.parameters(active) - last.parameters(active)) <=
+                                                tolerances.same_value * scale(active);
+  });
+}
+
 }  // namespace arcslip::continuation

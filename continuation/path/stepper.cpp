@@ -249,7 +249,7 @@ bool Stepper::finish(bool lands, double value) {
   step_.from = at_here_;
   for (Monitor& from : step_.from) from.slope *= slope_length(step_.hold);
   monitors_.look(step_.there, step_.here.scale, step_.slope_to, step_.to);
-  if (!resolved(step_.distance, step_.to)) {
+  if (!resolved(step_.distance, step_.to) && !is_near_meeting()) {
     signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
     return false;
   }

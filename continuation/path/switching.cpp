@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "arcslip/continuation/events/corner.hpp"
+#include "arcslip/continuation/path/symmetric_branches.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
@@ -125,16 +126,46 @@ std::vector<Guess> ways_through(const Problem& problem, Index active, const Bran
   return ways;
 }
 
+/// What leaves a special point among the solutions of one problem.
+std::vector<Guess> other_ways_in(const Problem& problem, Index active, const BranchPoint& point,
+                                 const Tolerances& tolerances) {
+  std::vector<Guess> ways;
+  if (point.type == PointType::branch_point) {
+    ways = ways_through(problem, active, point, tolerances);
+  } else if (point.type == PointType::regime_switch) {
+    ways = leaving_pieces(problem, active, {point.unknowns, point.parameters, point.regime, {}}, tolerances);
+  }
+  Map map(problem, active, tolerances);
+  map.pass(point);
+  std::erase_if(ways, [&](const Guess& guess) {
+    return map.gone(map.way(guess.unknowns, guess.parameters, guess.direction));
+  });
+  return ways;
+}
+
+/// What leaves a special point, whatever symmetries it loses there.
+std::vector<Guess> all_other_ways(SymmetricBranches& symmetric, Index active, const BranchPoint& point,
+                                  const Tolerances& tolerances) {
+  if (point.type != PointType::branch_point)
+    return other_ways_in(symmetric.whole(), active, point, tolerances);
+  std::vector<Guess> ways;
+  for (const Problem* problem : symmetric.leaving(point)) {
+    for (Guess& way : other_ways_in(*problem, active, point, tolerances)) ways.push_back(std::move(way));
+  }
+  return ways;
+}
+
 /// Traces branches one after the other, each way once.
 class Network {
  public:
   Network(const Problem& problem, const TraceOptions& options, const Observer& observer)
       : problem_(problem),
+        active_(index_of(problem.parameter_names(), options.parameter)),
+        symmetric_(problem, options.tolerances),
         options_(with_symmetries(problem, options)),
         observer_(observer),
         time_(options_),
-        map_(problem, index_of(problem.parameter_names(), options.parameter), options.tolerances,
-             options_.symmetries) {}
+        map_(problem, active_, options.tolerances, options_.symmetries) {}
 
   /// Ways that leave the points of a branch, at branch points in both senses or, of images, in one.
   void leave(const std::vector<BranchPoint>& points, bool images = false) {
@@ -143,18 +174,20 @@ class Network {
     }
     for (const BranchPoint& point : points) {
       if (!meets_others(point)) continue;
-      std::vector<Guess> ways = other_ways(problem_, options_.parameter, point, options_.tolerances);
+      std::vector<Guess> ways = all_other_ways(symmetric_, active_, point, options_.tolerances);
       if (images && point.type == PointType::branch_point && ways.size() > 1) ways.resize(1);
       for (Guess& way : ways) waiting_.push_back(std::move(way));
     }
   }
 
   void follow(const Guess& guess) {
-    Branch branch = trace(problem_, guess, time_.rest(), observer_);
+    Guess start = guess;
+    const Problem& within = symmetric_.of(start);
+    Branch branch = trace(within, start, time_.rest(), observer_);
     interrupted_ = is_unfinished(branch.stop);
     if (!interrupted_ && is_known(branch)) return;
     if (branch.stop == Stop::closed_loop) map_.pass(branch.points.back());
-    if (branch.stop == Stop::own_image) pass_settled(branch.points.back());
+    if (branch.stop == Stop::own_image) pass_settled(within, branch.points.back());
     leave(branch.points);
     branches_.push_back(std::move(branch));
   }
@@ -173,11 +206,10 @@ class Network {
  private:
   /// The way along which a branch became its own image, both ways, as other branches through the point know
   /// it.
-  void pass_settled(const BranchPoint& point) {
-    const Index active = index_of(problem_.parameter_names(), options_.parameter);
+  void pass_settled(const Problem& within, const BranchPoint& point) {
     double straightest = 0.5;
     std::optional<Way> best;
-    for (const Guess& guess : ways_through(problem_, active, point, options_.tolerances)) {
+    for (const Guess& guess : ways_through(within, active_, point, options_.tolerances)) {
       Way way = map_.way(guess.unknowns, guess.parameters, guess.direction);
       const Way arrival = map_.way(guess.unknowns, guess.parameters, point.arriving());
       const double along = std::abs(way.direction.dot(arrival.direction));
@@ -209,6 +241,8 @@ class Network {
   }
 
   const Problem& problem_;
+  Index active_;
+  SymmetricBranches symmetric_;
   TraceOptions options_;
   const Observer& observer_;
   TimeBudget time_;
@@ -222,19 +256,8 @@ class Network {
 
 std::vector<Guess> other_ways(const Problem& problem, const std::string& parameter, const BranchPoint& point,
                               const Tolerances& tolerances) {
-  const Index active = index_of(problem.parameter_names(), parameter);
-  std::vector<Guess> ways;
-  if (point.type == PointType::branch_point) {
-    ways = ways_through(problem, active, point, tolerances);
-  } else if (point.type == PointType::regime_switch) {
-    ways = leaving_pieces(problem, active, {point.unknowns, point.parameters, point.regime, {}}, tolerances);
-  }
-  Map map(problem, active, tolerances);
-  map.pass(point);
-  std::erase_if(ways, [&](const Guess& guess) {
-    return map.gone(map.way(guess.unknowns, guess.parameters, guess.direction));
-  });
-  return ways;
+  SymmetricBranches symmetric(problem, tolerances);
+  return all_other_ways(symmetric, index_of(problem.parameter_names(), parameter), point, tolerances);
 }
 
 std::vector<Branch> trace_connected(const Problem& problem, const Guess& guess, const TraceOptions& options,

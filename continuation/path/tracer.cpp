@@ -50,6 +50,7 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       targets_(problem, parameter_, options),
       image_(options.symmetries, options.tolerances.same_solution) {
   state_.distance = 0.1 * options.max_step;
+  if (!options.symmetries.empty()) stepper_.set_meeting([this](const CurvePoint& at) { return meets(at); });
   branch_.points.reserve(256);
 }
 
@@ -157,14 +158,6 @@ void Tracer::check_limits() {
   }
 }
 
-/// Of a step that was not brought to its end, so that it is tried again in the same way.
-void Tracer::forget_tries() {
-  state_.hold = first_hold_;
-  state_.distance = first_distance_;
-  targets_.keep_taken(value(), -1);
-  targets_.restore(first_taken_);
-}
-
 void Tracer::step() {
   first_hold_ = state_.hold;
   first_distance_ = state_.distance;
@@ -208,7 +201,11 @@ bool Tracer::try_step() {
 /// must not be passed, but by a step that ends before it.
 bool Tracer::find_events() {
   closing_.reset();
-  watch_.look(stepper_.step().there);
+  const Step& step = stepper_.step();
+  const CurvePoint& there = step.there;
+  if (!step.is_tiny(step.distance) && image_.has_gone_over(there.unknowns, there.tangent, there.scale))
+    return false;
+  watch_.look(there);
   EventSearch search = find_first_events(stepper_, watch_, state_.signs);
   events_ = std::move(search.events);
   if (!search.solved) return false;

@@ -8,6 +8,17 @@
 
 namespace arcslip::continuation {
 
+/// Whether a point all but has symmetries that it has not.
+bool Tracer::meets(const CurvePoint& point) const {
+  constexpr double near = 0.02;  // in the scale: steps are longer
+  const auto count = [&](double tolerance) {
+    const std::vector<bool> kept = kept_symmetries(options_.symmetries, point.unknowns,
+                                                   point.scale.head(point.unknowns.size()), tolerance);
+    return std::count(kept.begin(), kept.end(), true);
+  };
+  return count(near) > count(options_.tolerances.same_solution);
+}
+
 void Tracer::take_events(const Signs& before) {
   const Passage passage{before, state_.signs, stepper_, watch_};
   state_.signs.unstable = before.unstable;
@@ -19,6 +30,8 @@ void Tracer::take_events(const Signs& before) {
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");
+    if (stands_still(problem_, branch_.points, parameter_, options_.tolerances))
+      stop(Stop::repeats, "along the branch " + options_.parameter + " does not change but for rounding");
   }
   if (stopped_) return;
   const auto end = std::find_if(events_.begin(), events_.end(),

@@ -15,6 +15,14 @@ void Tracer::take_where_it_starts() {
     targets_.take(*target);
 }
 
+/// Of a step that was not brought to its end, so that it is tried again in the same way.
+void Tracer::forget_tries() {
+  state_.hold = first_hold_;
+  state_.distance = first_distance_;
+  targets_.keep_taken(value(), -1);
+  targets_.restore(first_taken_);
+}
+
 bool Tracer::try_landing() {
   if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
   // A special point at the very value, where the parameter cannot be kept, is stepped over and located.

@@ -6,6 +6,8 @@
 namespace arcslip::continuation {
 namespace {
 
+constexpr double lost = 1e-3;  // in the scale: far beyond what rounding and steps leave
+
 /// By how much it is missed, in the scale.
 double missed(const Symmetry& symmetry, const Vector& u, const Vector& scale) {
   const Vector change = symmetry.map * u - u;
@@ -25,7 +27,6 @@ OwnImage::OwnImage(std::vector<Symmetry> symmetries, double tolerance)
     : symmetries_(std::move(symmetries)), tolerance_(tolerance), farthest_(symmetries_.size(), 0.0) {}
 
 const Symmetry* OwnImage::take(const Vector& u, const Vector& tangent, const Vector& scale) {
-  constexpr double lost = 1e-3;      // in the scale: far beyond what rounding and steps leave
   constexpr double opposite = 1e-2;  // between unit vectors, where the branch is all but singular
   const Index n = u.size();
   const Symmetry* found = nullptr;
@@ -40,6 +41,18 @@ const Symmetry* OwnImage::take(const Vector& u, const Vector& tangent, const Vec
     if (sum.norm() <= opposite * tangent.norm()) found = &symmetries_[i];
   }
   return found;
+}
+
+bool OwnImage::has_gone_over(const Vector& u, const Vector& tangent, const Vector& scale) const {
+  constexpr double same_line = 1e-3;  // between unit vectors: one that is turned over is 2 apart
+  const Index n = u.size();
+  for (std::size_t i = 0; i < symmetries_.size(); ++i) {
+    if (farthest_[i] < lost || missed(symmetries_[i], u, scale.head(n)) > tolerance_) continue;
+    if (missed(symmetries_[i], tangent.head(n).cwiseProduct(scale.head(n)), scale.head(n)) <=
+        same_line * tangent.norm())
+      return true;
+  }
+  return false;
 }
 
 }  // namespace arcslip::continuation

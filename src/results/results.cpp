@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/continuation/path/symmetric_branches.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
@@ -64,8 +65,45 @@ ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
           {"unknowns", fmt::format("{}", fmt::join(point.unknowns, " "))}};
 }
 
+/// The first shift and the first mirror of these symmetries, which tell the others.
+ordered_json first_of_each(const std::vector<std::string>& names) {
+  ordered_json told = ordered_json::array();
+  for (const char* kind : {"shift", "mirror"}) {
+    const auto first = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& name) { return name.starts_with(kind); });
+    if (first != names.end()) told.push_back(*first);
+  }
+  return told;
+}
+
+/// What is lost at branch points at which a whole ring's response loses symmetries.
+class Lost {
+ public:
+  explicit Lost(const TracedBranch& traced) : traced_(traced) {
+    const auto is_one = [](const BranchPoint& point) { return point.type == PointType::branch_point; };
+    if (traced.curve || std::none_of(traced.branch.points.begin(), traced.branch.points.end(), is_one))
+      return;
+    std::vector<continuation::Symmetry> all = traced.problem().symmetries();
+    if (!all.empty()) group_.emplace(std::move(all));
+  }
+
+  void add(const BranchPoint& point, ordered_json& special) const {
+    if (!group_ || point.type != PointType::branch_point) return;
+    const continuation::LostSymmetries lost =
+        continuation::lost_symmetries(traced_.problem(), *group_, point);
+    if (lost.names.empty()) return;
+    special["null_vectors"] = lost.null_vectors;
+    special["breaks"] = first_of_each(lost.names);
+  }
+
+ private:
+  const TracedBranch& traced_;
+  std::optional<continuation::SymmetryGroup> group_;
+};
+
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
+  const Lost lost(traced);
   const PhysicalColumns physical(traced);
   ordered_json listed = ordered_json::array();
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
@@ -78,6 +116,7 @@ ordered_json special_points(const TracedBranch& traced) {
     const std::vector<double> in_units = physical.values(values);
     for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
+    lost.add(point, special);
     if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));
   }
@@ -138,14 +177,11 @@ void add_symmetries(const TracedBranch& traced, ordered_json& summary) {
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] && here[i];
   }
   const auto count = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
-  ordered_json& names = summary["symmetries"] = ordered_json::array();
-  for (const char* kind : {"shift", "mirror"}) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!kept[i] || !all[i].name.starts_with(kind)) continue;
-      names.push_back(all[i].name);
-      break;
-    }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (kept[i]) names.push_back(all[i].name);
   }
+  summary["symmetries"] = first_of_each(names);
   summary["images"] = (all.size() + 1) / (count + 1);
 }
 

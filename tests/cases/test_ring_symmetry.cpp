@@ -1,8 +1,11 @@
 // Symmetries of whole rings, and of the branches that lose them.
 
+#include <Eigen/LU>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "arcslip/continuation/path/symmetric_branches.hpp"
 #include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
@@ -153,6 +156,83 @@ TEST_CASE("Branches without symmetry end where they have one again, however near
       }
     }
   }
+}
+
+TEST_CASE("Waves that become critical together break the symmetry of a ring in phase", "[ring symmetry]") {
+  constexpr int sectors = 6;
+  const TemporaryFolder folder;
+  std::string text = hardening_ring(folder, sectors, "load = [1, 1, 1, 1, 1, 1]") + "switching = true\n";
+  text = replaced(text, "contact_stiffness = 0.2", "contact_stiffness = 0.0");
+  const std::vector<TracedBranch> traced = trace(read_case(folder.write("case.toml", text)).branches.front());
+  const continuation::Problem& problem = traced.front().problem();
+  const continuation::SymmetryGroup group(problem.symmetries());
+  CHECK(group.order() == 12);
+  // (z_m + 2 c |a|^2) b_m + c a^2 conj(b_-m) = 0 with z_m = k_m - w^2 + j w d, c = 3/4, k_m of wave m.
+  const auto linear = [](int m, double eta) {
+    const double w = two_pi * eta;
+    return Complex(1 + 0.1 * (1 - std::cos(two_pi * m / sectors)) - w * w, 0.01 * w);
+  };
+  const auto determinant = [&](int m, double eta, double square) {
+    return std::norm(linear(m, eta) + 1.5 * square) - 0.5625 * square * square;
+  };
+  const auto balance = [&](double eta, double square) {
+    return std::norm(linear(0, eta) + 0.75 * square) * square - 4e-4;
+  };
+  std::map<int, int> found;
+  for (const BranchPoint& point : of_type(traced.front().branch, PointType::branch_point)) {
+    const double eta = point.parameters(0);
+    const double square = point.unknowns.head(2).squaredNorm();
+    CHECK_THAT(balance(eta, square), WithinAbs(0, 1e-12));
+    int critical = 0;
+    for (int m = 1; m <= sectors / 2; ++m) {
+      if (std::abs(determinant(m, eta, square)) < std::abs(determinant(critical, eta, square)) ||
+          critical == 0)
+        critical = m;
+    }
+    ++found[critical];
+    // Both equations by Newton's method, with differences, from aside.
+    Eigen::Vector2d x(eta * 1.00001, square * 0.9999);
+    for (int i = 0; i < 12; ++i) {
+      const auto f = [&](double a, double b) {
+        return Eigen::Vector2d(balance(a, b), determinant(critical, a, b));
+      };
+      constexpr double h = 1e-7;
+      Eigen::Matrix2d jacobian;
+      jacobian << (f(x(0) + h, x(1)) - f(x(0) - h, x(1))) / (2 * h),
+          (f(x(0), x(1) + h) - f(x(0), x(1) - h)) / (2 * h);
+      x -= jacobian.inverse() * f(x(0), x(1));
+    }
+    CHECK_THAT(eta, WithinRel(x(0), 1e-8));
+    CHECK_THAT(square, WithinRel(x(1), 1e-7));
+    const auto lost = continuation::lost_symmetries(problem, group, point);
+    CHECK(lost.null_vectors == (2 * critical == sectors ? 1 : 2));
+    CHECK(!lost.names.empty());
+  }
+  CHECK(found == std::map<int, int>{{1, 2}, {2, 2}});
+  REQUIRE(traced.size() > 6);
+  double localised = 0;
+  for (const TracedBranch& one : traced) {
+    CAPTURE(one.branch.explanation);
+    CHECK(continuation::is_end(one.branch.stop));
+    for (const BranchPoint& point : one.branch.points) {
+      // The masses' own equations.
+      double largest = 0;
+      double mean = 0;
+      for (int i = 0; i < sectors; ++i) {
+        const auto a = [&](int k) {
+          const Index at = 2 * ((k + sectors) % sectors);
+          return Complex(point.unknowns(at), point.unknowns(at + 1));
+        };
+        const Complex rest = (linear(0, point.parameters(0)) + 0.1 + 0.75 * std::norm(a(i))) * a(i) -
+                             0.05 * (a(i - 1) + a(i + 1));
+        CHECK_THAT(std::abs(rest), WithinRel(0.02, 1e-8));
+        largest = std::max(largest, std::abs(a(i)));
+        mean += std::abs(a(i)) / sectors;
+      }
+      localised = std::max(localised, largest / mean);
+    }
+  }
+  CHECK(localised > 2.5);
 }
 
 TEST_CASE("Stability of mistuned sectors needs damping that is one of matrices", "[ring section][messages]") {

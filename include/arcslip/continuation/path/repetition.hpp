@@ -1,7 +1,7 @@
 #pragma once
 
-// Whether a branch goes round a loop that its start is not on: a step then went over to another branch, and
-// nothing would end it.
+// Whether a branch goes round a loop that its start is not on: a step then went over to another branch; or
+// along solutions at one value of the parameter. Nothing would end either.
 
 #include <optional>
 #include <vector>
@@ -16,5 +16,10 @@ namespace arcslip::continuation {
 /// from it; `active` is the parameter that varies. None where there is none.
 std::optional<std::size_t> came_round(const Problem& problem, const std::vector<BranchPoint>& points,
                                       Index active, const Tolerances& tolerances = {});
+
+/// Whether the last points are folds, one after the other, at values of the parameter that are one: it runs
+/// to and fro by rounding alone.
+bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points, Index active,
+                  const Tolerances& tolerances = {});
 
 }  // namespace arcslip::continuation

@@ -5,6 +5,7 @@
 // folds) or the parameter's (which passes the tip of a needle-sharp peak, where the plane normal to a
 // vertical tangent misses the branch, and lands on values); the caller turns to the other when one fails.
 
+#include <functional>
 #include <vector>
 
 #include "arcslip/continuation/events/crossing.hpp"
@@ -37,6 +38,12 @@ class Stepper {
   const Monitors& monitors() const { return monitors_; }
   /// Solves for the branch within the step.
   Prober& prober() { return prober_; }
+
+  /// Tells where the branch comes near to branches with more symmetries. Observables, as the greatest of what
+  /// is equal there, may have a corner: no step has to resolve them.
+  void set_meeting(std::function<bool(const CurvePoint&)> meets) { meets_ = std::move(meets); }
+  /// Whether the step begins or ends there.
+  bool is_near_meeting() const { return meets_ && (meets_(step_.here) || meets_(step_.there)); }
 
   /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
   Correction start(const Vector& unknowns, const Vector& parameters, const Regime& regime, double forward);
@@ -111,6 +118,7 @@ class Stepper {
   Monitors monitors_;
   Prober prober_;
   CrossingSearch crossings_;
+  std::function<bool(const CurvePoint&)> meets_;
   std::vector<Monitor> at_here_;
   Vector bend_;  // d^2 z/ds^2 over the last step, along the arc, in the scale at here
   Vector next_bend_;

@@ -65,6 +65,7 @@ class Tracer {
   void take_targets_around(bool turns);
   void take_target(const Target& target);
   void cross(int border, bool several);
+  bool meets(const CurvePoint& point) const;
   bool turn_back();
   bool on_several_borders() const;
   Correction leave(int border, bool several);

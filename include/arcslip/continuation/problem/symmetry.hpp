@@ -32,6 +32,10 @@ class OwnImage {
   /// the parameter last). The symmetry that makes it such a place, or null.
   const Symmetry* take(const Vector& u, const Vector& tangent, const Vector& scale);
 
+  /// Whether a point, with its tangent and scale, lies on a branch that has a symmetry which this one has
+  /// lost: no smooth branch comes to it, a step has gone over.
+  bool has_gone_over(const Vector& u, const Vector& tangent, const Vector& scale) const;
+
  private:
   std::vector<Symmetry> symmetries_;
   double tolerance_;
