@@ -1,6 +1,5 @@
 #include "arcslip/problems/response/floquet_response.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -16,13 +16,6 @@ using continuation::Guess;
 using continuation::PointType;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-/// Sign of the determinant.
-int orientation(const Matrix& matrix) {
-  const Eigen::PartialPivLU<Matrix> factors(matrix);
-  const auto negative = (factors.matrixLU().diagonal().array() < 0).count();
-  return factors.permutationP().determinant() * (negative % 2 == 0 ? 1 : -1);
-}
 
 /// Gives the own exponent nearest to zero the sign that makes those above zero odd or even in number.
 void make_odd(bool odd, std::vector<RingDisturbances::Disturbance>& all) {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "arcslip/continuation/problem/one_piece.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 
@@ -121,7 +121,7 @@ Guess HarmonicResponse::guess(const Vector& parameters, const continuation::Trac
       stuck.col(j).setZero();
       stuck(j, j) = 1;
     }
-    const ContactVector x = -(stuck.partialPivLu().solve(order.joint.free));
+    const ContactVector x = -solution_of(stuck, order.joint.free);
     for (Index i = 0; i < coordinates_.size(); ++i)
       guess.unknowns.segment<2>(2 * (i * harmonics() + a)) << x(i).real(), x(i).imag();
   }
@@ -187,7 +187,7 @@ double HarmonicResponse::take_small(Guess& stuck, double share) const {
     for (int step = 0; step < most_steps && u.allFinite(); ++step) {
       if (is_solved(u, part, &jacobian)) return found(std::move(u), part);
       jacobian += residual * u.transpose() / u.squaredNorm();  // as F is relative to |u|
-      u -= jacobian.partialPivLu().solve(residual);
+      u -= solution_of(jacobian, residual);
     }
     if (is_solved(u, part, nullptr)) return found(std::move(u), part);
   }

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-
 #include "arcslip/problems/response/harmonic_response.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 
@@ -88,7 +87,7 @@ ComplexMatrix HarmonicProblem::drift_ways(const continuation::Regime& regime) co
     ways.col(d) = drifting[at(d)]->ways.cast<Complex>();
     motions.col(d) = drifting[at(d)]->motion;
   }
-  return ways * motions.completeOrthogonalDecomposition().pseudoInverse();
+  return ways * pseudo_inverse(motions);
 }
 
 ComplexMatrix HarmonicProblem::changes_by_mean(const std::vector<ElementForce>& elements,
@@ -114,8 +113,7 @@ ComplexMatrix HarmonicProblem::changes_by_mean(const std::vector<ElementForce>& 
 
 bool HarmonicProblem::holds_mean(const ComplexMatrix& changes) const {
   constexpr double rounding = 1e-12;
-  const Eigen::ColPivHouseholderQR<ComplexMatrix> factors(changes);
-  return factors.matrixR().diagonal().cwiseAbs().minCoeff() > rounding * rigid_.moves().norm();
+  return least_pivot(changes) > rounding * rigid_.moves().norm();
 }
 
 /// (h, -alpha) of h = (1 + C_0 K)^{-1} (x_0 - f_0 - x0_0 - S alpha), S^H K h = -l, is one linear equation.
@@ -203,7 +201,7 @@ Matrix HarmonicProblem::onto_drifts(const continuation::Regime& regime) const {
   if (drifting.empty()) return Matrix::Zero(coordinates_.size(), coordinates_.size());
   Matrix ways(coordinates_.size(), std::ssize(drifting));
   for (Index d = 0; d < ways.cols(); ++d) ways.col(d) = drifting[at(d)]->ways;
-  return ways * ways.completeOrthogonalDecomposition().pseudoInverse();
+  return ways * pseudo_inverse(ways);
 }
 
 /// What the damping of masses takes of the forces on rigid motions, per drift of the coordinates.

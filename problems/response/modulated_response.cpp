@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "arcslip/motion/swing.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -376,7 +376,7 @@ double ModulatedResponse::error(const Vector& u, const Vector& p) const {
   const double amplitude = u.head(last).norm();
   Matrix rates(size(), size() + 1);  // by what is measured in its own size
   rates << jacobian.leftCols(last) * amplitude, jacobian.col(last) * p(eta), by_parameters.col(eta) * p(eta);
-  const Vector moved = rates.completeOrthogonalDecomposition().solve(left);
+  const Vector moved = shortest(rates, left);
   return std::sqrt(others / (amplitude * amplitude) + moved.squaredNorm());
 }
 

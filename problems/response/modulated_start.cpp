@@ -1,7 +1,5 @@
 // How a modulated response begins.
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/response/modulated_response.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip::problems {
 
@@ -40,9 +39,8 @@ Vector ModulatedResponse::disturbance(const ComplexMatrix& motion, const Vector&
   for (Index i = 0; i < size() - 1; ++i) {
     if (std::abs(line(i / 2).l) == 1) rows.push_back(i);
   }
-  const Eigen::BDCSVD<Matrix> parts(Matrix(jacobian(rows, rows)), Eigen::ComputeFullV);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    found(rows[i]) = parts.matrixV()(static_cast<Index>(i), std::ssize(rows) - 1);
+  const Vector least = least_moved(Matrix(jacobian(rows, rows)));
+  for (std::size_t i = 0; i < rows.size(); ++i) found(rows[i]) = least(static_cast<Index>(i));
   return found;
 }
 
@@ -66,7 +64,7 @@ std::optional<Guess> ModulatedResponse::modulated(const Guess& near, Index param
     if (!evaluate(at.unknowns, at.parameters, {}, {&residual, &jacobian, &by_parameters})) return {};
     bordered << jacobian, by_parameters.col(parameter), reference_.transpose() / size_, 0;
     right << residual, reference_.dot(at.unknowns) / size_ - share;
-    const Vector step = bordered.partialPivLu().solve(right);
+    const Vector step = solution_of(bordered, right);
     if (!step.allFinite()) return {};
     const double far = std::max(std::abs(step(n - 1)) / at.parameters(eta),
                                 std::abs(step(n)) / std::abs(at.parameters(parameter)));

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/motion/swing.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -39,7 +38,7 @@ RigidMotions::RigidMotions(const HarmonicSystem& system, const Coordinates& coor
     if (system.one_way) refuse(is_base, "needs where contacts do not act back");
     add(structure, is_base, coordinates);
   }
-  if (count() > 0) parts_ = moves_.completeOrthogonalDecomposition().pseudoInverse();
+  if (count() > 0) parts_ = pseudo_inverse(moves_);
 }
 
 void RigidMotions::add(const ContactModes& structure, bool is_base, const Coordinates& coordinates) {
@@ -60,7 +59,7 @@ void RigidMotions::add(const ContactModes& structure, bool is_base, const Coordi
     const ContactMode& mode = structure.modes()[static_cast<std::size_t>(k)];
     if (!mode.is_rigid()) continue;
     ComplexVector like(count());
-    if (count() > 0) like = held_.completeOrthogonalDecomposition().solve(held.col(k));
+    if (count() > 0) like = shortest(held_, ComplexVector(held.col(k)));
     if ((held.col(k) - held_ * like).norm() <= rounding * largest) {
       check_load(structure, mode.load, like);
       continue;
@@ -105,9 +104,7 @@ ComplexMatrix RigidMotions::loose(const std::function<bool(Index coordinate)>& i
   for (Index i = 0; i < rows.rows(); ++i) {
     if (!is_held(i)) rows.row(i).setZero();
   }
-  Eigen::FullPivLU<ComplexMatrix> factors(rows);
-  factors.setThreshold(rounding);
-  return factors.rank() == count() ? ComplexMatrix(count(), 0) : ComplexMatrix(factors.kernel());
+  return kernel_of(rows, rounding);
 }
 
 std::string RigidMotions::name(const ComplexMatrix& motions) const {

@@ -1,14 +1,11 @@
 // The modes of a part of a whole ring whose sectors are not alike, in those of the equal sectors.
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
+#include "arcslip/structure/dense.hpp"
 #include "assembly/ring_part.hpp"
 
 namespace arcslip {
@@ -58,15 +55,14 @@ void RingPart::add_single(Index wave, const SameModes& modes, RealModes& all) co
   constexpr double negligible = 1e-10;
   Matrix both(ports_, 2 * modes.load.size());
   both << modes.shapes.real(), modes.shapes.imag();
-  const Eigen::JacobiSVD<Matrix> axes(both, Eigen::ComputeThinU);
-  const Vector& sizes = axes.singularValues();
+  const auto [directions, sizes] = singular_axes(both);
   const double part = 1 / std::sqrt(static_cast<double>(count()));
   for (Index k = 0; k < modes.load.size(); ++k) {
     const bool is_seen = k < sizes.size() && sizes(k) > negligible * sizes(0);
     ContactVector shape = ContactVector::Zero(ports_);
     Complex load = 0;
     if (is_seen) {
-      shape.real() = sizes(k) * axes.matrixU().col(k);
+      shape.real() = sizes(k) * directions.col(k);
       load = (shape.transpose() * modes.shapes * modes.load).value() / (sizes(k) * sizes(k));
     }
     add_real(wave, shape, part, modes.frequency * modes.frequency, load, all);
@@ -84,7 +80,7 @@ void RingPart::add_pairs(Index wave, const SameModes& modes, const std::vector<S
   });
   if (found != back.end() && !found->load.isZero(0)) {
     const ContactMatrix opposite = modes.shapes.conjugate();
-    load_back = opposite.completeOrthogonalDecomposition().solve(found->shapes * found->load);
+    load_back = shortest(opposite, ContactVector(found->shapes * found->load));
   }
   const double part = std::sqrt(2 / static_cast<double>(count()));
   const double square = modes.frequency * modes.frequency;
@@ -141,14 +137,15 @@ RingPart::ChangedModes RingPart::with_changes(const RealModes& all) const {
     if (change.mass.size() > 0) mass.noalias() += rate * (own.transpose() * change.mass * own);
     at += own.rows();
   }
-  if (const Eigen::LLT<Matrix> factors(mass); factors.info() != Eigen::Success || factors.rcond() < rounding)
+  if (!is_definite(mass, rounding))
     throw std::invalid_argument("mistuning and cuts leave a part of the ring without mass");
   const double least = -rounding * std::max(changed.squares.maxCoeff(), stiffness.diagonal().maxCoeff());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(stiffness, mass);
-  if (modes.eigenvalues()(0) < least)
+  auto modes = pencil(stiffness, mass);
+  if (!modes) throw std::invalid_argument("the modes of the ring with mistuning and cuts were not found");
+  if (modes->values(0) < least)
     throw std::invalid_argument("mistuning and cuts leave a part of the ring less than no stiffness");
-  changed.squares = modes.eigenvalues().unaryExpr([&](double one) { return one > -least ? one : 0; });
-  changed.shapes = modes.eigenvectors();
+  changed.squares = modes->values.unaryExpr([&](double one) { return one > -least ? one : 0; });
+  changed.shapes = std::move(modes->vectors);
   return changed;
 }
 

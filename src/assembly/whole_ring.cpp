@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "assembly/ring_part.hpp"
 

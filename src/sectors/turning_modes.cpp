@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <stdexcept>
+
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -103,7 +103,7 @@ void make_definite(ComplexMatrix& stiffness, double speed) {
   for (double part = 0; part <= most; part = std::max(10 * part, least)) {
     ComplexMatrix shifted = stiffness;
     shifted.diagonal().array() += part * largest;
-    if (shifted.llt().info() != Eigen::Success) continue;
+    if (!is_definite(shifted)) continue;
     stiffness = std::move(shifted);
     return;
   }
@@ -137,13 +137,13 @@ TurningModes turning_modes(const SectorModes& modes, Index contacts, const Rotat
     b.topRightCorner(r, r).setIdentity();
     b.bottomLeftCorner(r, r).setIdentity();
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<ComplexMatrix> found(b, a);
-  if (found.info() != Eigen::Success) throw SectorError("the modes of the sector that turns were not found");
-  TurningModes turning{follows ? 2 : 1, {}, modes.frequencies, found.eigenvectors().topRows(r)};
+  const auto found = pencil(b, a);
+  if (!found) throw SectorError("the modes of the sector that turns were not found");
+  TurningModes turning{follows ? 2 : 1, {}, modes.frequencies, found->vectors.topRows(r)};
   const ComplexMatrix shapes = modes.shapes.topRows(contacts) * turning.motion;
   const ComplexVector loads = turning.motion.adjoint() * modes.loads;
-  for (Index k = 0; k < found.eigenvalues().size(); ++k)
-    turning.modes.push_back({found.eigenvalues()(k), shapes.col(k), loads(k)});
+  for (Index k = 0; k < found->values.size(); ++k)
+    turning.modes.push_back({found->values(k), shapes.col(k), loads(k)});
   return turning;
 }
 

@@ -17,6 +17,22 @@ Dense deflate(Dense matrix, const Dense& subspace) {
   return matrix.bottomRightCorner(rest, rest);
 }
 
+template <class Dense>
+Dense lasting_by(const Dense& map, Dense vector) {
+  constexpr int rounds = 4;
+  const Index n = map.rows();
+  Dense equations(2 * n, n);
+  equations << map - Dense::Identity(n, n), Dense::Zero(n, n);
+  for (int round = 0; round < rounds; ++round) {
+    const Dense change = equations.topRows(n) * vector;
+    equations.bottomRows(n).diagonal().setConstant(change.norm() / vector.norm());
+    Dense right = Dense::Zero(2 * n, 1);
+    right.topRows(n) = change;
+    vector -= Dense(equations.householderQr().solve(right));
+  }
+  return vector;
+}
+
 ComplexVector sorted(ComplexVector values) {
   std::sort(values.begin(), values.end(),
             [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
@@ -33,6 +49,12 @@ Matrix deflated(const Matrix& matrix, const Matrix& subspace) { return deflate(m
 
 ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace) {
   return deflate(matrix, subspace);
+}
+
+Matrix lasting_near(const Matrix& map, const Matrix& vector) { return lasting_by(map, vector); }
+
+ComplexMatrix lasting_near(const ComplexMatrix& map, const ComplexMatrix& vector) {
+  return lasting_by(map, vector);
 }
 
 Vector least_squares(const Matrix& a, const Vector& b) { return a.householderQr().solve(b); }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "arcslip/structure/dense.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/disturbed_wave.hpp"
-#include "time/kernel.hpp"
 #include "time/own_velocity.hpp"
 
 namespace arcslip {

@@ -1,7 +1,8 @@
 #include "time/linear_leap.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -46,7 +47,7 @@ struct Collocation {
                                    : 0.5 * (part(k + 1) / (order + 1) - part(k - 1) / (order - 1));
       }
     }
-    integral = 0.5 * values.transpose().partialPivLu().solve(integrals.transpose()).transpose();
+    integral = 0.5 * solution_of(Matrix(values.transpose()), Matrix(integrals.transpose())).transpose();
   }
 
   Vector points;
@@ -115,7 +116,7 @@ void LinearLeap::take(const Matrix& constant, Matrix& position, Matrix& velocity
     for (Index i = 0; i < points; ++i) pushes.middleRows(i * count, count) = constant;
     Matrix x = free_ * state;
     x.noalias() -= by_force_ * pushes;
-    x = history_.partialPivLu().solve(x);
+    x = solution_of(history_, x);
     for (Index i = 0; i < points; ++i)
       forces.middleRows(i * count, count) = gain_ * x.middleRows(i * count, count) + constant;
   }

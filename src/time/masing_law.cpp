@@ -1,10 +1,11 @@
 #include "time/masing_law.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -66,7 +67,7 @@ class BackbonePieces {
       for (Index k = 0; k < degree; ++k) powers(i, k) = std::pow(s, k + 1);
       values(i) = backbone_.force(i + 1 == degree ? to : from + s * width).value - start;
     }
-    const Vector terms = powers.partialPivLu().solve(values);
+    const Vector terms = solution_of(powers, values);
     double error = 0;
     for (int i = 1; i < 16; ++i) {
       const double s = i / 16.0;

@@ -1,6 +1,5 @@
 #include "arcslip/time/ring.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +8,7 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/motion/swing.hpp"
+#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_law.hpp"
 #include "arcslip/time/ring_waves.hpp"
 
@@ -90,18 +90,17 @@ struct Axes {
 
 Axes axes_of(const Group& group, bool real) {
   constexpr double negligible = 1e-10;
-  const auto kept = [](const auto& svd, Index most) {
-    const auto& sizes = svd.singularValues();
+  const auto kept = [](const auto& axes, Index most) {
+    const Vector& sizes = axes.sizes;
     Index rank = 0;
     while (rank < std::min(most, sizes.size()) && sizes(rank) > 0 && sizes(rank) > negligible * sizes(0))
       ++rank;
-    return ComplexMatrix(svd.matrixU().leftCols(rank) * sizes.head(rank).asDiagonal());
+    return ComplexMatrix(axes.directions.leftCols(rank) * sizes.head(rank).asDiagonal());
   };
-  if (!real)
-    return {kept(Eigen::JacobiSVD<ComplexMatrix>(group.shapes, Eigen::ComputeThinU), group.load.size())};
+  if (!real) return {kept(singular_axes(group.shapes), group.load.size())};
   Matrix both(group.shapes.rows(), 2 * group.shapes.cols());
   both << group.shapes.real(), group.shapes.imag();
-  return {kept(Eigen::JacobiSVD<Matrix>(both, Eigen::ComputeThinU), group.load.size())};
+  return {kept(singular_axes(both), group.load.size())};
 }
 
 /// One axis of a group, as one or two coordinates of the ring.

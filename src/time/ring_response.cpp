@@ -1,13 +1,13 @@
 #include "arcslip/time/ring_response.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
-#include "time/kernel.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -96,16 +96,11 @@ class NewtonStep {
     }
     equations.middleRows(coordinates, coordinates) /= motion.frequency();
     equations.middleCols(coordinates, coordinates) *= motion.frequency();
-    constexpr double held = 1e-10;
+    constexpr double held = 1e-10;  // what elements hold only at times
     const bool may_drift = std::any_of(motion.families().begin(), motion.families().end(),
                                        [](const auto& one) { return !one.law->forgets_place(); });
-    if (may_drift) {  // what elements hold only at times
-      ranked_.setThreshold(held);
-      ranked_.compute(equations);
-    } else {
-      plain_.compute(equations);
-    }
-    is_ranked_ = may_drift;
+    rows_ = equations.rows();
+    solve_ = least_squares_of(equations, may_drift ? std::optional(held) : std::nullopt);
   }
 
   /// The state that `next` = G(state) makes of it: phases are those of the latter.
@@ -138,10 +133,10 @@ class NewtonStep {
       if (!moved_[f]) residual.segment(2 * coordinates + first, count).setZero();
     }
     const Vector right = scaled(motion_, residual);
-    const Index more = (is_ranked_ ? ranked_.rows() : plain_.rows()) - right.size();
+    const Index more = rows_ - right.size();
     Vector all(right.size() + more);
     all << right, Vector::Zero(more);
-    Vector step = is_ranked_ ? Vector(ranked_.solve(all)) : Vector(plain_.solve(all));
+    Vector step = solve_(all);
     step.segment(coordinates, coordinates) *= motion_.frequency();
     return step;
   }
@@ -149,9 +144,8 @@ class NewtonStep {
  private:
   const RingMotion& motion_;
   std::vector<bool> moved_;
-  bool is_ranked_ = false;
-  Eigen::HouseholderQR<Matrix> plain_;
-  Eigen::CompleteOrthogonalDecomposition<Matrix> ranked_;
+  Index rows_ = 0;
+  std::function<Vector(const Vector&)> solve_;
 };
 
 /// A state with G of it.
@@ -271,7 +265,7 @@ Matrix neutral_drifts(const RingMotion& motion, bool any_wave, const std::vector
     }
   }
   if (drifts.cols() == 0) return drifts;
-  return Eigen::HouseholderQR<Matrix>(drifts).householderQ() * Matrix::Identity(drifts.rows(), drifts.cols());
+  return orthonormal(drifts);
 }
 
 double state_distance(const RingMotion& motion, const RingState& a, const RingState& b) {

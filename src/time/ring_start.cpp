@@ -1,8 +1,8 @@
 // States that a motion of the ring begins with.
 
-#include <Eigen/QR>
 #include <cmath>
 
+#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_motion.hpp"
 
 namespace arcslip {
@@ -64,8 +64,7 @@ void RingMotion::move_rigidly(const ComplexVector& mean, const ComplexVector& lo
   }
   Vector beyond = -(ring_.motion * rest.position);
   for (Index row = 0; row < beyond.size(); ++row) beyond(row) += mean(row / ring_.nodes()).real();
-  state.position(rigid) +=
-      Matrix(ring_.motion(Eigen::all, rigid)).completeOrthogonalDecomposition().solve(beyond);
+  state.position(rigid) += shortest(Matrix(ring_.motion(Eigen::all, rigid)), beyond);
 }
 
 /// Phases and memory, from a period of the motion of node 1 before the time that each node is behind it.

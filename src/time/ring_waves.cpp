@@ -1,7 +1,5 @@
 #include "arcslip/time/ring_waves.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 #include "arcslip/assembly/harmonic_system.hpp"
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/assembly/system.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -35,12 +34,11 @@ std::vector<Oscillator> joined(const std::vector<Oscillator>& rigid) {
   ComplexMatrix shapes(std::ssize(rigid), rigid.front().shape.size());
   for (Index k = 0; k < shapes.rows(); ++k)
     shapes.row(k) = rigid[static_cast<std::size_t>(k)].shape.adjoint();
-  const Eigen::ColPivHouseholderQR<ComplexMatrix> parts(shapes);
-  const ComplexMatrix upper = parts.matrixR().topRows(parts.rank()).triangularView<Eigen::Upper>();
+  const ComplexMatrix parts = fewest_rows(shapes);
   std::vector<Oscillator> all;
-  for (Index k = 0; k < parts.rank(); ++k) {
+  for (Index k = 0; k < parts.rows(); ++k) {
     all.push_back(rigid.front());
-    all.back().shape = parts.colsPermutation() * upper.row(k).adjoint();
+    all.back().shape = parts.row(k).adjoint();
   }
   return all;
 }
@@ -59,12 +57,11 @@ std::vector<Oscillator> made_real(std::vector<Oscillator> modes) {
     Matrix parts(modes[first].shape.size(), 2 * static_cast<Index>(next - first));
     for (std::size_t k = first; k < next; ++k)
       parts.middleCols(2 * static_cast<Index>(k - first), 2) << modes[k].shape.real(), modes[k].shape.imag();
-    const Eigen::JacobiSVD<Matrix> axes(parts, Eigen::ComputeThinU);
+    const SingularAxes<Matrix> axes = singular_axes(parts);
     for (std::size_t k = first; k < next; ++k) {
       const auto i = static_cast<Index>(k - first);
       modes[k].shape.setZero();
-      if (i < axes.singularValues().size())
-        modes[k].shape.real() = axes.matrixU().col(i) * axes.singularValues()(i);
+      if (i < axes.sizes.size()) modes[k].shape.real() = axes.directions.col(i) * axes.sizes(i);
     }
     first = next;
   }

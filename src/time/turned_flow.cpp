@@ -1,6 +1,5 @@
 #include "arcslip/time/turned_flow.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,24 +21,6 @@ constexpr double forgotten = 1e-13;  // of what grows most: less is nothing, or 
 std::array<Complex, 2> roots(const Oscillator& mode) {
   const Complex root = std::sqrt(0.25 * mode.damping * mode.damping - mode.stiffness());
   return {-0.5 * mode.damping + root, -0.5 * mode.damping - root};
-}
-
-/// What the map leaves as it is, near a vector that it hardly changes, by least squares that keep to this one
-/// where the map tells little: a fold's second multiplier 1 has no vector of its own.
-template <class Dense>
-Dense lasting_near(const Dense& map, Dense vector) {
-  constexpr int rounds = 4;
-  const Index n = map.rows();
-  Dense equations(2 * n, n);
-  equations << map - Dense::Identity(n, n), Dense::Zero(n, n);
-  for (int round = 0; round < rounds; ++round) {
-    const Dense change = equations.topRows(n) * vector;
-    equations.bottomRows(n).diagonal().setConstant(change.norm() / vector.norm());
-    Dense right = Dense::Zero(2 * n, 1);
-    right.topRows(n) = change;
-    vector -= Dense(equations.householderQr().solve(right));
-  }
-  return vector;
 }
 
 std::vector<WavePlace> places(const std::vector<Coordinate>& coordinates, double eta) {

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/turned_flow.hpp"
-#include "time/kernel.hpp"
 #include "time/law_schedule.hpp"
 #include "time/own_velocity.hpp"
 #include "time/turned_series.hpp"
@@ -279,7 +278,7 @@ class TurnedMap {
     const double norm = rates.cwiseAbs().colwise().sum().maxCoeff();
     rate_ += norm;
     if (varying.empty()) {
-      const Dense<Scalar> flow = rates.exp();
+      const Dense<Scalar> flow = exponential(rates);
       state.topRows(2 * size()) = (flow.topRows(2 * size()) * state).eval();
       return;
     }

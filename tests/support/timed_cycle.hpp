@@ -3,12 +3,12 @@
 // Limit cycles in time: all nodes without load, as a balance begins them or to rounding, and what they make
 // of disturbances.
 
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
 
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
+#include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_stability.hpp"
 
 namespace arcslip::testing {
@@ -82,9 +82,7 @@ struct TimedCycle {
     for (Index i = 2 * n; i < size; ++i) {
       if (here.derivative.row(i).isZero(0)) right(i) = 0;
     }
-    Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-    solver.setThreshold(1e-10);
-    const Vector found = solver.compute(equations).solve(right);
+    const Vector found = least_squares_of(equations, 1e-10)(right);
     state.position += found.head(n);
     state.velocity += found.segment(n, n);
     state.memory += found.segment(2 * n, size - 2 * n);

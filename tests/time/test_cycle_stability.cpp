@@ -5,6 +5,7 @@
 #include <map>
 
 #include "arcslip/problems/response/floquet_response.hpp"
+#include "arcslip/structure/spectrum.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "monodromy.hpp"
@@ -79,7 +80,7 @@ TEST_CASE("A limit cycle's multipliers are those of all nodes in time, without t
   const FloquetCycle problem = cycle(system);
   const Guess at = problem.guess(system.base_damping, 1);
   TimedCycle time(system, at);
-  const ComplexVector expected = monodromy(time.motion, time.state).eigenvalues();
+  const ComplexVector expected = spectrum(monodromy(time.motion, time.state));
   std::vector<Complex> kept;
   for (const Complex& mu : expected) {
     if (std::abs(mu) > 1e-2) kept.push_back(mu);

@@ -1,4 +1,4 @@
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -81,7 +81,7 @@ ComplexVector sticking_multipliers(const SystemParameters& s, double eta) {
     flow.bottomLeftCorner(2 * j, 2 * j) = -inverse * stiffness;
     flow.bottomRightCorner(2 * j, 2 * j) = -inverse * joined(base.damping, damper.damping);
     const Complex turn = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(l) / nodes);
-    for (const Complex& lambda : flow.eigenvalues()) {
+    for (const Complex& lambda : spectrum(flow)) {
       if (l == 0 && std::abs(lambda) < 1e-3) continue;  // base and damper together as one rigid body
       all.push_back(turn * std::exp(lambda * static_cast<double>(s.wave_number) / (nodes * eta)));
     }

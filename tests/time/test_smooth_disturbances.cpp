@@ -1,6 +1,6 @@
 // Disturbances of responses whose base stands on cubic springs, against all nodes integrated one by one.
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +8,7 @@
 #include "arcslip/elements/memoryless.hpp"
 #include "arcslip/problems/response/floquet_response.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
+#include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/ring_record.hpp"
 #include "arcslip/time/ring_stability.hpp"
 #include "branches.hpp"
@@ -96,8 +97,8 @@ class AllNodes {
       state = monodromy(matrix, length, 10 + static_cast<int>(1500 * length / period)) * state;
     }
     begin_stick(sticks, sticking(0.5 * (times[0] + times[1])), state);
-    if (pattern_.slips) return state.eigenvalues();
-    return state.topLeftCorner(4 * s_.elements, 4 * s_.elements).eigenvalues();
+    if (pattern_.slips) return spectrum(state);
+    return spectrum(Matrix(state.topLeftCorner(4 * s_.elements, 4 * s_.elements)));
   }
 
  private:

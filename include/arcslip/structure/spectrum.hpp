@@ -13,6 +13,12 @@ ComplexVector spectrum(const ComplexMatrix& matrix);
 Matrix deflated(const Matrix& matrix, const Matrix& subspace);
 ComplexMatrix deflated(const ComplexMatrix& matrix, const ComplexMatrix& subspace);
 
+/// What a square matrix leaves as it is, near a vector (one column) that it hardly changes, by least squares
+/// that keep to this one where the matrix tells little: a fold's second multiplier 1 has no vector of its
+/// own.
+Matrix lasting_near(const Matrix& map, const Matrix& vector);
+ComplexMatrix lasting_near(const ComplexMatrix& map, const ComplexMatrix& vector);
+
 /// x of least |A x - b|, A of full rank with at least as many rows as columns.
 Vector least_squares(const Matrix& a, const Vector& b);
 

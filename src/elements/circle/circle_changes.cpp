@@ -1,11 +1,11 @@
 #include "elements/circle/circle_changes.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "arcslip/elements/pressed/pressed_contact.hpp"
 #include "arcslip/motion/arc_integrals.hpp"
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -244,7 +244,7 @@ Matrix changes_of(const CircleMotion& motion, const CommonPoint& point, const Ci
     add(3 + k, {.centre = -pull, .radius = radius});
     add(3 + count + k, {.centre = -w.rate, .rate = -pull, .radius = w.radius_rate, .radius_rate = radius});
   }
-  return conditions.by.completeOrthogonalDecomposition().solve(rest).topRows(2);
+  return shortest(conditions.by, rest).topRows(2);
 }
 
 Matrix changes_of(const CircleMotion& motion, const RestingPlace& place, const CircleColumns& columns) {

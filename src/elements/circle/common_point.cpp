@@ -1,10 +1,11 @@
 #include "elements/circle/common_point.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "arcslip/structure/dense.hpp"
 
 namespace arcslip {
 namespace {
@@ -159,7 +160,7 @@ CommonPoint polished(const CircleMotion& motion, CommonPoint point) {
   if (point.touches.size() == 1) return point;
   for (int i = 0; i < steps; ++i) {
     const TouchConditions here(motion, point);
-    const Vector step = here.by.completeOrthogonalDecomposition().solve(-here.rest);
+    const Vector step = shortest(here.by, Vector(-here.rest));
     CommonPoint next = point;
     const Index count = std::ssize(point.touches);
     next.offset += Complex(step(0), step(1));
