@@ -107,6 +107,60 @@ RingPart::RealModes RingPart::real_modes() const {
   return all;
 }
 
+/// The modes at rest of a wave and of the opposite one, which are theirs backwards, also those that no port
+/// sees.
+void RingPart::add_turning(Index wave, RealModes& all) const {
+  constexpr double alike = 1e-8;
+  const bool is_single = 2 * wave % count() == 0;
+  const ContactModes& forward = given_.waves[static_cast<std::size_t>(wave)];
+  const ContactModes& back = given_.waves[static_cast<std::size_t>((count() - wave) % count())];
+  const double part = std::sqrt((is_single ? 1 : 2) / static_cast<double>(count()));
+  const Complex j(0, 1);
+  for (std::size_t k = 0; k < forward.modes().size(); ++k) {
+    const ContactMode& mode = forward.modes()[k];
+    const double square = mode.frequency * mode.frequency;
+    if (!((back.modes()[k].shape - mode.shape.conjugate()).norm() <= alike * mode.shape.norm()))
+      throw std::invalid_argument("modes of waves that run opposite ways are not found as conjugates");
+    add_real(wave, mode.shape, part, square, mode.load, all);
+    if (is_single) continue;
+    const Complex load_back = back.modes()[k].load;
+    all.load.back() = (mode.load + load_back) / std::sqrt(2.0);
+    add_real(wave, j * mode.shape, part, square, j * (load_back - mode.load) / std::sqrt(2.0), all);
+  }
+}
+
+/// Puts what couples the modes of one wave at its place among all, two real modes for each.
+void RingPart::couple(Index wave, Index first, const ComplexMatrix& of_wave, Matrix& all) const {
+  const Index parts = 2 * wave % count() == 0 ? 1 : 2;
+  for (Index i = 0; i < of_wave.rows(); ++i) {
+    for (Index k = 0; k < of_wave.cols(); ++k) {
+      const Complex& one = of_wave(i, k);
+      auto block = all.block(first + parts * i, first + parts * k, parts, parts);
+      block.diagonal().setConstant(one.real());
+      if (parts == 1) continue;
+      block(0, 1) = -one.imag();
+      block(1, 0) = one.imag();
+    }
+  }
+}
+
+RingPart::RealModes RingPart::turning_modes() const {
+  RealModes all;
+  std::vector<Index> firsts;
+  for (Index m = 0; 2 * m <= count(); ++m) {
+    firsts.push_back(std::ssize(all.squares));
+    add_turning(m, all);
+  }
+  const Index size = std::ssize(all.squares);
+  all.gyroscopic = all.stiffness_speed2 = Matrix::Zero(size, size);
+  for (Index m = 0; 2 * m <= count(); ++m) {
+    const auto at = static_cast<std::size_t>(m);
+    couple(m, firsts[at], given_.turning[at]->gyroscopic, all.gyroscopic);
+    couple(m, firsts[at], given_.turning[at]->stiffness_speed2, all.stiffness_speed2);
+  }
+  return all;
+}
+
 /// What the changes meet of each mode.
 Matrix RingPart::changed_rows(const RealModes& all) const {
   Matrix rows = Matrix::Zero(std::ssize(rows_), std::ssize(all.motion));
@@ -149,12 +203,12 @@ RingPart::ChangedModes RingPart::with_changes(const RealModes& all) const {
   return changed;
 }
 
-ContactModes RingPart::changed_modes() const {
+RingPart::Changed RingPart::changed_modes() const {
   const Loss loss = given_.waves.front().loss();
   if (!rows_.empty() && loss.modal != 0)
     throw std::invalid_argument(
         "modal damping is that of equal sectors, whose modes mistuning and cuts couple");
-  const RealModes all = real_modes();
+  const RealModes all = given_.turning.empty() ? real_modes() : turning_modes();
   const Index size = std::ssize(all.squares);
   Matrix motion(std::ssize(contacts_), size);
   for (Index k = 0; k < size; ++k) {
@@ -169,7 +223,11 @@ ContactModes RingPart::changed_modes() const {
       changed.shapes.transpose().cast<Complex>() * ComplexVector::Map(all.load.data(), size);
   std::vector<ContactMode> modes;
   for (Index k = 0; k < size; ++k) modes.push_back({std::sqrt(changed.squares(k)), shapes.col(k), load(k)});
-  return {motion.rows(), std::move(modes), loss};
+  const auto coupled = [&](const Matrix& by) -> Matrix {
+    return by.size() > 0 ? changed.shapes.transpose() * by * changed.shapes : Matrix();
+  };
+  return {ContactModes(motion.rows(), std::move(modes), loss), coupled(all.gyroscopic),
+          coupled(all.stiffness_speed2)};
 }
 
 }  // namespace arcslip

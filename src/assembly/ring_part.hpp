@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arcslip/assembly/whole_ring.hpp"
+#include "arcslip/sectors/sector_modes.hpp"
 #include "arcslip/structure/contact_modes.hpp"
 
 namespace arcslip {
@@ -26,6 +27,8 @@ class RingPart {
     double circular_frequency = two_pi;    ///< w over eta
     bool turns = false;         ///< whether waves m and N - m may differ by more than a transposition
     bool varies_speed = false;  ///< whether rates by the speed are wanted
+    /// Of what turns the modes at rest of the waves 0..N/2, of the same ports.
+    std::vector<std::shared_ptr<const SectorModes>> turning = {};
   };
   explicit RingPart(Given given);
 
@@ -39,10 +42,17 @@ class RingPart {
   /// The modes of the equal sectors as the whole's contacts see it, with their loads.
   ContactModes modes() const;
 
-  /// The modes of the changed whole, real ones; those of rigid motions with the frequency 0. Throws
+  /// Modes, with what rotation couples them by, 0 x 0 where it does not.
+  struct Changed {
+    ContactModes modes;
+    Matrix gyroscopic;
+    Matrix stiffness_speed2;
+  };
+
+  /// The modes of the changed whole at rest, real ones; those of rigid motions with the frequency 0. Throws
   /// std::invalid_argument where changes leave no modes that damping keeps apart: beside modal damping,
   /// without mass or with less than no stiffness.
-  ContactModes changed_modes() const;
+  Changed changed_modes() const;
 
  private:
   /// The modes of the equal sectors, two real ones of each two waves that run opposite ways.
@@ -50,6 +60,8 @@ class RingPart {
     std::vector<double> squares;  ///< D: eta_k^2
     std::vector<Vector> motion;   ///< D: of all ports of all sectors, by `place`
     std::vector<Complex> load;    ///< D
+    Matrix gyroscopic = {};       ///< D x D, or 0 x 0
+    Matrix stiffness_speed2 = {};
   };
   struct SameModes;  ///< some of one wave, of one frequency
   static std::vector<SameModes> same_modes(const ContactModes& wave);
@@ -59,6 +71,9 @@ class RingPart {
   void add_real(Index wave, const ContactVector& shape, double part, double square, Complex load,
                 RealModes& all) const;
   RealModes real_modes() const;
+  void add_turning(Index wave, RealModes& all) const;
+  void couple(Index wave, Index first, const ComplexMatrix& of_wave, Matrix& all) const;
+  RealModes turning_modes() const;
   Matrix changed_rows(const RealModes& all) const;
   struct ChangedModes {
     Vector squares;  ///< D: eta_k^2, 0 of rigid motions

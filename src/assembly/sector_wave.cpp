@@ -60,10 +60,8 @@ struct Part {
     return all;
   }
 
-  /// Contacts and these outputs, solved for in the coordinates of the modes at rest. Of a ring, which keeps
-  /// what it needs of it again.
-  ContactModes solved_with_outputs() const {
-    constexpr std::size_t kept = 1;
+  /// The modes as contacts and these outputs see them.
+  std::shared_ptr<const SectorModes> modes_with_outputs() const {
     const Index count = std::ssize(part.sector.contacts);
     const std::vector<Terms> told = told_outputs();
     auto seen = std::make_shared<SectorModes>(modes);
@@ -73,6 +71,14 @@ struct Part {
       for (const auto& [place, weight] : told[static_cast<std::size_t>(i)])
         seen->shapes.row(count + i) += weight * modes.shapes.row(count + place);
     }
+    return seen;
+  }
+
+  /// Contacts and outputs, solved for in the coordinates of the modes at rest. Of a ring, which keeps what it
+  /// needs of it again.
+  ContactModes solved_with_outputs() const {
+    constexpr std::size_t kept = 1;
+    const std::shared_ptr<const SectorModes> seen = modes_with_outputs();
     std::vector<ContactMode> list;
     for (std::size_t k = 0; k < modes.frequencies.size(); ++k) {
       const auto column = static_cast<Index>(k);
@@ -80,7 +86,7 @@ struct Part {
     }
     const Index ports = seen->shapes.rows();
     Part all = *this;
-    all.solves = std::make_shared<const ModalSolves>(std::move(seen), ports, loss, kept);
+    all.solves = std::make_shared<const ModalSolves>(seen, ports, loss, kept);
     return all.solved_for({ports, std::move(list), loss});
   }
 
@@ -218,11 +224,16 @@ ContactSystem SectorPair::wave(const SystemParameters& system) const {
   return wave;
 }
 
+std::shared_ptr<const SectorModes> SectorPair::turning_modes(const SystemParameters& system,
+                                                             bool is_base) const {
+  const bool turns = path_ == SectorPath::reduced && system.turns() && (is_base || damper_) &&
+                     (is_base ? base_ : *damper_).part.sector.feels_rotation();
+  return turns ? part_of(*this, system, is_base).modes_with_outputs() : nullptr;
+}
+
 ContactModes SectorPair::seen(const SystemParameters& system, bool is_base) const {
-  const bool is_solved = path_ == SectorPath::reduced && system.turns() && (is_base || damper_) &&
-                         (is_base ? base_ : *damper_).part.sector.feels_rotation();
-  return is_solved ? part_of(*this, system, is_base).solved_with_outputs()
-                   : Structures::seen(system, is_base);
+  return turning_modes(system, is_base) != nullptr ? part_of(*this, system, is_base).solved_with_outputs()
+                                                   : Structures::seen(system, is_base);
 }
 
 std::vector<PartModes> SectorPair::modes(const SystemParameters& system) const {

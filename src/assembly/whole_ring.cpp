@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
+#include "arcslip/assembly/sector_pair.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "assembly/ring_part.hpp"
 
@@ -128,10 +129,11 @@ std::vector<ContactModes> waves_of(const Structures& sector, SystemParameters on
                                    const std::vector<Complex>& amplitudes, bool is_travelling) {
   const Index n = std::ssize(amplitudes);
   const double size = std::sqrt(static_cast<double>(n));
+  const bool turns = one.turns() && sector.feels_rotation();
   std::vector<ContactModes> all;
   for (Index m = 0; m < n; ++m) {
     const Complex amplitude = size * amplitudes[static_cast<std::size_t>(m)];
-    one.wave_number = m;
+    one.wave_number = turns && 2 * m > n ? m - n : m;  // whose modes are those of n - m backwards
     const bool is_own = 2 * m <= n || (is_travelling && amplitude != 0.0) || all.front().is_solved();
     all.push_back(is_own ? sector.seen(one, is_base) : opposite(all[static_cast<std::size_t>(n - m)]));
   }
@@ -157,6 +159,11 @@ std::shared_ptr<const RingPart> WholeRing::part(const SystemParameters& system, 
                         circular_frequency(),
                         arcslip::feels_rotation(system),
                         system.varied == "speed"};
+  const auto* pair = dynamic_cast<const SectorPair*>(make_.structures.get());
+  for (Index m = 0; given.turns && make_.in_modes && pair != nullptr && 2 * m <= make_.sectors; ++m) {
+    one.wave_number = m;
+    if (auto modes = pair->turning_modes(one, is_base)) given.turning.push_back(std::move(modes));
+  }
   const Index ports = is_base ? make_.base_ports : make_.damper_ports;
   const Index first = given.waves.front().contacts() - ports;
   for (const RingChange& change : make_.changes) {
@@ -176,9 +183,9 @@ ContactSystem WholeRing::wave(const SystemParameters& system) const {
   const auto damper = part(system, false);
   if (make_.in_modes) {
     if (arcslip::feels_rotation(system))
-      throw std::invalid_argument("a ring that turns has no modes at rest, which rotation couples");
+      throw std::invalid_argument("a ring that turns is no sum of its modes at rest, which rotation couples");
     const Variation loaded{.load = system.force, .loss = base->modes().loss()};
-    return {base->changed_modes().varied(loaded), damper->changed_modes(), system.contacts};
+    return {base->changed_modes().modes.varied(loaded), damper->changed_modes().modes, system.contacts};
   }
   const auto solved = [](const std::shared_ptr<const RingPart>& of, double load) {
     return of->modes().solved_at_speeds(
@@ -203,6 +210,22 @@ ContactSystem WholeRing::wave(const SystemParameters& system) const {
         {output.name, none.solved_at_speeds(respond, output.on_base ? system.force : 0), output.on_base});
   }
   return whole;
+}
+
+TurningWholeModes WholeRing::turning(const SystemParameters& system) const {
+  if (!make_.in_modes) throw std::invalid_argument("a ring that turns is told by modes where it is in modes");
+  const RingPart::Changed base = part(system, true)->changed_modes();
+  const RingPart::Changed damper = part(system, false)->changed_modes();
+  const Index first = std::ssize(base.modes.modes());
+  const Index size = first + std::ssize(damper.modes.modes());
+  const auto both = [&](const Matrix& of_base, const Matrix& of_damper) {
+    Matrix all = Matrix::Zero(size, size);
+    if (of_base.size() > 0) all.topLeftCorner(first, first) = of_base;
+    if (of_damper.size() > 0) all.bottomRightCorner(size - first, size - first) = of_damper;
+    return all;
+  };
+  return {base.modes.varied({.load = system.force, .loss = base.modes.loss()}), damper.modes,
+          both(base.gyroscopic, damper.gyroscopic), both(base.stiffness_speed2, damper.stiffness_speed2)};
 }
 
 PairLosses WholeRing::losses(const SystemParameters& system) const {

@@ -22,6 +22,7 @@ ExtendedSector::ExtendedSector(const FiniteSector& sector, const SectorWave& wav
   const Real a =
       2 * std::numbers::pi_v<Real> * static_cast<Real>(wave.wave_number) / static_cast<Real>(wave.sectors);
   forward_ = {std::cos(a), -std::sin(a)};
+  if (2 * wave.wave_number % wave.sectors == 0) forward_.imag(0);  // modes are real then
   load_ = fold(sector.load.cast<Number>());
 }
 

@@ -318,6 +318,7 @@ void check_load(const FiniteSector& sector, const SectorModes& modes) {
 }  // namespace
 
 Complex SectorWave::forward() const {
+  if (2 * wave_number % sectors == 0) return wave_number % sectors == 0 ? 1 : -1;
   return std::polar(1.0, -two_pi * static_cast<double>(wave_number) / static_cast<double>(sectors));
 }
 

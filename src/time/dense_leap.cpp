@@ -16,6 +16,10 @@ Equation equation_of(const RingMotion& motion, const VaryingForces& forces) {
   Equation all{ring.stiffness.asDiagonal(), ring.damping.asDiagonal(), -forces.motion.transpose()};
   all.stiffness.noalias() += forces.motion.transpose() * (forces.gain() * forces.motion);
   all.damping.noalias() += motion.dragged().transpose() * motion.dragged();
+  if (ring.turns()) {
+    all.stiffness += motion.turned_stiffness();
+    all.damping += motion.turned_damping();
+  }
   if (ring.coupling.size() == 0) return all;
   for (Index c = 0; c < ring.coordinates(); ++c)
     all.stiffness(c, ring.beside[static_cast<std::size_t>(c)]) -= ring.coupling(c);

@@ -58,7 +58,7 @@ struct Collocation {
 
 bool LinearLeap::pays(const Ring& ring, const VaryingForces& forces, double length) {
   constexpr double fading = 5;
-  return forces.are_linear() && ring.coupling.size() == 0 &&
+  return forces.are_linear() && ring.coupling.size() == 0 && !ring.turns() &&
          10 * std::ssize(forces.rows) <= ring.coordinates() &&
          ring.damping.cwiseAbs().maxCoeff() * length < fading;
 }

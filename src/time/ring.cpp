@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arcslip/assembly/harmonic_system.hpp"
-#include "arcslip/assembly/structures.hpp"
+#include "arcslip/assembly/whole_ring.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/structure/dense.hpp"
 #include "arcslip/time/ring_law.hpp"
@@ -256,6 +256,59 @@ SystemParameters in_modes(const SystemParameters& parameters) {
   return modal;
 }
 
+/// The load of a whole ring that turns in each of its harmonics, over the window `wide`, in whose modes it
+/// is.
+void add_turning_loads(const WholeRing& whole, const SystemParameters& wide, Ring& ring) {
+  for (const int order : wide.harmonics) {
+    SystemParameters loaded = wide;
+    const SystemParameters of_order = in_order(wide, order);
+    loaded.force = of_order.force;
+    loaded.wave_number = of_order.wave_number;
+    if (loaded.force == 0) continue;
+    const ContactModes base = whole.turning(loaded).base;
+    ring.loads.push_back({order, ComplexVector::Zero(ring.coordinates())});
+    for (std::size_t c = 0; c < base.modes().size(); ++c)
+      ring.loads.back().amplitude(static_cast<Index>(c)) =
+          two_pi * wide.load_turn(order) * base.modes()[c].load;
+  }
+}
+
+/// The modes at rest of a whole ring that turns, all of them, with their loads.
+void fill_turning(const SystemParameters& parameters, const Rows& rows, Ring& ring) {
+  const WholeRing& whole = *structures_of(parameters).whole();
+  SystemParameters wide = parameters;
+  wide.eta_high *= static_cast<double>(highest_order(parameters.harmonics)) / parameters.periods();
+  TurningWholeModes all = whole.turning(wide);
+  const Index first = std::ssize(all.base.modes());
+  const Index size = all.gyroscopic.rows();
+  ring.stiffness.resize(size);
+  ring.damping.resize(size);
+  ring.motion.resize(std::ssize(rows), size);
+  ring.base = Matrix::Zero(1, size);
+  for (Index c = 0; c < size; ++c) {
+    const bool is_base = c < first;
+    const ContactModes& part = is_base ? all.base : all.damper;
+    const ContactMode& mode = part.modes()[static_cast<std::size_t>(is_base ? c : c - first)];
+    if (part.loss().structural != 0)
+      throw std::invalid_argument("motion in time needs viscous or modal damping");
+    if (mode.is_rigid())
+      throw std::invalid_argument("parts that turn have a motion in time where something holds them at rest");
+    ring.stiffness(c) = std::pow(two_pi * mode.frequency, 2);
+    ring.damping(c) = two_pi * part.loss().part_eta(mode.frequency);
+    for (Index i = 0; i < std::ssize(rows); ++i) {
+      const Coordinate& row = rows[static_cast<std::size_t>(i)];
+      ring.motion(i, c) = two_pi * row.move(is_base) * mode.shape(row.dof).real();
+    }
+    if (is_base) ring.base(0, c) = two_pi * mode.shape(0).real();
+    ring.wave.push_back(0);
+    ring.beside.push_back(c);
+  }
+  ring.gyroscopic = std::move(all.gyroscopic);
+  ring.stiffness_speed2 = std::move(all.stiffness_speed2);
+  ring.rotation = parameters.rotation;
+  add_turning_loads(whole, wide, ring);
+}
+
 void add_elements(const Coordinates& coordinates, Ring& ring) {
   for (Index e = 0; e < coordinates.elements(); ++e) {
     const Index first = coordinates.first(e);
@@ -298,11 +351,12 @@ Ring build_ring(const SystemParameters& given) {
   if (parameters.influence && parameters.influence->is_complex())
     throw std::invalid_argument(
         "complex influence coefficients, which are meant at one frequency, have no motion in time");
-  if (feels_rotation(parameters))
-    throw std::invalid_argument("structures that turn have no motion in time here");
+  if (feels_rotation(parameters) && structures_of(parameters).whole() == nullptr)
+    throw std::invalid_argument("structures that turn have a motion in time as whole rings alone");
   if (parameters.one_way)
     throw std::invalid_argument("contacts that do not act back on the base have no motion in time here");
-  const HarmonicSystem system = build_harmonic_system(parameters);
+  const bool turns = feels_rotation(parameters);
+  const HarmonicSystem system = build_harmonic_system(turns ? given : parameters);
   const Coordinates coordinates(system);
   Rows rows;
   for (Index c = 0; c < coordinates.size(); ++c) rows.push_back(coordinates[c]);
@@ -313,6 +367,10 @@ Ring build_ring(const SystemParameters& given) {
   ring.periods = parameters.periods();
   ring.preload_growth = parameters.preload_growth;
   add_elements(coordinates, ring);
+  if (turns) {
+    fill_turning(parameters, rows, ring);
+    return ring;
+  }
   Builder builder(ring, parameters, std::move(rows));
   for (Index wave = 0; 2 * wave <= ring.nodes(); ++wave) builder.add_wave(wave, waves.structures(wave));
   builder.finish();

@@ -79,7 +79,14 @@ RingMotion::RingMotion(const Ring& ring, double eta, double preload)
     families_.push_back({law, one.sliding, one.across, one.closing, memories_, one.factor});
     memories_ += law->memories() * nodes;
   }
-  const double drag = dragged_.rows() > 0 ? bound_of(dragged_) : 0;
+  double drag = dragged_.rows() > 0 ? bound_of(dragged_) : 0;
+  if (ring_.turns()) {
+    const double speed = two_pi * ring_.rotation.at(eta);
+    turned_damping_ = speed * ring_.gyroscopic;
+    turned_stiffness_ = speed * speed * ring_.stiffness_speed2;
+    drag += turned_damping_.cwiseAbs().rowwise().sum().maxCoeff();
+    springs += turned_stiffness_.cwiseAbs().rowwise().sum().maxCoeff();
+  }
   const double half = (ring_.damping.cwiseAbs().maxCoeff() + drag) / 2;
   const double coupled = ring_.coupling.size() > 0 ? ring_.coupling.cwiseAbs().maxCoeff() : 0;
   rate_ = half + std::sqrt(half * half + ring_.stiffness.maxCoeff() + coupled + springs);
@@ -265,6 +272,8 @@ bool RingMotion::expands(const RingState& state, double length) {
     forces =
         -ring_.stiffness.cwiseProduct(p.col(m)) - (next / length) * ring_.damping.cwiseProduct(p.col(m + 1));
     if (ring_.coupling.size() > 0) forces += ring_.coupled(p.col(m));
+    if (ring_.turns())
+      forces.noalias() -= turned_stiffness_ * p.col(m) + (next / length) * (turned_damping_ * p.col(m + 1));
     for (std::size_t h = 0; h < phases_.size(); ++h) {
       const RingLoad& load = ring_.loads[h];
       if (load.order > 0 || m == 0)
@@ -340,7 +349,8 @@ void RingMotion::advance(RingState& state, double duration, RingObserver* observ
 }
 
 double RingMotion::energy(const RingState& state) const {
-  return 0.5 * (state.velocity.squaredNorm() + ring_.stiffness.dot(state.position.cwiseAbs2()));
+  const double turned = ring_.turns() ? state.position.dot(turned_stiffness_ * state.position) : 0;
+  return 0.5 * (state.velocity.squaredNorm() + ring_.stiffness.dot(state.position.cwiseAbs2()) + turned);
 }
 
 }  // namespace arcslip

@@ -17,6 +17,15 @@ RingState RingMotion::at_rest() const {
 /// What a load of all coordinates moves by itself.
 void RingMotion::add_harmonic(int order, const ComplexVector& load, RingState& state) const {
   const double w = order * frequency_;
+  if (ring_.turns()) {
+    ComplexMatrix stiffness = turned_stiffness_ + Complex(0, w) * turned_damping_;
+    stiffness.diagonal() += ring_.stiffness + Complex(0, w) * ring_.damping;
+    stiffness.diagonal().array() -= w * w;
+    const ComplexVector p = solution_of(stiffness, load);
+    state.position += p.real();
+    state.velocity -= w * p.imag();
+    return;
+  }
   for (Index c = 0; c < ring_.coordinates(); ++c) {
     const Complex stiffness(ring_.stiffness(c) - w * w, w * ring_.damping(c));
     if (stiffness == 0.0) continue;  // a drift

@@ -180,8 +180,10 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   columns.position += next;
   const double* stiff = ring.stiffness.data();
   const double* damped = ring.damping.data();
+  const bool is_coupled = motion_.dragged().rows() > 0 || ring.coupling.size() > 0 || ring.turns();
   for (Index m = 0; m + 2 <= stretch.order; ++m) {
     const auto up = static_cast<double>(m + 1);
+    if (forces.rows.empty() && is_coupled) force.setZero();
     if (!forces.rows.empty()) {
       waves_.displace(stretch.rows, now, x);
       set_linear_forces(forces, x, local);
@@ -195,13 +197,12 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
       take_slips(stretch, x, slips, local);
       waves_.push(stretch.rows, local, force);
     }
-    if (motion_.dragged().rows() > 0) {
-      if (forces.rows.empty()) force.setZero();
+    if (motion_.dragged().rows() > 0)
       force.noalias() += (up / h) * motion_.dragged().transpose() * (motion_.dragged() * next);
-    }
-    if (ring.coupling.size() > 0) {
-      if (forces.rows.empty() && motion_.dragged().rows() == 0) force.setZero();
-      force -= ring.coupled(now);
+    if (ring.coupling.size() > 0) force -= ring.coupled(now);
+    if (ring.turns()) {
+      force.noalias() += motion_.turned_stiffness() * now;
+      force.noalias() += (up / h) * (motion_.turned_damping() * next);
     }
     // now becomes the term after `next`: in one pass through memory.
     const double step = -h * h / (up * (up + 1));
@@ -321,6 +322,10 @@ Matrix RingTangent::wave_by_wave() const {
     const Matrix dragged = motion_.dragged()(Eigen::all, which);
     Matrix damping = dragged.transpose() * dragged;
     damping.diagonal() += ring.damping(which);
+    if (ring.turns()) {
+      stiffness += motion_.turned_stiffness()(which, which);
+      damping += motion_.turned_damping()(which, which);
+    }
     const Matrix state = flow_of(stiffness, damping, h, steps, order);
     Matrix of_memory = Matrix::Zero(count, motion_.memories());
     for (const Remembered& number : one.memory)

@@ -98,6 +98,9 @@ class SectorPair : public Structures {
   ContactSystem wave(const SystemParameters& system) const override;
   /// Of what turns in the coordinates of its modes at rest.
   ContactModes seen(const SystemParameters& system, bool is_base) const override;
+  /// The modes at rest of what turns, with what rotation couples them by, as `seen` has them; null of a part
+  /// that does not feel it.
+  std::shared_ptr<const SectorModes> turning_modes(const SystemParameters& system, bool is_base) const;
   bool is_one_contact(const SystemParameters& system) const override;
   /// The speed, where it is felt and follows no engine order.
   std::vector<SystemParameter> parameters(const SystemParameters& system) const override;

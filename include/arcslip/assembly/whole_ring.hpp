@@ -82,6 +82,15 @@ struct RingMake {
   bool in_modes = false;  ///< whether base and damper are told by the modes of the changed whole
 };
 
+/// The modes at rest of the changed whole, with what rotation couples them by, over those of base and damper
+/// one after the other: v_i^T G v_k and v_i^T K_2 v_k.
+struct TurningWholeModes {
+  ContactModes base;    ///< real ones, loaded
+  ContactModes damper;  ///< the same, without load
+  Matrix gyroscopic;
+  Matrix stiffness_speed2;
+};
+
 /// The structures of all sectors. Its system's contacts are all N x c, those of sector 1 first.
 class WholeRing final : public Structures {
  public:
@@ -106,6 +115,8 @@ class WholeRing final : public Structures {
   std::vector<double> landmarks(const SystemParameters& system) const;
 
   ContactSystem wave(const SystemParameters& system) const override;
+  /// Of sectors that turn, told by modes. Throws std::invalid_argument.
+  TurningWholeModes turning(const SystemParameters& system) const;
   bool is_one_contact(const SystemParameters& /*system*/) const override { return false; }
   PairLosses losses(const SystemParameters& system) const override;
   double nodes(const SystemParameters& system) const override;

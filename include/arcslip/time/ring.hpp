@@ -13,7 +13,8 @@
 //
 //   p'' + D p' + W p + X^T f = Re(sum_h L_h e^{jhw*t}),   x = X p
 //
-// but for a flow's, under which a and b push each other, and
+// but for a flow's, under which a and b push each other, and those of rotation, D + Omega G and
+// W + Omega^2 K_2, by which the modes at rest of a whole ring are coupled, and
 // make of the motion in which each node does what the next one did a turn of a and b by 2 pi l/N.
 // Of modes of one frequency and damping, as rigid motions of base and damper, elements feel sum v v^H alone:
 // what moves no element is left out, and told apart where the load moves it.
@@ -68,6 +69,13 @@ struct Ring {
   std::vector<RingElements> elements = {};  ///< that act
   std::vector<RingLoad> loads = {};         ///< that act
   std::vector<UnseenMotion> unseen = {};    ///< of the load's harmonics
+
+  Matrix gyroscopic = {};        ///< D x D: of what turns G, which couples all coordinates; empty where none
+  Matrix stiffness_speed2 = {};  ///< D x D: K_2, the same
+  Rotation rotation = {};        ///< with which it turns
+
+  /// Whether rotation couples the coordinates.
+  bool turns() const { return gyroscopic.size() > 0; }
 
   /// N and D.
   Index nodes() const { return node_count; }

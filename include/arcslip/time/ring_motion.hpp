@@ -158,6 +158,9 @@ class RingMotion {
   /// The same of the forces that follow from velocities in all phases: their rows of X, times the roots of
   /// their coefficients over dx/dt.
   const Matrix& dragged() const { return dragged_; }
+  /// D x D: what rotation at its speed adds to the stiffness and to the damping; empty where it does not.
+  const Matrix& turned_stiffness() const { return turned_stiffness_; }
+  const Matrix& turned_damping() const { return turned_damping_; }
   const RingBranch& branch(Index which) const { return branches_[static_cast<std::size_t>(which)]; }
   /// Forces of all coordinates at start + ratio * scale of the segment, where their displacements and rates
   /// are these.
@@ -202,6 +205,8 @@ class RingMotion {
   std::vector<Family> families_;
   Index memories_ = 0;
   Matrix sizes_;  ///< |X|
+  Matrix turned_stiffness_;
+  Matrix turned_damping_;
 
   std::vector<RingBranch> branches_;
   std::vector<std::vector<RingEvent>> events_;
