@@ -30,7 +30,9 @@ void Tracer::take_events(const Signs& before) {
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");
-    if (stands_still(problem_, branch_.points, parameter_, options_.tolerances))
+    // Others may stand for a while, as sliding does under the force that it needs, and go on.
+    if (!options_.symmetries.empty() &&
+        stands_still(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "along the branch " + options_.parameter + " does not change but for rounding");
   }
   if (stopped_) return;
