@@ -110,9 +110,10 @@ void measure_mixed(Index sectors, Index contacts, const std::vector<int>& harmon
   options.from = eta;
   options.to = 1.001 * eta;
   options.max_points = 8;
+  const continuation::OnePiece joined(std::make_shared<problems::HarmonicResponse>(problem));
+  options.branch_point_pairs = false;
   const Clock::time_point traced = Clock::now();
-  const auto branch =
-      trace(continuation::OnePiece(std::make_shared<problems::HarmonicResponse>(problem)), start, options);
+  const auto branch = trace(joined, {start.unknowns, start.parameters, {}}, options);
   const double whole = seconds_since(traced);
   Index slips = 0;
   for (Index i = 0; i < problem.contacts(); ++i) slips += start.regime[i];
