@@ -10,6 +10,7 @@
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
+#include "arcslip/continuation/points/hopf_form.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
@@ -101,6 +102,16 @@ class Lost {
   std::optional<continuation::SymmetryGroup> group_;
 };
 
+/// How cycles leave a Hopf point.
+void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
+  if (traced.curve || point.type != PointType::hopf) return;
+  const auto form =
+      continuation::hopf_form(traced.problem(), {point.unknowns, point.parameters, point.regime, {}});
+  if (!form) return;
+  special["omega"] = form->frequency;
+  special["lyapunov"] = form->lyapunov;
+}
+
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
   const Lost lost(traced);
@@ -117,6 +128,7 @@ ordered_json special_points(const TracedBranch& traced) {
     for (const std::size_t k : physical.shown()) special[physical.names()[k]] = in_units[k];
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
     lost.add(point, special);
+    add_hopf_form(traced, point, special);
     if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));
   }

@@ -124,6 +124,23 @@ std::string count_answer(const ordered_json& branches) {
   return text + ".";
 }
 
+/// Which Hopf points give birth to stable cycles: "Of 2 Hopf points 1 is supercritical, 1 subcritical."
+Sentences hopf_answer(const ordered_json& branches) {
+  std::size_t super = 0;
+  std::size_t sub = 0;
+  for (const ordered_json& branch : branches) {
+    for (const ordered_json& point : branch.at("special")) {
+      if (point.contains("lyapunov")) ++(point.at("lyapunov").get<double>() < 0 ? super : sub);
+    }
+  }
+  if (super + sub == 0) return {};
+  if (super + sub == 1)
+    return {super == 1 ? "The Hopf point is supercritical: a stable cycle leaves it."
+                       : "The Hopf point is subcritical: the cycle that leaves it is unstable."};
+  return {fmt::format("Of {} Hopf points {} {} supercritical, {} subcritical.", super + sub, super,
+                      super == 1 ? "is" : "are", sub)};
+}
+
 /// Which branches have lost symmetries of the whole ring.
 Sentences symmetries_answer(const ordered_json& branches) {
   constexpr std::size_t most = 12;
@@ -181,8 +198,8 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
   if (response == "forced" || response == "one_way")
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
   sentences.push_back(count_answer(branches));
-  for (const Sentences& more :
-       {symmetries_answer(branches), ends_answer(branches), certificates_answer(branches)})
+  for (const Sentences& more : {hopf_answer(branches), symmetries_answer(branches), ends_answer(branches),
+                                certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
   return sentences;

@@ -1,0 +1,29 @@
+#pragma once
+
+// The normal form of a Hopf point of u' = F(u, p) [Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory,
+// 3rd ed., Springer 2004, sections 3.5 and 5.4]: with A = dF/du, A q = j omega q, A^T p = -j omega p, q^H q =
+// p^H q = 1, motions in the critical plane are u = 2 Re(z q) with
+//
+//   z' = j omega z + c z |z|^2 + ...,   l_1 = Re c/omega,
+//   2 c = p^H (C(q, q, q*) - 2 B(q, A^{-1} B(q, q*)) + B(q*, (2 j omega - A)^{-1} B(q, q))),
+//
+// B and C the second and third derivatives of F. Where l_1 < 0 the point is supercritical: cycles that are
+// stable within the plane leave it where the equilibrium is not.
+
+#include <optional>
+
+#include "arcslip/continuation/problem/guess.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+struct HopfForm {
+  double frequency = 0;  ///< omega > 0
+  double lyapunov = 0;   ///< l_1
+};
+
+/// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to the imaginary axis. None
+/// where derivatives cannot be had or no pair is there.
+[[nodiscard]] std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf);
+
+}  // namespace arcslip::continuation
