@@ -108,7 +108,7 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
   const auto form =
       continuation::hopf_form(traced.problem(), {point.unknowns, point.parameters, point.regime, {}});
   if (!form) return;
-  special["omega"] = form->frequency;
+  special["omega"] = form->omega;
   special["lyapunov"] = form->lyapunov;
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("The first Lyapunov coefficient is that of the normal form") {
   Oscillator problem;
   problem.terms.row(0) << 0, 0, 0, -.7, -.4, -.7, -.4;  // z' = j w z + (s + j b) z |z|^2 in y1 + j y2
   problem.terms.row(1) << 0, 0, 0, .4, -.7, .4, -.7;
-  CHECK_THAT(form_of(problem).frequency, WithinRel(1.3, 1e-12));
+  CHECK_THAT(form_of(problem).omega, WithinRel(1.3, 1e-12));
   CHECK_THAT(form_of(problem).lyapunov, WithinRel(-2 * .7 / 1.3, 1e-9));
   CHECK_THAT(problem.expected(), WithinRel(-2 * .7 / 1.3, 1e-12));
 }

@@ -18,8 +18,8 @@
 namespace arcslip::continuation {
 
 struct HopfForm {
-  double frequency = 0;  ///< omega > 0
-  double lyapunov = 0;   ///< l_1
+  double omega = 0;     ///< > 0
+  double lyapunov = 0;  ///< l_1
 };
 
 /// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to the imaginary axis. None
