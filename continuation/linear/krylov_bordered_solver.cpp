@@ -1,7 +1,7 @@
 #include "arcslip/continuation/linear/krylov_bordered_solver.hpp"
 
 #include <Eigen/Jacobi>
-#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +20,7 @@ constexpr double nearly_solved = 1e-10;  // where it comes no nearer
 
 KrylovBorderedSolver::KrylovBorderedSolver(Index size, Index borders)
     : BorderedSolver(size, borders),
+      between_(borders, 0),
       basis_(size + borders, most_steps + 1),
       hessenberg_(most_steps + 1, most_steps) {}
 
@@ -27,6 +28,7 @@ void KrylovBorderedSolver::set_jacobian(const CondensedJacobian& jacobian, const
   jacobian_ = &jacobian;
 }
 
+/// Real eigenvalues of M^{-1} A below zero turn the sign.
 double KrylovBorderedSolver::factor() {
   sign_ = std::numeric_limits<double>::quiet_NaN();
   near_ = jacobian_->precondition();
@@ -40,28 +42,22 @@ double KrylovBorderedSolver::factor() {
     near_->solve_transposed(column = borders_transposed_.col(k));
     borders_transposed_.col(k) = column;
   }
-  between_ = corner() - rows() * borders_;
-  const double determinant = between_.determinant();
-  sign_ = near_->sign() * (determinant < 0 ? -1 : 1);
-  log_determinant_ = near_->log_determinant() + std::log(std::abs(determinant));
+  between_.set_jacobian(Matrix(corner() - rows() * borders_), Vector::Ones(borders()));
+  const double sign = near_->sign() * between_.factor();
+  if (sign == 0) return sign_;
   Vector any = spread(size() + borders(), 0);
   precondition(any, false);
   const double enough = nearly_solved * any.norm();
-  if (!(cycle(any, enough, false) <= enough)) return sign_ = std::numeric_limits<double>::quiet_NaN();
-  add_eigenvalues();
-  return sign_;
-}
-
-/// Real eigenvalues of M^{-1} A below zero turn the sign.
-void KrylovBorderedSolver::add_eigenvalues() {
-  for (const Complex& value : eigenvalues(hessenberg_.topLeftCorner(steps_, steps_))) {
-    if (value.imag() == 0 && value.real() < 0) sign_ = -sign_;
-    log_determinant_ += std::log(std::abs(value));
-  }
+  if (!(cycle(any, enough, false) <= enough)) return sign_;
+  values_ = eigenvalues(hessenberg_.topLeftCorner(steps_, steps_));
+  const auto turns = [](const Complex& value) { return value.imag() == 0 && value.real() < 0; };
+  return sign_ = std::count_if(values_.begin(), values_.end(), turns) % 2 == 0 ? sign : -sign;
 }
 
 void KrylovBorderedSolver::multiply_determinant(LogProduct& product) const {
-  product.multiply_exp(log_determinant_);
+  near_->multiply_determinant(product);
+  between_.multiply_determinant(product);
+  for (const Complex& value : values_) product *= std::abs(value);
 }
 
 void KrylovBorderedSolver::solve(Vector& right_hand_side) { iterate(right_hand_side, false); }
@@ -90,13 +86,15 @@ void KrylovBorderedSolver::precondition(Vector& x, bool transposed) {
   if (transposed) {
     near_->solve_transposed(own);
     rest -= columns().transpose() * own;
-    x.tail(borders()) = between_.transpose().partialPivLu().solve(rest);
-    x.head(size()) = own - borders_transposed_ * x.tail(borders());
+    between_.solve_transposed(rest);
+    x.tail(borders()) = rest;
+    x.head(size()) = own - borders_transposed_ * rest;
   } else {
     near_->solve(own);
     rest -= rows() * own;
-    x.tail(borders()) = between_.partialPivLu().solve(rest);
-    x.head(size()) = own - borders_ * x.tail(borders());
+    between_.solve(rest);
+    x.tail(borders()) = rest;
+    x.head(size()) = own - borders_ * rest;
   }
 }
 

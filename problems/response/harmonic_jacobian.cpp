@@ -1,8 +1,8 @@
 #include "harmonic_jacobian.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "arcslip/structure/block_circulant.hpp"
 #include "harmonic_preconditioner.hpp"
 
 namespace arcslip::problems {
@@ -118,12 +118,7 @@ void HarmonicJacobian::couple_absolute(const Vector& x, Vector& out) const {
 std::vector<ComplexMatrix> HarmonicJacobian::waves() const {
   const Index n = std::ssize(members_);
   const Index each = std::ssize(members_.front());
-  ComplexMatrix turns(n, n);  // e^{j a_m l}
-  for (Index m = 0; m < n; ++m) {
-    for (Index l = 0; l < n; ++l)
-      turns(l, m) =
-          std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(m * l % n) / static_cast<double>(n));
-  }
+  const ComplexMatrix turns = wave_turns(n);
   std::vector<ComplexMatrix> all;
   for (const ContactMatrix& stuck : stuck_) {
     ComplexMatrix lags = ComplexMatrix::Zero(each * each, n);
@@ -139,7 +134,7 @@ std::vector<ComplexMatrix> HarmonicJacobian::waves() const {
         }
       }
     }
-    const ComplexMatrix of_waves = lags * turns;
+    const ComplexMatrix of_waves = lags * turns.conjugate();
     all.emplace_back(Eigen::Map<const ComplexMatrix>(of_waves.data(), each, each * n));
   }
   return all;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arcslip/types.hpp"
+#include "arcslip/structure/block_circulant.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -38,23 +38,6 @@ Pair pair_of(const Eigen::Matrix2d& a) {
           Complex(a(0, 0) - a(1, 1), a(1, 0) + a(0, 1)) / 2.0};
 }
 
-/// A^{-T} b, of vectors or columns.
-template <class Values>
-Values solve_transposed(const Eigen::PartialPivLU<Matrix>& factors, Values values) {
-  factors.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(values);
-  factors.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(values);
-  return factors.permutationP().inverse() * values;
-}
-
-void add_determinant(const Eigen::PartialPivLU<Matrix>& factors, double& sign, double& log_determinant) {
-  sign *= static_cast<double>(factors.permutationP().determinant());
-  for (const double pivot : factors.matrixLU().diagonal()) {
-    if (pivot == 0 || !std::isfinite(pivot)) sign = 0;
-    if (pivot < 0) sign = -sign;
-    log_determinant += std::log(std::abs(pivot));
-  }
-}
-
 }  // namespace
 
 HarmonicPreconditioner::HarmonicPreconditioner(Index sectors, std::vector<ComplexMatrix> waves,
@@ -64,14 +47,7 @@ HarmonicPreconditioner::HarmonicPreconditioner(Index sectors, std::vector<Comple
       harmonics_(static_cast<Index>(waves.size())),
       places_(std::move(places)),
       sectors_(static_cast<std::size_t>(sectors)),
-      phases_(sectors, sectors) {
-  for (Index m = 0; m < count_; ++m) {
-    for (Index i = 0; i < count_; ++i) {
-      const double angle =
-          2 * std::numbers::pi * static_cast<double>(m * i % count_) / static_cast<double>(count_);
-      phases_(i, m) = std::polar(1 / std::sqrt(static_cast<double>(count_)), -angle);
-    }
-  }
+      phases_(wave_turns(sectors) / std::sqrt(static_cast<double>(sectors))) {
   std::vector<ComplexMatrix> common;
   keep(waves, common);
   set_sectors(changes, common);
@@ -121,11 +97,16 @@ void HarmonicPreconditioner::set_sectors(const std::vector<Matrix>& changes,
         acts(i, j) = to.part == 0 ? moved.real() : moved.imag();
       }
     }
-    const Matrix local = Matrix::Identity(size, size) + acts * sector.change;
-    if (size == 0) continue;
-    sector.local.compute(local);
-    add_determinant(sector.local, sign_, log_determinant_);
+    if (size > 0) sector.local = factored(Matrix::Identity(size, size) + acts * sector.change);
   }
+}
+
+/// A matrix's factors, whose determinant's sign is taken.
+HarmonicPreconditioner::Factors HarmonicPreconditioner::factored(const Matrix& matrix) {
+  auto factors = std::make_unique<continuation::DenseBorderedSolver>(matrix.rows(), 0);
+  factors->set_jacobian(matrix, Vector::Ones(matrix.rows()));
+  sign_ *= factors->factor();
+  return factors;
 }
 
 std::vector<ComplexMatrix> HarmonicPreconditioner::blank() const {
@@ -193,8 +174,12 @@ void HarmonicPreconditioner::set_between() {
   for (Index s = 0; s < count_; ++s) {
     const Sector& sector = sectors_[static_cast<std::size_t>(s)];
     if (sector.places.empty()) continue;
-    const Matrix through =
-        problems::solve_transposed(sector.local, Matrix(sector.change.transpose())).transpose();
+    Matrix through(sector.change.rows(), sector.change.cols());  // E B^{-1}
+    for (Index i = 0; i < through.rows(); ++i) {
+      Vector row = sector.change.row(i).transpose();
+      sector.local->solve_transposed(row);
+      through.row(i) = row.transpose();
+    }
     for (Index j = 0; j < through.cols(); j += 2) {  // pairs of Re and Im follow one another
       const Place& from = places_[static_cast<std::size_t>(sector.places[static_cast<std::size_t>(j)])];
       for (Index i = 0; i < through.rows(); i += 2) {
@@ -230,46 +215,44 @@ void HarmonicPreconditioner::set_between() {
       between(2 * t + 1, 2 * k + 1) += l.real() - c.real();
     }
   }
-  between_.compute(between);
-  add_determinant(between_, sign_, log_determinant_);
+  between_ = factored(between);
 }
 
-void HarmonicPreconditioner::solve(Vector& x) const {
-  std::vector<ComplexMatrix> forces = blank();
-  std::vector<Vector> own(sectors_.size());
-  for (std::size_t s = 0; s < sectors_.size(); ++s) {
-    const Sector& sector = sectors_[s];
-    if (sector.places.empty()) continue;
-    own[s] = sector.local.solve(Vector(x(sector.places)));
-    take(sector, static_cast<Index>(s), sector.change * own[s], forces);
+void HarmonicPreconditioner::multiply_determinant(continuation::LogProduct& product) const {
+  for (const Sector& sector : sectors_) {
+    if (sector.local != nullptr) sector.local->multiply_determinant(product);
   }
-  std::vector<ComplexMatrix> moved;
-  if (!kept_.empty()) moved = combine(between_.solve(project(forces, false)), true);
-  for (std::size_t s = 0; s < sectors_.size(); ++s) {
-    const Sector& sector = sectors_[s];
-    if (sector.places.empty()) continue;
-    if (!kept_.empty()) own[s] -= sector.local.solve(give(sector, static_cast<Index>(s), moved));
-    x(sector.places) = own[s];
-  }
+  if (between_ != nullptr) between_->multiply_determinant(product);
 }
 
-void HarmonicPreconditioner::solve_transposed(Vector& x) const {
+/// x -> B^{-1} (x - U W^{-1} Sigma V^H E B^{-1} x), or the same transposed.
+void HarmonicPreconditioner::solve(Vector& x, bool transposed) {
+  const auto solve_by = [&](const Factors& factors, Vector& right) {
+    transposed ? factors->solve_transposed(right) : factors->solve(right);
+  };
   std::vector<ComplexMatrix> motions = blank();
   std::vector<Vector> own(sectors_.size());
   for (std::size_t s = 0; s < sectors_.size(); ++s) {
     const Sector& sector = sectors_[s];
     if (sector.places.empty()) continue;
-    own[s] = problems::solve_transposed(sector.local, Vector(x(sector.places)));
-    take(sector, static_cast<Index>(s), own[s], motions);
+    own[s] = x(sector.places);
+    solve_by(sector.local, own[s]);
+    take(sector, static_cast<Index>(s), transposed ? own[s] : Vector(sector.change * own[s]), motions);
   }
   std::vector<ComplexMatrix> moved;
-  if (!kept_.empty()) moved = combine(problems::solve_transposed(between_, project(motions, true)), false);
+  if (between_ != nullptr) {
+    Vector amounts = project(motions, transposed);
+    solve_by(between_, amounts);
+    moved = combine(amounts, !transposed);
+  }
   for (std::size_t s = 0; s < sectors_.size(); ++s) {
     const Sector& sector = sectors_[s];
     if (sector.places.empty()) continue;
-    if (!kept_.empty()) {
-      const Vector back = sector.change.transpose() * give(sector, static_cast<Index>(s), moved);
-      own[s] -= problems::solve_transposed(sector.local, back);
+    if (between_ != nullptr) {
+      Vector back = give(sector, static_cast<Index>(s), moved);
+      if (transposed) back = Vector(sector.change.transpose() * back);
+      solve_by(sector.local, back);
+      own[s] -= back;
     }
     x(sector.places) = own[s];
   }

@@ -15,10 +15,11 @@
 // E is as it is, be contacts alike or not, stuck or slipping: whatever is mixed, what is left to iterations
 // is small.
 
-#include <Eigen/LU>
+#include <memory>
 #include <vector>
 
 #include "arcslip/continuation/linear/condensed_jacobian.hpp"
+#include "arcslip/continuation/linear/dense_bordered_solver.hpp"
 
 namespace arcslip::problems {
 
@@ -37,10 +38,10 @@ class HarmonicPreconditioner final : public continuation::Preconditioner {
   HarmonicPreconditioner(Index sectors, std::vector<ComplexMatrix> waves, std::vector<Place> places,
                          const std::vector<Matrix>& changes);
 
-  void solve(Vector& x) const override;
-  void solve_transposed(Vector& x) const override;
+  void solve(Vector& x) override { solve(x, false); }
+  void solve_transposed(Vector& x) override { solve(x, true); }
   double sign() const override { return sign_; }
-  double log_determinant() const override { return log_determinant_; }
+  void multiply_determinant(continuation::LogProduct& product) const override;
 
  private:
   /// A part that is kept.
@@ -51,14 +52,17 @@ class HarmonicPreconditioner final : public continuation::Preconditioner {
     ComplexVector left;
     ComplexVector right;
   };
+  using Factors = std::unique_ptr<continuation::DenseBorderedSolver>;
   struct Sector {
-    std::vector<Index> places;          // of its active unknowns
-    Matrix change;                      // E
-    Eigen::PartialPivLU<Matrix> local;  // of B
+    std::vector<Index> places;  // of its active unknowns
+    Matrix change;              // E
+    Factors local;              // of B
   };
   void keep(const std::vector<ComplexMatrix>& waves, std::vector<ComplexMatrix>& common);
   void set_sectors(const std::vector<Matrix>& changes, const std::vector<ComplexMatrix>& common);
   void set_between();
+  Factors factored(const Matrix& matrix);
+  void solve(Vector& x, bool transposed);
   Vector project(const std::vector<ComplexMatrix>& motions, bool left) const;
   std::vector<ComplexMatrix> combine(const Vector& amounts, bool left) const;
   std::vector<ComplexMatrix> blank() const;
@@ -72,10 +76,9 @@ class HarmonicPreconditioner final : public continuation::Preconditioner {
   std::vector<Place> places_;
   std::vector<Sector> sectors_;
   std::vector<Kept> kept_;
-  ComplexMatrix phases_;                 // e^{-j a_m i}/sqrt(N), i x m
-  Eigen::PartialPivLU<Matrix> between_;  // of W
+  ComplexMatrix phases_;  // e^{-j a_m i}/sqrt(N), i x m
+  Factors between_;       // of W
   double sign_ = 1;
-  double log_determinant_ = 0;
 };
 
 }  // namespace arcslip::problems

@@ -42,7 +42,7 @@ void RingPart::add_real(Index wave, const ContactVector& shape, double part, dou
                         RealModes& all) const {
   Vector motion(count() * ports_);
   for (Index i = 0; i < count(); ++i) {
-    const Complex turn = turns_[static_cast<std::size_t>(wave * i % count())];
+    const Complex turn = turns_(wave, i);
     motion.segment(i * ports_, ports_) = part * (turn * shape).real();
   }
   all.squares.push_back(square);

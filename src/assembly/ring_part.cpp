@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/structure/block_circulant.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -21,15 +23,8 @@ RingPart::RingPart(Given given) : given_(std::move(given)) {
   is_modal_ = std::none_of(given_.waves.begin(), given_.waves.end(), is_solved);
   given_.turns = given_.turns && !is_modal_;
   ports_ = given_.waves.front().contacts();
-  for (Index q = 0; q < count(); ++q) {
-    const double angle = two_pi * static_cast<double>(q) / static_cast<double>(count());
-    turns_.emplace_back(std::cos(angle), -std::sin(angle));
-  }
-  transform_.resize(count(), count());
-  for (Index m = 0; m < count(); ++m) {
-    for (Index i = 0; i < count(); ++i)
-      transform_(m, i) = turns_[static_cast<std::size_t>(m * i % count())] / static_cast<double>(count());
-  }
+  turns_ = wave_turns(count());
+  transform_ = turns_ / static_cast<double>(count());
   for (const ContactModes& wave : given_.waves) {
     is_loaded_.push_back(wave.is_solved() || std::any_of(wave.modes().begin(), wave.modes().end(),
                                                          [](const auto& mode) { return mode.load != 0.0; }));
@@ -291,8 +286,7 @@ CycleWork RingPart::work(double eta, double load, const ContactVector& forces, d
   const double part = 1 / std::sqrt(static_cast<double>(n));
   for (Index m = 0; m < n; ++m) {
     ComplexVector of_wave = ComplexVector::Zero(ports_);
-    for (Index i = 0; i < n; ++i)
-      of_wave += (part * std::conj(turns_[static_cast<std::size_t>(m * i % n)])) * on_ports.col(i);
+    for (Index i = 0; i < n; ++i) of_wave += (part * std::conj(turns_(m, i))) * on_ports.col(i);
     const ContactModes& wave = given_.waves[static_cast<std::size_t>(m)];
     const CycleWork own =
         wave.varied(Variation{.load = load, .loss = wave.loss(), .speed = speed}).work(eta, of_wave);
@@ -311,8 +305,7 @@ ContactModes RingPart::modes() const {
   for (Index m = 0; m < n; ++m) {
     for (const ContactMode& mode : given_.waves[static_cast<std::size_t>(m)].modes()) {
       ContactVector shape(n * c);
-      for (Index i = 0; i < n * c; ++i)
-        shape(i) = part * turns_[static_cast<std::size_t>(m * (i / c) % n)] * mode.shape(i % c);
+      for (Index i = 0; i < n * c; ++i) shape(i) = part * turns_(m, i / c) * mode.shape(i % c);
       all.push_back({mode.frequency, std::move(shape), mode.load});
     }
   }

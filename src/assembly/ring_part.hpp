@@ -148,7 +148,7 @@ class RingPart {
   Given given_;
   Index ports_;
   bool is_modal_;                                    // whether all waves are sums over modes at rest
-  std::vector<Complex> turns_;                       // e^{-2 pi j q/N}
+  ComplexMatrix turns_;                              // e^{-j a_m i}, m x i
   ComplexMatrix transform_;                          // e^{-j a_m i}/N
   std::vector<bool> is_loaded_;                      // of each wave
   std::vector<std::vector<RingChange::Term>> rows_;  // of all changes

@@ -19,28 +19,28 @@ bool is_block_circulant(const ComplexMatrix& a, Index blocks) {
 
 }  // namespace
 
+ComplexMatrix wave_turns(Index blocks) {
+  ComplexVector one(blocks);
+  for (Index q = 0; q < blocks; ++q) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(q) / static_cast<double>(blocks);
+    one(q) = Complex(std::cos(angle), -std::sin(angle));
+  }
+  return ComplexMatrix::NullaryExpr(blocks, blocks, [&](Index m, Index i) { return one(m * i % blocks); });
+}
+
 bool invert_block_circulant(ComplexMatrix& a, Index blocks) {
   if (!is_block_circulant(a, blocks)) return false;
   const Index size = a.rows() / blocks;
-  ComplexMatrix turns(blocks, blocks);  // e^{2 pi j m i/N}
-  for (Index q = 0; q < blocks; ++q) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(q) / static_cast<double>(blocks);
-    turns(q, 1) = Complex(std::cos(angle), std::sin(angle));
-  }
-  for (Index m = 0; m < blocks; ++m) {
-    if (m != 1) {
-      for (Index i = 0; i < blocks; ++i) turns(i, m) = turns(m * i % blocks, 1);
-    }
-  }
+  const ComplexMatrix turns = wave_turns(blocks);
   ComplexMatrix entries(size * size, blocks);  // of a block in each column
   for (Index i = 0; i < blocks; ++i)
     Eigen::Map<ComplexMatrix>(entries.col(i).data(), size, size) = a.block(i * size, 0, size, size);
-  ComplexMatrix waves = entries * turns;
+  ComplexMatrix waves = entries * turns.conjugate();
   for (Index m = 0; m < blocks; ++m) {
     Eigen::Map<ComplexMatrix> wave(waves.col(m).data(), size, size);
     wave = ComplexMatrix(ComplexMatrix(wave).partialPivLu().inverse());
   }
-  entries.noalias() = waves * (turns.conjugate() / static_cast<double>(blocks));
+  entries.noalias() = waves * (turns / static_cast<double>(blocks));
   for (Index j = 0; j < blocks; ++j) {
     for (Index i = 0; i < blocks; ++i) {
       a.block(i * size, j * size, size, size) =

@@ -4,10 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/elements/contact.hpp"
-#include "arcslip/problems/response/power_balance.hpp"
 #include "catch.hpp"
+#include "exact_response.hpp"
 #include "turning_rings.hpp"
 
 using namespace arcslip;
@@ -210,14 +209,7 @@ TEST_CASE("All derivatives of unequal sectors that turn are exact, and what goes
   const HarmonicResponse problem = response_of(unlike_turning(one, course));
   const Guess at = problem.guess(190, .1);
   CAPTURE(to_string(course), orders.size(), varied, problem.describe(at.regime));
-  const auto [worst, where] = continuation::check_derivatives(problem, at.unknowns, at.parameters, at.regime);
-  CAPTURE(where);
-  CHECK(worst < 1e-6);
-  const problems::PowerBalance balance =
-      problems::power_balance(problem, at.unknowns, at.parameters, at.regime);
-  CHECK(balance.error() < 1e-8);
-  CHECK(balance.friction > .001 * balance.input);
-  CHECK(problems::motion_error(problem, at.unknowns, at.parameters, at.regime) < 1e-8);
+  check_exact(problem, at);
 }
 
 TEST_CASE("What a force on one contact does to another one the opposite speed does backwards",

@@ -9,6 +9,7 @@
 #include "arcslip/time/ring_response.hpp"
 #include "arcslip/time/ring_tangent.hpp"
 #include "catch.hpp"
+#include "settled_march.hpp"
 #include "timed_cases.hpp"
 #include "turning_rings.hpp"
 
@@ -70,29 +71,14 @@ ComplexVector marched(const SystemParameters& system, const DenseMotion& dense, 
     }
     return Vector(f.cwiseProduct(dense.inverse));
   };
-  constexpr int steps = 2500;
-  constexpr int periods = 200;
-  const double dt = 1 / (eta * steps);
-  Vector d = Vector::Zero(8 * n);
-  Vector v = d;
-  ComplexVector harmonic = ComplexVector::Zero(8 * n);
-  for (int step = 0; step < steps * periods; ++step) {
-    const double t = dt * step;
-    if (step >= steps * (periods - 1))
-      harmonic += (2.0 / steps) * std::polar(1.0, -w * t) * d.cast<Complex>();
-    const Vector a1 = acceleration(d, v, t);
-    const Vector a2 = acceleration(d + dt / 2 * v, v + dt / 2 * a1, t + dt / 2);
-    const Vector a3 = acceleration(d + dt / 2 * v + dt * dt / 4 * a1, v + dt / 2 * a2, t + dt / 2);
-    const Vector a4 = acceleration(d + dt * v + dt * dt / 2 * a2, v + dt * a3, t + dt);
-    d += dt * v + dt * dt / 6 * (a1 + a2 + a3);
-    v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  const auto settle = [&](const Vector& d) {
     for (Index i = 0; i < 2 * n; ++i) {
       const SectorContact& contact = system.contacts[static_cast<std::size_t>(i)];
       const auto [base, damper] = places(i, n);
       if (contact.stiffness > 0) sliders(i) = d(damper) - d(base) - friction(i, d) / contact.stiffness;
     }
-  }
-  return harmonic;
+  };
+  return settled_march(8 * n, eta, 2500, acceleration, settle);
 }
 
 SystemParameters damped(Index sectors, Index waves, const Rotation& rotation, Course course) {

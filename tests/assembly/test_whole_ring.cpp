@@ -2,9 +2,8 @@
 
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/trace.hpp"
-#include "arcslip/continuation/problem/derivative_check.hpp"
-#include "arcslip/problems/response/power_balance.hpp"
 #include "catch.hpp"
+#include "exact_response.hpp"
 #include "paper_cases.hpp"
 #include "whole_rings.hpp"
 
@@ -250,15 +249,7 @@ TEST_CASE("All derivatives of unequal sectors are exact, and what goes in comes 
       const HarmonicResponse problem = response_of(system);
       const Guess at = problem.guess(553.1, .01);
       CAPTURE(to_string(course), orders.size(), problem.describe(at.regime));
-      const auto [worst, where] =
-          continuation::check_derivatives(problem, at.unknowns, at.parameters, at.regime);
-      CAPTURE(where);
-      CHECK(worst < 1e-6);
-      const problems::PowerBalance balance =
-          problems::power_balance(problem, at.unknowns, at.parameters, at.regime);
-      CHECK(balance.error() < 1e-8);
-      CHECK(balance.friction > .001 * balance.input);
-      CHECK(problems::motion_error(problem, at.unknowns, at.parameters, at.regime) < 1e-8);
+      check_exact(problem, at);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "arcslip/time/ring_record.hpp"
 #include "arcslip/time/ring_response.hpp"
 #include "catch.hpp"
+#include "settled_march.hpp"
 #include "whole_rings.hpp"
 
 using namespace arcslip;
@@ -173,26 +174,11 @@ ComplexVector marched(const Assembled& base, const Assembled& damper, const std:
     }
     return Vector(f.cwiseProduct(inverse));
   };
-  constexpr int steps = 1200;
-  constexpr int periods = 200;
-  const double dt = 1 / (eta * steps);
-  Vector d = Vector::Zero(4 * n);
-  Vector v = d;
-  ComplexVector harmonic = ComplexVector::Zero(4 * n);
-  for (int step = 0; step < steps * periods; ++step) {
-    const double t = dt * step;
-    if (step >= steps * (periods - 1))
-      harmonic += (2.0 / steps) * std::polar(1.0, -w * t) * d.cast<Complex>();
-    const Vector a1 = acceleration(d, v, t);
-    const Vector a2 = acceleration(d + dt / 2 * v, v + dt / 2 * a1, t + dt / 2);
-    const Vector a3 = acceleration(d + dt / 2 * v + dt * dt / 4 * a1, v + dt / 2 * a2, t + dt / 2);
-    const Vector a4 = acceleration(d + dt * v + dt * dt / 2 * a2, v + dt * a3, t + dt);
-    d += dt * v + dt * dt / 6 * (a1 + a2 + a3);
-    v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  const auto settle = [&](const Vector& d) {
     for (Index i = 0; i < n; ++i)
       sliders(i) = d(3 * n + i) - d(3 * i) - slider_force(i, d) / stiffness[static_cast<std::size_t>(i)];
-  }
-  return harmonic;
+  };
+  return settled_march(4 * n, eta, 1200, acceleration, settle);
 }
 
 }  // namespace

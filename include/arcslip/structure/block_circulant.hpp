@@ -10,6 +10,9 @@
 
 namespace arcslip {
 
+/// e^{-2 pi j m i/N}, N x N.
+ComplexMatrix wave_turns(Index blocks);
+
 /// Inverts such a matrix of so many rows of blocks in place, in the time of its transformation. False, and
 /// nothing changed, where it is none.
 [[nodiscard]] bool invert_block_circulant(ComplexMatrix& a, Index blocks);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "arcslip/continuation/linear/log_product.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
@@ -18,10 +19,10 @@ namespace arcslip::continuation {
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
-  virtual void solve(Vector& x) const = 0;             ///< x <- M^{-1} x
-  virtual void solve_transposed(Vector& x) const = 0;  ///< x <- M^{-T} x
-  virtual double sign() const = 0;                     ///< of det M; 0 where it is singular
-  virtual double log_determinant() const = 0;          ///< ln |det M|
+  virtual void solve(Vector& x) = 0;                                 ///< x <- M^{-1} x
+  virtual void solve_transposed(Vector& x) = 0;                      ///< x <- M^{-T} x
+  virtual double sign() const = 0;                                   ///< of det M; 0 where it is singular
+  virtual void multiply_determinant(LogProduct& product) const = 0;  ///< by det M
 };
 
 /// Filled by a problem's `evaluate`.

@@ -7,6 +7,7 @@
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
 #include "arcslip/continuation/linear/condensed_jacobian.hpp"
+#include "arcslip/continuation/linear/dense_bordered_solver.hpp"
 
 namespace arcslip::continuation {
 
@@ -33,19 +34,18 @@ class KrylovBorderedSolver final : public BorderedSolver {
   void precondition(Vector& x, bool transposed);
   void iterate(Vector& x, bool transposed);
   double cycle(Vector& x, double enough, bool transposed);
-  void add_eigenvalues();
 
   const CondensedJacobian* jacobian_ = nullptr;
   std::unique_ptr<Preconditioner> near_;
-  Matrix borders_;             // M^{-1} B
-  Matrix borders_transposed_;  // M^{-T} C
-  Matrix between_;             // D - C^T M^{-1} B
+  Matrix borders_;               // M^{-1} B
+  Matrix borders_transposed_;    // M^{-T} C
+  DenseBorderedSolver between_;  // D - C^T M^{-1} B
   double sign_ = 0;
-  double log_determinant_ = 0;
-  Matrix basis_;       // of the iterations
-  Matrix hessenberg_;  // M^{-1} A in it
-  Index steps_ = 0;    // of the last cycle
-  Vector spread_;      // work space, as long as the whole Jacobian
+  ComplexVector values_;  // the eigenvalues of M^{-1} A that iterations tell
+  Matrix basis_;          // of the iterations
+  Matrix hessenberg_;     // M^{-1} A in it
+  Index steps_ = 0;       // of the last cycle
+  Vector spread_;         // work space, as long as the whole Jacobian
   Vector coupled_;
 };
 

@@ -17,7 +17,6 @@ class LogProduct {
     product_ = 1;
   }
   void operator/=(double x) { *this *= 1 / x; }             ///< the inverse
-  void multiply_exp(double log) { log_ += log; }            ///< by e^log
   double log() const { return log_ + std::log(product_); }  ///< of the product's size
 
  private:
