@@ -152,7 +152,7 @@ void search_borders(StepSearch& step) {
   if (std::abs(value) > together &&
       (jumps(stepper, *reached, upper, value) || !stepper.prober().probe(upper)))
     return step.fail();
-  if (!stepper.resolved(upper, stepper.prober().probed().monitors)) step.fail();
+  if (stepper.roughness(upper, stepper.prober().probed().monitors) > 1) step.fail();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 /// Two in one step, the second of which turns the parameter back, show in how far it has come; but from where
 /// the branch turns itself, as at a pitchfork, the way there is not told by a slope.
 void search_folds(StepSearch& step) {
+  if (step.stepper.is_regular()) return;
   const int before = step.signs.parameter;
   const double after = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
   const bool turns = before * sign_of(after) < 0 || (before != 0 && step.stepper.step().may_turn_twice());

@@ -37,7 +37,9 @@ CurvePoint Corrector::make_point() const {
 
 void Corrector::set_scale(CurvePoint& point) {
   problem_.scale(point.unknowns, point.parameters, unknown_scale_, parameter_scale_);
-  point.scale.head(size_) = unknown_scale_ * std::sqrt(static_cast<double>(size_));
+  double size = std::sqrt(static_cast<double>(size_));
+  if (options_.over_parameter && problem_.is_linear(point.regime)) size *= not_counted;
+  point.scale.head(size_) = unknown_scale_ * size;
   point.scale(size_) = parameter_scale_(parameter_);
 }
 
@@ -56,8 +58,9 @@ void Corrector::displace(const CurvePoint& origin, const Vector& displacement, C
 bool Corrector::calibrate(CurvePoint& point) {
   constexpr double large = 1e3;  // where 1 is large for F
   if (!evaluate(point)) return false;
-  linearization_.multiply_absolute(point.scale.head(size_), magnitudes_);
-  const double size = magnitudes_.maxCoeff() / std::sqrt(static_cast<double>(size_));
+  problem_.scale(point.unknowns, point.parameters, unknown_scale_, parameter_scale_);
+  linearization_.multiply_absolute(unknown_scale_, magnitudes_);
+  const double size = magnitudes_.maxCoeff();
   set_residual_size(size > large ? size : 1);
   return true;
 }

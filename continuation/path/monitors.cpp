@@ -51,22 +51,26 @@ double Monitors::border(const CurvePoint& point, int border, const Vector& scale
   return value;
 }
 
-bool Monitors::resolved(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow) const {
-  if (step.is_tiny(s)) return true;
+double Monitors::roughness(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow,
+                           double most_change) const {
+  constexpr double hidden = 2;  // a pair of extrema may be
+  double most = 0;
+  if (step.is_tiny(s)) return most;
   for (std::size_t i = 0; i < step.from.size(); ++i) {
     const Monitor& a = step.from[i];
     const Monitor& b = at_s[i];
     const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
     const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
-    // No more than a factor of two at a time: the observable is wanted as a curve, too.
-    if (i < tracked_.size() && a.value * b.value > 0 && std::abs(change) > 0.5 * size) return false;
+    if (i < tracked_.size() && a.value * b.value > 0)
+      most = std::max(most, std::abs(change) / (most_change * size));
     // The mean of the end slopes is to give the change, or else there is more between than these can tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
-    if (error > 0.1 * size || error > 0.15 * turned + shallow * size) return false;
-    if (dip(a.slope * s, b.slope * s, change, shallow * size)) return false;
+    const double allowed = std::min(0.1 * size, 0.12 * turned + shallow * size);
+    most = std::max(most, std::sqrt(error / allowed));
+    if (dip(a.slope * s, b.slope * s, change, shallow * size)) most = std::max(most, hidden);
   }
-  return true;
+  return most;
 }
 
 }  // namespace arcslip::continuation

@@ -8,9 +8,10 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double straight = 2e-3;   // of a piece's width and height
+constexpr double straight = 2e-3;   // of a piece's width and height, or of what is seen of it enlarged
+constexpr double seen = 0.004;      // of the branch: half of what pictures enlarge
 constexpr double invisible = 1e-5;  // of the branch: a four-hundredth of the narrowest part that is enlarged
-constexpr int most_halvings = 5;
+constexpr int most_halvings = 6;
 
 bool is_singular(const BranchPoint& point) {
   return point.type != PointType::regular && point.type != PointType::user;
@@ -36,7 +37,9 @@ class Polyline {
     for (std::size_t piece = 0; piece + 1 < all.size(); ++piece) {
       result_.push_back(branch.points[piece]);
       if (branch.points[piece + 1].arclength > branch.points[piece].arclength)
-        fill({piece, 0, 1, all[piece], all[piece + 1], (all[piece + 1] - all[piece]).abs()}, 0);
+        fill({piece, 0, 1, all[piece], all[piece + 1],
+              (all[piece + 1] - all[piece]).abs().min(seen * extent_)},
+             0);
     }
     result_.push_back(branch.points.back());
   }
@@ -48,7 +51,7 @@ class Polyline {
     std::size_t piece;
     double from, to;  ///< parts of the piece
     Coordinates begin, end;
-    Coordinates size;  ///< of the whole piece
+    Coordinates size;  ///< of the whole piece, as far as it is seen at once
   };
 
   Coordinates coordinates(const BranchPoint& point) {

@@ -104,6 +104,9 @@ void Stepper::restore(const Progress& progress) {
 
 Correction Stepper::enter(const Regime& regime) {
   step_.here.regime = regime;
+  work_ = step_.here.tangent.cwiseProduct(step_.here.scale);
+  corrector_.set_scale(step_.here);
+  step_.here.tangent = work_.cwiseQuotient(step_.here.scale).normalized();
   double nearest = std::numeric_limits<double>::infinity();
   // The border of the new regime on which the point lies; the new piece leaves it against its gradient.
   for (int b = 0; b < problem_.border_count(regime); ++b) {
@@ -160,6 +163,10 @@ void Stepper::begin_piece(const CurvePoint& origin) {
   bend_.setZero();
   step_.past.clear();
   revision_ = problem_.revision();
+}
+
+bool Stepper::is_over_parameter() const {
+  return corrector_.options().over_parameter && problem_.is_linear(step_.here.regime);
 }
 
 double Stepper::slope_length(Hold hold) const {
@@ -228,7 +235,10 @@ bool Stepper::finish(bool lands, double value) {
   step_.slope_to = corrector_.direction();
   corrector_.difference(step_.there, step_.here, step_.chord);
   signals_.prediction_error = (step_.chord - predicted_).norm();
-  signals_.mismatch = (step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to)).norm();
+  work_ = step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to);
+  constexpr double closer = 2;  // than elsewhere
+  if (is_over_parameter() && (lands || on_target_)) work_.head(corrector_.size()) *= closer * not_counted;
+  signals_.mismatch = work_.norm();
   if (step_.hold == Hold::tangent) signals_.turn = std::acos(std::min(1.0, 1 / step_.slope_to.norm()));
   const bool corner = signals_.turn > limits_.turn_limit && step_.is_tiny(step_.distance);
   if (corner) signals_.turn = 0;
@@ -249,11 +259,11 @@ bool Stepper::finish(bool lands, double value) {
   step_.from = at_here_;
   for (Monitor& from : step_.from) from.slope *= slope_length(step_.hold);
   monitors_.look(step_.there, step_.here.scale, step_.slope_to, step_.to);
-  if (!resolved(step_.distance, step_.to) && !is_near_meeting()) {
-    signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
-    return false;
+  if (!is_near_meeting()) {
+    signals_.roughness = roughness(step_.distance, step_.to);
+    if (signals_.roughness > 1) return false;
   }
-  if (!crossings_.may_find(pairs_) || crossings_.search()) return true;
+  if (is_regular() || !crossings_.may_find(pairs_) || crossings_.search()) return true;
   if (step_.there.orientation == step_.here.orientation && step_.is_tiny(step_.distance))
     return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
@@ -279,9 +289,14 @@ void Stepper::set_bend(bool is_corner) {
   next_bend_ /= arc_rate() * arc_rate();
 }
 
-bool Stepper::resolved(double s, const std::vector<Monitor>& at_s) const {
+double Stepper::roughness(double s, const std::vector<Monitor>& at_s) const {
+  constexpr double most_rises =
+      5;  // of observables, in largest steps, where only they tell how long these are
   constexpr double shallow = 100;  // times the tolerance: the values themselves are no better
-  return monitors_.resolved(step_, s, at_s, shallow * corrector_.tolerance());
+  // No more than a factor of two at a time: an observable is wanted as a curve, too.
+  constexpr double factor_of_two = 0.5;
+  const double change = is_over_parameter() ? std::min(factor_of_two, most_rises * max_step_) : factor_of_two;
+  return monitors_.roughness(step_, s, at_s, shallow * corrector_.tolerance(), change);
 }
 
 void Stepper::settle_on_border(int border) {

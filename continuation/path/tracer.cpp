@@ -43,7 +43,9 @@ Tracer::Tracer(const Problem& problem, const TraceOptions& options, const Observ
       options_(options),
       observer_(observer),
       parameter_(index_of(problem.parameter_names(), options.parameter)),
-      corrector_(problem, parameter_, {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }}),
+      corrector_(
+          problem, parameter_,
+          {.tolerance = options.tolerance, .watch = [this] { watch_clock(); }, .over_parameter = true}),
       stepper_(problem, corrector_, tracked_observables(problem, options), options.max_step,
                looks_for_pairs(problem, options), options.tolerances, options.rough_extrema),
       watch_(problem, options.events),
@@ -177,12 +179,19 @@ void Tracer::step() {
 
 bool Tracer::try_step() {
   double& distance = state_.distance;
-  distance = std::min(distance, options_.max_step / stepper_.slope_length(state_.hold));
+  constexpr double longer = 2.5;  // where a longer step passes over nothing that is not watched
+  const double longest = options_.max_step * (stepper_.is_over_parameter() ? longer : 1);
+  distance = std::min(distance, longest / stepper_.slope_length(state_.hold));
+  stepper_.set_on_target(!targets_.taken().empty());
   const double rate = stepper_.parameter_slope(state_.hold);
   landing_ = next_target(1.1 * distance * std::abs(rate) * parameter_scale(), rate > 0 ? 1 : -1);
   if (landing_ != nullptr) return try_landing();
   if (!stepper_.attempt(state_.hold, distance)) {
     const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
+    if (stepper_.signals().roughness > 1) {
+      distance *= factor;
+      return false;
+    }
     const Hold held = state_.hold;
     const double tried = distance;
     use(state_.hold == Hold::tangent ? Hold::parameter : Hold::tangent);

@@ -45,6 +45,7 @@ void Tracer::start(const Guess& guess, double forward) {
                                               problem_.describe(guess.regime)));
     }
   }
+  if (stepper_.is_over_parameter()) state_.distance = options_.max_step;
   storing_ = true;
   watch_.look(stepper_.here());
   watch_.begin();

@@ -1,10 +1,28 @@
 #include "arcslip/problems/response/forced_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 namespace arcslip::problems {
+
+namespace {
+
+bool is_passive(const ModalModel& structure) {
+  const Loss& loss = structure.loss();
+  const auto takes_energy = [](const Mode& mode) {
+    return mode.residue >= 0 && mode.influence.damping >= 0 && mode.influence.stiffness.imag() <= 0;
+  };
+  return loss.viscous >= 0 && loss.structural >= 0 && loss.modal >= 0 && loss.mass >= 0 &&
+         std::all_of(structure.modes().begin(), structure.modes().end(), takes_energy);
+}
+
+}  // namespace
+
+ForcedResponse::ForcedResponse(FrictionSystem system)
+    : ContactProblem(std::move(system)),
+      is_passive_(is_passive(system_.base) && is_passive(system_.damper)) {}
 
 bool ForcedResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const {

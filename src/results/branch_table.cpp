@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/compile.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,17 +55,22 @@ std::string BranchTable::header() const {
 }
 
 std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, Detail detail) const {
-  const int digits = detail == Detail::full ? 17 : 10;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  const auto number_to = [&](double value) { fmt::format_to(out, ",{:.{}g}", value, digits); };
+  const auto number_to = [&](double value) {
+    if (detail == Detail::full) {
+      fmt::format_to(out, FMT_COMPILE(",{}"), value);  // the shortest text that reads as the same number
+    } else {
+      fmt::format_to(out, FMT_COMPILE(",{:.10g}"), value);
+    }
+  };
   Columns columns(traced, detail);
   const PhysicalColumns physical(traced);
   std::vector<Index> places;
   for (const std::string& name : names_) places.push_back(columns.find(name));
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const BranchPoint& point = traced.branch.points[i];
-    fmt::format_to(out, "{},{},{},{}", number, i, point.type_name(),
+    fmt::format_to(out, FMT_COMPILE("{},{},{},{}"), number, i, point.type_name(),
                    traced.base.problem->describe(point.regime));
     const std::vector<double>& values = columns.values(point);
     for (const Index place : places)

@@ -31,35 +31,76 @@ struct Quality {
   double points;  ///< their number
 };
 
+/// u = 1/(1 + p^2), whose derivatives grow as those of a resonance do.
+struct Bell {
+  ScalarProblem problem{
+      {"p"},
+      [](double u, const Vector& p) { return u - 1 / (1 + p(0) * p(0)); },
+      [](double /*u*/, const Vector& /*p*/) { return 1.0; },
+      {[](double /*u*/, const Vector& p) { return 2 * p(0) / std::pow(1 + p(0) * p(0), 2); }}};
+
+  Branch branch(double max_step) const {
+    TraceOptions options = over("p", -3, 3);
+    options.max_step = max_step;
+    return trace(problem, {vector_of({0.1}), vector_of({-3})}, options);
+  }
+  static double error(const Sample& sample) {
+    const double p = sample.parameters(0);
+    return std::abs(sample.unknowns(0) - 1 / (1 + p * p));
+  }
+};
+
 Quality quality(double max_step) {
-  const Branch branch = cusp_branch(max_step);
+  const Branch branch = Bell().branch(max_step);
   const InterpolatedBranch curve(branch, 0);
   Quality result{0, static_cast<double>(branch.points.size())};
-  for (const Sample& sample : curve.resample(1000)) result.worst = std::max(result.worst, distance(sample));
+  for (const Sample& sample : curve.resample(1000))
+    result.worst = std::max(result.worst, Bell::error(sample));
   return result;
 }
 
 }  // namespace
 
-TEST_CASE("Between its points a branch is interpolated with an error of fourth order") {
-  const Quality coarse = quality(0.1);
-  const Quality fine = quality(0.0125);
-  CHECK(coarse.worst < 1e-3);
-  // The steps do not all shrink alike, so that 4 is not met exactly.
-  CHECK(std::log(coarse.worst / fine.worst) / std::log(fine.points / coarse.points) > 3.5);
+TEST_CASE("Between its points a branch is interpolated with an error of eighth order") {
+  const Quality coarse = quality(0.2);
+  const Quality fine = quality(0.05);
+  CHECK(coarse.worst < 1e-6);
+  // The steps do not all shrink alike, so that 8 is not met exactly.
+  CHECK(std::log(coarse.worst / fine.worst) / std::log(fine.points / coarse.points) > 7);
 }
 
-TEST_CASE("The estimated error of a sample is that of the curve, within a small factor") {
+TEST_CASE("A cubic between its points is met but for rounding, through both of its folds") {
   const Branch branch = cusp_branch(0.1);
+  const InterpolatedBranch curve(branch, 0);
+  for (const Sample& sample : curve.resample(1000)) CHECK(distance(sample) < 1e-10);
+}
+
+TEST_CASE("The estimated error of a sample is above that of the curve, within a factor") {
+  const Bell bell;
+  const Branch branch = bell.branch(0.2);
   const InterpolatedBranch curve(branch, 0);
   double estimated = 0;
   double found = 0;
   for (const Sample& sample : curve.resample(2000)) {
     estimated = std::max(estimated, sample.error.norm());
-    found = std::max(found, distance(sample));
-    CHECK(distance(sample) <= 5 * sample.error.norm() + 1e-9);
+    found = std::max(found, Bell::error(sample));
+    CHECK(Bell::error(sample) <= sample.error.norm() + 1e-12);
   }
   CHECK(estimated < 30 * found);
+}
+
+TEST_CASE("With its problem a branch is sampled by solutions, at arclengths as at values of the parameter") {
+  const Bell bell;
+  const Branch branch = bell.branch(0.4);
+  const InterpolatedBranch curve(branch, 0, &bell.problem);
+  for (const Sample& sample : curve.resample(300)) {
+    CHECK(Bell::error(sample) < 1e-14);
+    CHECK(sample.error.norm() == 0);
+  }
+  const std::vector<Sample> found = curve.where(0.123);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].parameters(0) == 0.123);
+  CHECK(Bell::error(found[0]) < 1e-14);
 }
 
 TEST_CASE("Parabolas are met between two points, folds as well as peaks, be these needle-sharp") {

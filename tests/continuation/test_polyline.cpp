@@ -156,7 +156,7 @@ TEST_CASE("Polylines of random responses are within a pixel of them, also where 
       const double half = 0.004 * (to - from);
       CHECK(farthest(drawn, dense, {peak.parameters(0) - half, peak.parameters(0) + half, true}) < 1);
     }
-    CHECK(drawn.size() < 8 * branch.points.size());
+    CHECK(drawn.size() < 16 * branch.points.size());  // steps are long where the contact sticks
   }
 }
 

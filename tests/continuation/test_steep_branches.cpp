@@ -67,7 +67,7 @@ TEST_CASE("Between the points of random responses the curve stays on the branch,
   RandomSystems random(7);
   long samples = 0;
   long beyond = 0;
-  for (int i = 0; i < 25; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const auto [problem, branch] = response(random.system());
     const InterpolatedBranch curve(branch, ForcedResponse::eta);
     for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {

@@ -15,10 +15,10 @@ namespace arcslip {
 /// Takes pieces of a text in order.
 using Sink = std::function<void(std::string_view)>;
 
-/// One row for each point, 17 significant digits: branch, point, type, regime, the parameters, the
-/// observables, where points tell their stability how many eigenvalues are unstable, arclength, iterations,
-/// residual; of a system given in SI units the same in these: frequency_Hz, preload_N_per_m, R_m, S_m, Y_m,
-/// U_m, dissipated_J, T_max_N.
+/// One row for each point, with as many digits as give back each number: branch, point, type, regime, the
+/// parameters, the observables, where points tell their stability how many eigenvalues are unstable,
+/// arclength, iterations, residual; of a system given in SI units the same in these: frequency_Hz,
+/// preload_N_per_m, R_m, S_m, Y_m, U_m, dissipated_J, T_max_N.
 class BranchTable {
  public:
   /// What pictures need has ten digits, and nan for what a smooth response with stability says of its

@@ -159,7 +159,7 @@ class Branch(_Columns):
         return self._core.checkpoint
 
     def sample(self, n=1000):
-        """Points at equal distances of arclength, by the engine's interpolation of fourth order.
+        """Points at equal distances of arclength, between those of the branch.
 
         Parameters
         ----------
@@ -169,12 +169,13 @@ class Branch(_Columns):
         Returns
         -------
         Sample
-            With the estimated error of each.
+            Solutions to the engine's tolerance. Where none is found next to the curve through the branch's points, the
+            sample is the curve's, with its estimated error; the error of the others is 0.
         """
         return Sample(self._core.sample(n))
 
     def where(self, value):
-        """The points, interpolated likewise, at which the parameter has a value, in the order of the branch.
+        """The points, solved for likewise, at which the parameter has a value, in the order of the branch.
 
         Parameters
         ----------

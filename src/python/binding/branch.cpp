@@ -65,7 +65,8 @@ py::dict sampled_by(const BranchHandle& handle, const Samples& samples) {
   if (handle.branch().points.size() < 2)
     throw py::value_error("a branch of fewer than two points has nothing between them");
   return handle.heard([&] {
-    return sampled(handle, samples(continuation::InterpolatedBranch(handle.branch(), handle.parameter())));
+    return sampled(handle, samples(continuation::InterpolatedBranch(handle.branch(), handle.parameter(),
+                                                                    &handle.traced().problem())));
   });
 }
 

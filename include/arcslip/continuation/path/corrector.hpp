@@ -38,6 +38,7 @@ struct CorrectorOptions {
   double tolerance = 1e-10;          ///< on the largest entry of F
   int max_iterations = 10;           ///< before it is `too_many_iterations`
   std::function<void()> watch = {};  ///< called before each evaluation of F; what it throws ends the work
+  bool over_parameter = false;       ///< where F is linear in u, lengths are those of the parameter alone
 };
 
 /// Work counted over a branch.
@@ -51,6 +52,8 @@ struct Work {
 
 /// The sums of all.
 Work operator+(const Work& a, const Work& b);
+
+constexpr double not_counted = 1e8;  ///< scale of unknowns whose changes do not count, in the problem's
 
 /// Owns its work space: nothing is allocated after construction, but for what a sparse factorisation needs.
 class Corrector {

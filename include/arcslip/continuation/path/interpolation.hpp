@@ -1,18 +1,23 @@
 #pragma once
 
-// A branch as a continuous curve: between two neighbouring points a cubic with their values and the
-// directions of their tangents [Hermite],
+// A branch as a continuous curve: between two neighbouring points a polynomial with their values, the
+// directions of their tangents, and those of the nearest point on either side [Hermite]. It is a graph over a
+// line,
 //
-//   z(x) = z_0 y^2 (1 + 2x) + z_1 x^2 (1 + 2y) + a_0 t_0 x y^2 - a_1 t_1 x^2 y,   0 <= x <= 1,  y = 1 - x,
+//   z(s),   s = n . (z - z_0),   n . (z_1 - z_0) = 1,   dz/ds = t/(n . t) at each of the points,
 //
-// whose error is of fourth order. The lengths a_0, a_1 are those that make its third derivative least, each
-// entry of z in its own size, so that parabolas are met, as folds and as peaks however needle-sharp, and such
-// that the parameter does not turn.
+// whose error is of eighth order where there are points on both sides. The line is the parameter's, that of
+// the unknowns, or the axis of the parabola that the piece is most like, whichever the terms fall off best
+// on; so needle-sharp peaks and folds are met alike. Beside a corner it is a polynomial in the root of the
+// distance from it, where terms fall off better so: from a border across which F has a root in it.
 
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "arcslip/continuation/path/branch.hpp"
+#include "arcslip/continuation/path/corrector.hpp"
 
 namespace arcslip::continuation {
 
@@ -22,14 +27,19 @@ struct Sample {
   Vector parameters;     ///< all
   double arclength = 0;  ///< as in the branch
   Regime regime;         ///< of the piece
-  Vector error;          ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece
+  Vector error;          ///< n + 1: estimated absolute error of (u, p_a), from the points around the piece; 0
+                         ///< where it was solved for
 };
 
-/// Keeps a reference to the branch, which must have two points at least.
+/// Keeps references to the branch, which must have two points at least, and to the problem. Not to be called
+/// from several threads at once.
 class InterpolatedBranch {
  public:
-  /// `parameter` is the position of the continuation parameter among the problem's.
-  InterpolatedBranch(const Branch& branch, Index parameter);
+  /// `parameter` is the position of the continuation parameter among the problem's. With the problem, samples
+  /// but for those of `place` are its solutions, to the tolerance, and only where none is found next to the
+  /// curve the curve's.
+  InterpolatedBranch(const Branch& branch, Index parameter, const Problem* problem = nullptr);
+  ~InterpolatedBranch();
 
   /// The arclengths of the first point and of the last.
   double begin() const { return branch_.points.front().arclength; }
@@ -54,17 +64,19 @@ class InterpolatedBranch {
   Vector position(std::size_t point) const;
   const Vector& leaving(std::size_t piece) const;
   const Vector& arriving(std::size_t piece) const;
-  struct Cubic;
+  class Piece;
   double distance(std::size_t from, std::size_t to) const;
-  Cubic cubic(std::size_t from, std::size_t to) const;
   bool is_corner(std::size_t point) const;
-  std::optional<std::size_t> neighbour(std::size_t piece, int way) const;
-  Vector missed(std::size_t from, std::size_t point, std::size_t to) const;
-  Sample place(const Cubic& cubic, std::size_t piece, double x) const;
-  Vector error(std::size_t piece, const Cubic& cubic) const;
+  std::vector<std::pair<std::size_t, bool>> around(std::size_t piece) const;
+  std::optional<std::size_t> corner(std::size_t piece, int way) const;
+  const Piece& curve(std::size_t piece) const;
+  void solve(Sample& sample, const Vector& along) const;
+  Sample place(const Piece& curve, std::size_t piece, double x) const;
 
   const Branch& branch_;
   Index parameter_;
+  std::unique_ptr<Corrector> corrector_;  // none without a problem
+  mutable std::unique_ptr<Piece> last_;
 };
 
 }  // namespace arcslip::continuation

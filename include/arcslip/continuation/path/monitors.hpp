@@ -32,9 +32,11 @@ class Monitors {
     return std::max(observed_[observable].scale, std::abs(value));
   }
 
-  /// Whether values and slopes where a step begins and at s fit a curve without more in between; `shallow` is
-  /// how good the values are.
-  bool resolved(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow) const;
+  /// How far values and slopes where a step begins and at s are from those of a curve without more in
+  /// between: at most 1 where they fit one, and about as s; `shallow` is how good the values are,
+  /// `most_change` what those of observables may change by, relatively.
+  double roughness(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow,
+                   double most_change) const;
 
  private:
   const Problem& problem_;

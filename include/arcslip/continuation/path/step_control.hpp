@@ -1,9 +1,9 @@
 #pragma once
 
-// The length of the steps, from three signals: how fast the corrector contracted, how far the tangent turned,
-// and how far the corrected point lies from the predicted one. Near a smooth branch each grows at least as
-// the square of the step (the turn: as the step), so that each asks for a factor sqrt(aim/signal) (the turn:
-// aim/signal).
+// The length of the steps, from four signals: how fast the corrector contracted, how far the tangent turned,
+// how far the corrected point lies from the predicted one, and how rough what is watched is between the ends.
+// Near a smooth branch each grows at least as the square of the step (the turn and the roughness: as the
+// step), so that each asks for a factor sqrt(aim/signal) (these: aim/signal).
 
 namespace arcslip::continuation {
 
@@ -14,6 +14,7 @@ struct StepSignals {
   double prediction_error = 0;  ///< |corrected - predicted| in the problem's scale
   double mismatch =
       0;  ///< |step - (mean of the end slopes) x distance|: a branch in between that is not smooth
+  double roughness = 0;  ///< of what is watched along the step, of what it may be
 };
 
 /// The signals that steps aim at, and those beyond which they are not kept.
@@ -26,6 +27,7 @@ struct StepLimits {
   double error_aim = 0.05;      ///< of the largest step
   double error_limit = 0.25;    ///< of the largest step
   double mismatch_limit = 0.1;  ///< of the largest step
+  double roughness_aim = 0.85;  ///< steps are not kept above 1
   double growth = 2;            ///< largest factor after a good step
   double shrink = 0.2;          ///< smallest factor
 };

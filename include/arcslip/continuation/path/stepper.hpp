@@ -45,6 +45,10 @@ class Stepper {
   /// Whether the step begins or ends there.
   bool is_near_meeting() const { return meets_ && (meets_(step_.here) || meets_(step_.there)); }
 
+  /// Whether `here` is a value that was landed on, where a feature of the branch may be so narrow that it is
+  /// seen by its slopes alone: unknowns count in the steps from and to it.
+  void set_on_target(bool on_target) { on_target_ = on_target; }
+
   /// Starts from a guess, keeping its parameters; `forward` is the wanted sign of the parameter's change.
   Correction start(const Vector& unknowns, const Vector& parameters, const Regime& regime, double forward);
 
@@ -71,6 +75,12 @@ class Stepper {
   /// False, and still at `here`, if there is none.
   [[nodiscard]] bool turn_back();
 
+  /// Whether in this regime there are neither folds nor branch points.
+  bool is_regular() const { return problem_.is_regular(step_.here.regime); }
+
+  /// Whether from `here` on the unknowns are linear functions' and lengths those of the parameter.
+  bool is_over_parameter() const;
+
   /// Arclength per distance at `here`: 1 or more.
   double slope_length(Hold hold) const;
 
@@ -87,8 +97,9 @@ class Stepper {
   const StepSignals& signals() const { return signals_; }
   Correction last_correction() const { return last_correction_; }
 
-  /// Whether the monitors' values and slopes at `here` and at s fit a curve without more in between.
-  bool resolved(double s, const std::vector<Monitor>& at_s) const;
+  /// How much of what a step may leave open is between `here` and s, by the monitors' values and slopes
+  /// there: above 1 there may be more in between than these tell.
+  double roughness(double s, const std::vector<Monitor>& at_s) const;
 
   /// Moves the step's end, which is next to it, onto a border of its regime, and thereby to the parameter's
   /// last bit off the branch rather than off the border: beyond it the residual may be 10^5 times as
@@ -127,6 +138,7 @@ class Stepper {
   CurvePoint aside_;
   StepSignals signals_;
   Correction last_correction_ = Correction::converged;
+  bool on_target_ = false;
   long revision_ = 0;  // of the problem's scaling that determinants belong to
 };
 

@@ -118,6 +118,14 @@ class Problem {
   /// spans decades gives its own value. The default is the value itself, or 1 where that is larger.
   virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const;
 
+  /// Whether dF/du is regular wherever F = 0 in this regime: a branch has no folds and no branch points
+  /// there, and none are looked for.
+  virtual bool is_regular(const Regime& /*regime*/) const { return false; }
+
+  /// Whether F is linear in u besides: the steps of a branch are then as long as what is watched on it lets
+  /// them be, however steep its unknowns are.
+  virtual bool is_linear(const Regime& /*regime*/) const { return false; }
+
   /// How many switches a regime has, each with a state: the pieces are the patterns of these states, which
   /// nobody lists. A switch that is not there is in state 0.
   virtual Index switch_count() const { return 0; }

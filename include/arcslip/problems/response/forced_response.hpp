@@ -23,9 +23,13 @@ namespace arcslip::problems {
 class ForcedResponse : public ContactProblem {
  public:
   /// Of a system without cubic springs.
-  using ContactProblem::ContactProblem;
+  explicit ForcedResponse(FrictionSystem system);
 
   Index size() const override { return 1; }
+  bool is_regular(const continuation::Regime& regime) const override {
+    return is_passive_ || regime[0] == stick;
+  }
+  bool is_linear(const continuation::Regime& regime) const override { return regime[0] == stick; }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
 
@@ -51,6 +55,8 @@ class ForcedResponse : public ContactProblem {
                       continuation::Gradient& gradient) const;
   /// r of this modulus, with the phase that the equation gives it.
   static Complex motion(const State& at, double log_R);
+
+  bool is_passive_;  // whether Im c <= 0 everywhere
 };
 
 }  // namespace arcslip::problems

@@ -1,0 +1,60 @@
+#pragma once
+
+// The polynomial with given values and slopes at several places [Hermite], by divided differences [Newton]:
+//
+//   z(s) = c_0 + c_1 (s - s_0) + c_2 (s - s_0)^2 + c_3 (s - s_0)^2 (s - s_1) + ...
+//
+// Its first terms are the polynomial of the first places. A curve that leaves a corner as a series in the
+// root of s does is one in sqrt|s - s_corner| instead, whose slope at the corner is zero and whose second
+// derivative is twice the curve's slope.
+
+#include <array>
+#include <optional>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+/// Of a vector function of s, at up to four places. Keeps its memory.
+class Hermite {
+ public:
+  static constexpr std::size_t most_places = 4;
+
+  /// Where the curve has a corner; all places lie on the side to which `into` points, 1 or -1, or on it.
+  struct Corner {
+    double s;
+    double into;
+  };
+
+  /// Forgets its places.
+  void clear(std::optional<Corner> corner = std::nullopt);
+
+  /// Another place, with the function's value and slope there.
+  void add(double s, const Vector& value, const Vector& slope);
+
+  /// How many places it has.
+  std::size_t places() const { return places_; }
+
+  /// The function at s, by the first places alone.
+  void at(double s, std::size_t places, Vector& out) const;
+
+  /// The sizes of the terms that the last of the first places adds to the function at s, summed.
+  void added(double s, std::size_t places, Vector& out) const;
+
+  /// The coefficient of the cubic through two places.
+  const Vector& cubic() const { return terms_[3]; }
+
+ private:
+  double variable(double s) const;
+  void add(double x, std::array<const Vector*, 3> derivatives, std::size_t count);
+
+  std::optional<Corner> corner_;
+  std::size_t places_ = 0;
+  std::array<std::size_t, most_places + 1> counts_{};  // of terms, by places
+  std::array<double, 2 * most_places + 1> nodes_{};
+  std::array<Vector, 2 * most_places + 1> terms_;
+  std::array<Vector, 2 * most_places + 1> last_;  // divided differences that end at the last node, by order
+  std::array<Vector, 2> scaled_;
+};
+
+}  // namespace arcslip::continuation
