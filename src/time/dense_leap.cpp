@@ -50,6 +50,8 @@ DenseLeap::DenseLeap(const RingMotion& motion, const VaryingForces& forces, doub
     integral += next / (up + 2);
   }
   rate_ /= h;
+  const Ring& ring = motion.ring();
+  const bool is_symmetric = gain_.isDiagonal() && ring.coupling.size() == 0 && !ring.turns();
   pushed_.noalias() = h * integral * forces.motion.transpose();
   pushed_velocity_.noalias() = response_ * forces.motion.transpose();
   for (int k = 0; k < count; ++k) {
@@ -60,8 +62,13 @@ DenseLeap::DenseLeap(const RingMotion& motion, const VaryingForces& forces, doub
     pushed_velocity_ += before_velocity;
     const Matrix here = response_;
     const Matrix rate = rate_;
-    response_.noalias() = rate * here;
-    response_.noalias() += here * (rate + damped(here));
+    if (is_symmetric) {  // S' S is the transpose of S S'
+      const Matrix half = here * (rate + 0.5 * damped(here));
+      response_ = half + half.transpose();
+    } else {
+      response_.noalias() = rate * here;
+      response_.noalias() += here * (rate + damped(here));
+    }
     rate_.noalias() = rate * rate;
     rate_.noalias() -= here * stiff(here);
   }

@@ -9,7 +9,8 @@
 //
 //   S(2t) = S' S + S (S' + C S),   S'(2t) = S' S' - S K S
 //
-// in four products of D x D whatever the pattern of phases, and for whichever D x D matrices C and K.
+// in four products of D x D whatever the pattern of phases, and for whichever D x D matrices C and K; in
+// three where these are symmetric.
 
 #include "arcslip/time/ring_motion.hpp"
 
