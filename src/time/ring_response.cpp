@@ -286,8 +286,7 @@ SettledMotion march_until_settled(RingMotion& motion, RingState state, double to
 }
 
 SettledMotion shoot(RingMotion& motion, RingState guess, double tolerance, int rounds) {
-  constexpr double well =
-      0.3;  // of the gap is left by a step good enough: derivatives cost a hundred of them
+  constexpr double well = 0.3;  // of the gap is left by a step good enough: derivatives cost tens of them
   constexpr double rounding = 1e-10;  // below which no step helps that does not do so at once
   Round here = round_of(motion, std::move(guess));
   const auto error = [&] { return step_error(motion, here.state, here.next); };

@@ -5,7 +5,6 @@
 
 #include "time/dense_leap.hpp"
 #include "time/law_series.hpp"
-#include "time/linear_leap.hpp"
 
 namespace arcslip {
 namespace {
@@ -224,28 +223,16 @@ void RingTangent::take(const Stretch& stretch, Columns& columns) const {
   finish_slips(stretch, slips, columns);
 }
 
-/// In closed form where few forces vary, else by series over parts that these are summed to rounding in.
+/// In one go where that costs less, else by series over parts that these are summed to rounding in.
 void RingTangent::take_whole(const Stretch& stretch, Columns& columns) const {
   constexpr double longest = 8;  // over the fastest rate
   const double rate = motion_.fastest_rate();
-  const double leap = std::min(stretch.length, LinearLeap::reach / rate);
-  const auto remembered = [&] {
+  if (DenseLeap::pays(motion_, stretch.forces, rate * stretch.length, columns.position.cols())) {
     Matrix constant = Matrix::Zero(std::ssize(stretch.forces.rows), columns.position.cols());
     for (const Remembered& one : stretch.memory)
       constant.row(one.place) += one.coefficient * columns.memory.row(one.number);
-    return constant;
-  };
-  if (motion_.dragged().rows() == 0 && LinearLeap::pays(motion_.ring(), stretch.forces, leap)) {
-    const Matrix constant = remembered();
-    const double parts = std::ceil(stretch.length / leap - 1e-9);
-    const LinearLeap flow(motion_.ring(), stretch.forces, rate, stretch.length / parts);
-    for (int part = 0; part < static_cast<int>(parts); ++part)
-      flow.take(constant, columns.position, columns.velocity);
-    return;
-  }
-  if (DenseLeap::pays(motion_.ring(), stretch.forces, rate * stretch.length)) {
-    const DenseLeap flow(motion_, stretch.forces, stretch.length);
-    return flow.take(remembered(), columns.position, columns.velocity);
+    return DenseLeap(motion_, stretch.forces, stretch.length)
+        .take(constant, columns.position, columns.velocity);
   }
   const bool is_linear = stretch.forces.are_linear();
   const double parts = is_linear ? std::ceil(stretch.length * rate / longest - 1e-9) : 1;
