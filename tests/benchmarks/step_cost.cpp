@@ -3,6 +3,9 @@
 // solution, as the branch took by its own count. These are timed alone in the same run, on points of the
 // branch. Goals: 3 for one unknown, 1.5 for 10, 1.2 for 100 (dense), 1.5 for 10^4 and 10^5 (sparse).
 //
+// At the end: what a point of a curve of folds costs beside one of the branch that it begins on, with a
+// thousand unknowns. Goal: 10.
+//
 // usage: step_cost [largest number of unknowns, default 10^5]
 
 #include <fmt/format.h>
@@ -16,6 +19,7 @@
 
 #include "../support/engine_problems.hpp"
 #include "../support/sparse_problems.hpp"
+#include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/linearization.hpp"
 
@@ -159,6 +163,34 @@ void report(const Case& c) {
   std::fflush(stdout);
 }
 
+void report_folds(Index n) {
+  const testing::Ignition ignition(n, true);
+  TraceOptions over;
+  over.parameter = "L";
+  over.to = 5;
+  over.stop_after = {{PointType::fold, 1, {}}};
+  TraceOptions along;
+  along.parameter = "K";
+  along.to = 0.5;
+  along.max_points = 41;
+  Branch branch;
+  Branch folds;
+  const double of_branch = least_seconds(5, [&] {
+    branch = trace(ignition, {Vector::Zero(n), Vector{{0.0, 0.0}}, 0, {}}, over);
+  });
+  const double of_folds = least_seconds(5, [&] {
+    const CurveStart start = curve_through(ignition, "L", branch.points.back());
+    folds = trace_curve(*start.problem, start.point, along);
+  });
+  const auto each = [](double seconds, const Branch& b) {
+    return 1e6 * seconds / static_cast<double>(b.points.size());
+  };
+  fmt::print(
+      "\ncurve of folds, {} unknowns: {} points, {:.4g} us/point, {:.1f} times one of the branch (goal: "
+      "10)\n",
+      n, folds.points.size(), each(of_folds, folds), each(of_folds, folds) / each(of_branch, branch));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -180,5 +212,8 @@ int main(int argc, char** argv) {
     const testing::BratuRectangle square(side, side);
     report({"square", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 10, 60, 1.5});
   }
+  const testing::BratuRectangle square(63, 63);
+  report({"square, to L = 0", square, Vector::Zero(square.size()), Vector{{0.0}}, 0, 8, 100000, 1.5});
+  report_folds(999);
   return 0;
 }
