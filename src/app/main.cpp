@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <map>
@@ -13,6 +15,8 @@
 #include "keys/printable.hpp"
 #include "keys/toml_reader.hpp"
 #include "results/output.hpp"
+#include "sectors/dense_blocks.hpp"
+#include "sectors/elimination.hpp"
 
 namespace {
 
@@ -60,7 +64,8 @@ int dispatch(int argc, char** argv) {
     return status::wrong_command_line;
   }
   CLI::App app{about, "arcslip"};
-  app.set_version_flag("--version", std::string("arcslip ") + release);
+  app.set_version_flag("--version", fmt::format("arcslip {}\nsectors: blocks by {}, order by {}", release,
+                                                dense::library(), least_fill_library()));
   app.require_subcommand(1);
   app.footer(examples);
 

@@ -1,11 +1,11 @@
 #include "sectors/complex_factors.hpp"
 
-#include <amd.h>
 #include <slu_zdefs.h>
 
 #include <new>
-#include <stdexcept>
 #include <vector>
+
+#include "sectors/elimination.hpp"
 
 namespace arcslip {
 
@@ -16,13 +16,9 @@ struct ComplexFactors::Parts {
     constexpr double least_diagonal = 1e-3;  // of a column's largest entry, to be the pivot
     scaled.makeCompressed();
     rows = etree = columns;
-    std::vector<int> order = columns;
+    const std::vector<int> order = least_fill_order(symmetric_pattern(scaled));
     const int size = static_cast<int>(scaled.rows());
-    const int status =
-        amd_order(size, scaled.outerIndexPtr(), scaled.innerIndexPtr(), order.data(), nullptr, nullptr);
-    if (status == AMD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (status < 0) throw std::length_error("sector: more entries than indices can count");
-    for (int i = 0; i < size; ++i) columns[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
+    for (int i = 0; i < size; ++i) columns[subscript(order[subscript(i)])] = i;
 
     set_default_options(&options);
     options.ColPerm = MY_PERMC;

@@ -6,11 +6,14 @@
 namespace arcslip {
 namespace {
 
+/// Of a symmetric matrix, whose columns are its rows.
 ExtendedSector::NumberVector product(const SparseMatrix& matrix, const ExtendedSector::NumberVector& v) {
-  ExtendedSector::NumberVector image = ExtendedSector::NumberVector::Zero(v.size());
+  ExtendedSector::NumberVector image(v.size());
   for (Index j = 0; j < matrix.outerSize(); ++j) {
+    ExtendedSector::Number sum = 0;
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      image(entry.row()) += static_cast<ExtendedSector::Real>(entry.value()) * v(j);
+      sum += static_cast<ExtendedSector::Real>(entry.value()) * v(entry.row());
+    image(j) = sum;
   }
   return image;
 }
@@ -54,22 +57,32 @@ ExtendedSector::NumberVector ExtendedSector::stiffness_times(const NumberVector&
 }
 
 ExtendedSector::NumberVector ExtendedSector::gyroscopic_times(const NumberVector& unfolded) const {
-  return fold(product(sector_.gyroscopic, unfolded));
+  return fold(-product(sector_.gyroscopic, unfolded));
 }
 
 ExtendedSector::NumberVector ExtendedSector::stiffness_speed2_times(const NumberVector& unfolded) const {
   return fold(product(sector_.stiffness_speed2, unfolded));
 }
 
-ExtendedSector::Real ExtendedSector::stiffness_terms(const NumberVector& unfolded) const {
-  const SparseMatrix& matrix = sector_.stiffness;
-  Real sum = 0;
+ExtendedSector::NumberVector ExtendedSector::sums(const SparseMatrix& matrix,
+                                                  const NumberVector& unfolded) const {
+  const Eigen::Matrix<Real, Eigen::Dynamic, 1> sizes = unfolded.cwiseAbs();
+  NumberVector folded = NumberVector::Zero(map_.size);
   for (Index j = 0; j < matrix.outerSize(); ++j) {
+    Real sum = 0;
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      sum += std::abs(unfolded(entry.row())) * static_cast<Real>(std::abs(entry.value())) *
-             std::abs(unfolded(j));
+      sum += static_cast<Real>(std::abs(entry.value())) * sizes(entry.row());
+    folded(map_.reduced[static_cast<std::size_t>(j)]) += sum;
   }
-  return sum;
+  return folded;
+}
+
+ExtendedSector::NumberVector ExtendedSector::stiffness_sums(const NumberVector& unfolded) const {
+  return sums(sector_.stiffness, unfolded);
+}
+
+ExtendedSector::NumberVector ExtendedSector::mass_sums(const NumberVector& unfolded) const {
+  return sums(sector_.mass, unfolded);
 }
 
 ExtendedSector::NumberVector ExtendedSector::contact_force(Index contact) const {

@@ -28,8 +28,9 @@ class ExtendedSector {
   NumberVector gyroscopic_times(const NumberVector& unfolded) const;
   NumberVector stiffness_speed2_times(const NumberVector& unfolded) const;
 
-  /// |v|^T |K| |v| of the sector's own entries, from T v: what cancels in v^H K(a) v.
-  Real stiffness_terms(const NumberVector& unfolded) const;
+  /// |A| |v| of K and M, of the sector's own entries, from T v: what may cancel in A(a) v.
+  NumberVector stiffness_sums(const NumberVector& unfolded) const;
+  NumberVector mass_sums(const NumberVector& unfolded) const;
 
   const NumberVector& load() const { return load_; }  ///< T^H F
   Index size() const { return map_.size; }
@@ -41,6 +42,8 @@ class ExtendedSector {
   NumberVector observed(const NumberVector& reduced) const;
 
  private:
+  NumberVector sums(const SparseMatrix& matrix, const NumberVector& unfolded) const;
+
   const FiniteSector& sector_;
   SectorMap map_;
   Number forward_;

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "sectors/refined_solve.hpp"
+#include <limits>
 
 namespace arcslip {
 namespace {
 
 // Of the largest w*^2: what solves in double, refined, tell well from the rounding of the matrices.
 constexpr double resolved = 1e-12;
+
+constexpr ExtendedSector::Real tiny = std::numeric_limits<double>::min();
 
 double square(double eta) {
   const double w = two_pi * eta;
@@ -18,9 +19,9 @@ double square(double eta) {
 
 }  // namespace
 
-KrylovSpace::KrylovSpace(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request)
-    : extended_(sector, wave), reduction_(sector), shifted_(reduction_.stiffness()), factors_(shifted_) {
-  reduction_.set_forward(wave.forward());
+KrylovSpace::KrylovSpace(const ExtendedSector& sector, const SectorReduction& reduction,
+                         const ModesRequest& request)
+    : extended_(sector), reduction_(reduction), shifted_(reduction.stiffness()), factors_(shifted_) {
   const Index contacts = extended_.contacts();
   block_ = ComplexMatrix::Zero(reduction_.size(), contacts + 1);
   for (Index i = 0; i < contacts; ++i) block_.col(i) = extended_.contact_force(i).cast<Complex>();
@@ -31,15 +32,20 @@ KrylovSpace::KrylovSpace(const FiniteSector& sector, const SectorWave& wave, con
   const double largest = largest_square(reduction_);
   sigma_ = -square(part * request.eta_high);
   if (largest > 0) sigma_ = -std::clamp(-sigma_, resolved * largest, largest);
-  shifted_ = reduction_.stiffness() - sigma_ * reduction_.mass();
-  if (!factors_.factor(shifted_)) throw SectorError("the stiffness of the sector is singular at its shift");
+  if (!factor(sigma_)) throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
+}
+
+/// K - sigma M, where that is positive definite.
+bool KrylovSpace::factor(double sigma) {
+  ++factorisations_;
+  shifted_.coeffs() = reduction_.stiffness().coeffs() - sigma * reduction_.mass().coeffs();
+  return factors_.factor(shifted_);
 }
 
 /// Whether sigma = 0 serves, whose factors are then at hand.
 bool KrylovSpace::is_static(const ModesRequest& request) {
   constexpr double far_below = 0.01;
-  shifted_ = reduction_.stiffness();
-  if (!factors_.factor(shifted_)) return false;
+  if (!factor(0)) return false;
   ComplexVector any(reduction_.size());  // every motion has a part in it
   for (Index i = 0; i < any.size(); ++i) any(i) = std::polar(1.0, static_cast<double>(i * i));
   const ComplexVector force = reduction_.mass() * any;
@@ -52,31 +58,59 @@ bool KrylovSpace::is_static(const ModesRequest& request) {
   return least >= std::max(square(far_below * request.eta_low), resolved * largest_square(reduction_));
 }
 
-const ComplexMatrix& KrylovSpace::next() {
-  constexpr double accuracy = 1e-12;  // of a correction, behind which the next one is negligible
-  const ComplexMatrix forces = basis_.cols() == 0 ? block_ : ComplexMatrix(reduction_.mass() * block_);
-  block_.resize(forces.rows(), 0);
-  for (Index column = 0; column < forces.cols(); ++column) {
-    append(refined_solve(extended_, factors_, 1, -sigma_, forces.col(column).cast<ExtendedSector::Number>(),
-                         accuracy)
-               .cast<Complex>());
+ComplexMatrix KrylovSpace::refined(const ComplexMatrix& forces) const {
+  using NumberMatrix = ExtendedSector::NumberMatrix;
+  constexpr int most = 10;
+  constexpr ExtendedSector::Real accuracy = 1e-12;  // of the correction that is left out
+  const NumberMatrix exact = forces.cast<ExtendedSector::Number>();
+  NumberMatrix motion = NumberMatrix::Zero(forces.rows(), forces.cols());
+  NumberMatrix residual = exact;
+  ExtendedSector::Real before = 1;
+  for (int i = 0; i < most; ++i) {
+    ComplexMatrix step = residual.cast<Complex>();
+    solve(step);
+    motion += step.cast<ExtendedSector::Number>();
+    const auto sizes = step.cast<ExtendedSector::Number>().colwise().norm().array();
+    const ExtendedSector::Real change = (sizes / motion.colwise().norm().array().max(tiny)).maxCoeff();
+    if (change * std::min(change / before, ExtendedSector::Real(1)) <= accuracy) break;
+    before = change;
+    for (Index k = 0; k < motion.cols(); ++k) {
+      const ExtendedSector::NumberVector unfolded = extended_.unfold(motion.col(k));
+      residual.col(k) = exact.col(k) - extended_.stiffness_times(unfolded);
+      if (sigma_ != 0) residual.col(k) += ExtendedSector::Real(sigma_) * extended_.mass_times(unfolded);
+    }
   }
+  return motion.cast<Complex>();
+}
+
+const ComplexMatrix& KrylovSpace::next() {
+  const ComplexMatrix vectors =
+      refined(basis_.cols() == 0 ? block_ : ComplexMatrix(reduction_.mass() * block_));
+  block_.resize(vectors.rows(), 0);
+  for (Index column = 0; column < vectors.cols(); ++column) append(vectors.col(column));
   return block_;
 }
 
 double KrylovSpace::norm(const ComplexVector& v) const {
-  return std::sqrt(std::max(0.0, v.dot(reduction_.mass() * v).real()));
+  const ComplexVector product = reduction_.mass() * v;
+  return std::sqrt(std::max(0.0, v.dot(product).real()));
+}
+
+/// Without its part in the space.
+ComplexVector KrylovSpace::outside(const ComplexVector& v) const {
+  const ComplexVector product = reduction_.mass() * v;
+  const ComplexVector shares = basis_.adjoint() * product;
+  return v - basis_ * shares;
 }
 
 void KrylovSpace::append(ComplexVector v) {
   constexpr double lost = 1e-11;
   const double before = norm(v);
   if (!(before > 0)) return;
-  for (int pass = 0; pass < 2; ++pass) v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
+  for (int pass = 0; pass < 2; ++pass) v = outside(v);
   const double after = norm(v);
   if (!(after > lost * before)) return;
-  v /= after;
-  v -= basis_ * (basis_.adjoint() * (reduction_.mass() * v));
+  v = outside(v / after);
   v /= norm(v);
   for (ComplexMatrix* matrix : {&basis_, &block_}) {
     matrix->conservativeResize(Eigen::NoChange, matrix->cols() + 1);

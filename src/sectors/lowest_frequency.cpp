@@ -1,10 +1,10 @@
 #include "arcslip/sectors/lowest_frequency.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 
 #include "arcslip/sectors/sector_modes.hpp"
 #include "arcslip/sectors/sector_reduction.hpp"
+#include "sectors/cholesky.hpp"
 
 namespace arcslip {
 namespace {
@@ -36,14 +36,21 @@ double lowest_frequency(const FiniteSector& sector, Index wave_number, Index sec
   SectorReduction reduction(sector);
   reduction.set_forward(SectorWave{wave_number, sectors}.forward());
   // Of what a double leaves of the largest w^2 nothing below this is more than rounding.
-  const double shift = 1e-15 * largest_square(reduction);
-  const Eigen::SimplicialLDLT<ComplexSparseMatrix> factors(reduction.stiffness() + shift * reduction.mass());
+  double shift = 1e-15 * largest_square(reduction);
+  Cholesky<Complex> factors(reduction.stiffness());
+  while (!factors.factor(reduction.stiffness() + shift * reduction.mass())) {
+    shift *= 10;
+    if (!(shift < largest_square(reduction)))
+      throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
+  }
   ComplexVector x(reduction.size());
   for (Index i = 0; i < x.size(); ++i) x(i) = std::polar(1.0, static_cast<double>(i * i));  // no symmetry
   double square = 0;
   for (int i = 0; i < most; ++i) {
     const ComplexVector force = reduction.mass() * x;
-    const ComplexVector next = factors.solve(force);
+    ComplexMatrix solved = force;
+    factors.solve(solved);
+    const ComplexVector next = solved.col(0);
     const double previous = square;
     // x^H M next/next^H M next is Rayleigh's quotient of next, without the cancellation of K.
     square = next.dot(force).real() / next.dot(reduction.mass() * next).real();

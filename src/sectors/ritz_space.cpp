@@ -13,7 +13,13 @@ void RitzSpace::widen(NumberMatrix& projection, Index column, const NumberVector
   projection.conservativeResize(column + 1, column + 1);
   for (Index i = 0; i <= column; ++i) {
     Number sum = 0;
-    for (Index dof = 0; dof < product.size(); ++dof) sum += std::conj(Number(basis_(dof, i))) * product(dof);
+    for (Index dof = 0; dof < product.size(); ++dof) {
+      const Real real = basis_(dof, i).real();
+      const Real imaginary = basis_(dof, i).imag();
+      const Number& value = product(dof);
+      sum += Number(real * value.real() + imaginary * value.imag(),
+                    real * value.imag() - imaginary * value.real());
+    }
     projection(i, column) = sum;
     projection(column, i) = sign * std::conj(sum);
   }
@@ -59,14 +65,15 @@ RitzSpace::NumberMatrix RitzSpace::shifted(Real& shift) const {
 bool RitzSpace::is_free(const NumberVector& shape, Real square, double eta_low) const {
   constexpr Real digits = 1e-14;
   constexpr Real negligible = 1e-6;
-  const Real rounding = digits * sector_.stiffness_terms(sector_.unfold(shape));
+  const Real rounding =
+      digits * shape.cwiseAbs().cast<Number>().dot(sector_.stiffness_sums(sector_.unfold(shape))).real();
   const Real low = 2 * std::numbers::pi_v<Real> * static_cast<Real>(eta_low);
   if (square < -std::max(rounding, negligible * low * low))
     throw SectorError("the stiffness matrix is not positive semidefinite under this wave");
   return square <= rounding;
 }
 
-SectorModes RitzSpace::modes(const ModesRequest& request) const {
+SectorModes RitzSpace::modes(const ModesRequest& request) {
   constexpr Real part = 0.1;  // of the window: a smaller shift makes what is divided by worse conditioned
   const Real turn = 2 * std::numbers::pi_v<Real>;
   if (mass_.llt().info() != Eigen::Success)
@@ -94,10 +101,19 @@ SectorModes RitzSpace::modes(const ModesRequest& request) const {
     found.loads(k) = Complex(shape.dot(load_) / turn);
     all.col(k) = shape;
   }
+  of_basis_ = (all / turn).cast<Complex>();
   if (has_gyroscopic_) found.gyroscopic = (all.adjoint() * gyroscopic_ * all).cast<Complex>();
   if (has_stiffness_speed2_)
     found.stiffness_speed2 = (all.adjoint() * stiffness_speed2_ * all).cast<Complex>();
   return found;
+}
+
+ComplexMatrix RitzSpace::projected(const NumberMatrix& forces) const {
+  return of_basis_.adjoint() * (basis_.adjoint() * forces.cast<Complex>());
+}
+
+RitzSpace::NumberMatrix RitzSpace::lifted(const ComplexMatrix& of_modes) const {
+  return (basis_ * (of_basis_ * of_modes)).cast<Number>();
 }
 
 }  // namespace arcslip

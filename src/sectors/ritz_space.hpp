@@ -22,13 +22,21 @@ class RitzSpace {
 
   /// All modes in the space, with their residues, for responses in the window of `request`. Throws
   /// SectorError.
-  SectorModes modes(const ModesRequest& request) const;
+  SectorModes modes(const ModesRequest& request);
+
+  using NumberMatrix = ExtendedSector::NumberMatrix;
+
+  /// What forces on the reduced dofs, a column each, do to the modes last found, V^H f/(2 pi), and how the
+  /// dofs move as these do, V q/(2 pi).
+  ComplexMatrix projected(const NumberMatrix& forces) const;
+  NumberMatrix lifted(const ComplexMatrix& of_modes) const;
+
+  const ExtendedSector& sector() const { return sector_; }
 
  private:
   using Real = ExtendedSector::Real;
   using Number = ExtendedSector::Number;
   using NumberVector = ExtendedSector::NumberVector;
-  using NumberMatrix = ExtendedSector::NumberMatrix;
 
   void widen(NumberMatrix& projection, Index column, const NumberVector& product, Real sign = 1);
   NumberMatrix shifted(Real& shift) const;
@@ -43,6 +51,7 @@ class RitzSpace {
   NumberMatrix gyroscopic_;
   NumberMatrix stiffness_speed2_;
   NumberVector load_;
+  ComplexMatrix of_basis_;  // modes, over 2 pi, as sums of the vectors
 };
 
 }  // namespace arcslip

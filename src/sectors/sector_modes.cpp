@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "arcslip/sectors/sector_reduction.hpp"
-#include "arcslip/sectors/sector_solver.hpp"
+#include "sectors/full_response.hpp"
 #include "sectors/krylov_space.hpp"
-#include "sectors/refined_solve.hpp"
 #include "sectors/ritz_space.hpp"
 #include "sectors/turning_modes.hpp"
 #include "sectors/turning_space.hpp"
@@ -25,12 +24,8 @@ constexpr double worst_error = 1e-6;  // beyond which modes and matrices are not
 ComplexMatrix driven(const SectorModes& found, Index contacts, const Loss& loss, double eta) {
   ComplexMatrix drive(static_cast<Index>(found.frequencies.size()), contacts + 1);
   drive << found.shapes.topRows(contacts).adjoint(), found.loads;
-  for (Index k = 0; k < drive.rows(); ++k) {
-    const auto mode = static_cast<std::size_t>(k);
-    Complex d = ModalDenominator(eta, found.frequencies[mode], loss).value;
-    if (mode < found.free_squares.size()) d += Complex(1, loss.at(eta)) * found.free_squares[mode];
-    drive.row(k) /= d;
-  }
+  const ComplexVector denominators = modal_denominators(found, loss, eta);
+  for (Index k = 0; k < drive.rows(); ++k) drive.row(k) /= denominators(k);
   return drive;
 }
 
@@ -150,29 +145,18 @@ double change_in_turning(const SectorModes& now, const SectorModes& before, Inde
   return worst;
 }
 
-SectorModes all_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
-                      Index dofs) {
-  RitzSpace space(sector, wave, turns(request));
-  space.add(ComplexMatrix::Identity(dofs, dofs));
-  return space.modes(request);
-}
-
-SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
-                          Index dofs) {
+SectorModes lanczos_modes(const FiniteSector& sector, const ModesRequest& request, KrylovSpace& krylov,
+                          TurningSpace* turning, RitzSpace& space) {
   constexpr double growth = 1.15;            // of the space between two looks at its modes
   constexpr int calm = 2;                    // looks in a row without a change
   constexpr double turning_rounding = 1e-9;  // what turns is solved for in double
-  KrylovSpace krylov(sector, wave, request);
-  const bool is_turning = turns(request) && sector.feels_rotation();
-  std::optional<TurningSpace> turning;
-  if (is_turning) turning.emplace(sector, wave, request);
-  RitzSpace space(sector, wave, is_turning);
+  const bool is_turning = turning != nullptr;
   SectorModes modes;
   double next_look = 6;
   for (int unchanged = 0; unchanged < calm;) {
     const ComplexMatrix block = turning ? turning->take(krylov.next()) : krylov.next();
     space.add(block);
-    const ComplexMatrix more = turning ? turning->next() : ComplexMatrix(dofs, 0);
+    const ComplexMatrix more = turning ? turning->next() : ComplexMatrix(block.rows(), 0);
     space.add(more);
     const bool exhausted = block.cols() + more.cols() == 0;
     if (!exhausted && static_cast<double>(space.size()) < next_look) continue;
@@ -189,53 +173,6 @@ SectorModes lanczos_modes(const FiniteSector& sector, const SectorWave& wave, co
   return modes;
 }
 
-/// The full response by sparse LU, refined with residuals in long double.
-class FullResponse {
- public:
-  FullResponse(const FiniteSector& sector, const SectorWave& wave, const Loss& loss)
-      : extended_(sector, wave),
-        reduction_(sector),
-        matrix_(reduction_.stiffness()),
-        factors_(matrix_),
-        loss_(loss) {
-    reduction_.set_forward(wave.forward());
-  }
-
-  ComplexMatrix at(double eta) {
-    const auto [k, m] = MatrixFactors<double>(eta, loss_);
-    matrix_ = reduction_.stiffness();
-    matrix_ *= k;
-    for (Index i = 0; i < matrix_.nonZeros(); ++i)
-      matrix_.valuePtr()[i] += m * reduction_.mass().valuePtr()[i];
-    if (!matrix_.coeffs().allFinite())
-      throw SectorError(fmt::format(
-          "the sector has no response at eta = {:g}, where w*^2 M is beyond the range of a double", eta));
-    if (!factors_.factor(matrix_))
-      throw SectorError(fmt::format("the sector has no response at eta = {}", eta));
-    const Index contacts = extended_.contacts();
-    ComplexMatrix motion(contacts + extended_.outputs(), contacts + 1);
-    for (Index i = 0; i < contacts; ++i) motion.col(i) = solve(extended_.contact_force(i), eta);
-    motion.col(contacts) = solve(extended_.load(), eta);
-    return motion;
-  }
-
-  int factorisations() const { return factors_.factorisations(); }
-
- private:
-  /// The motions of contact and outputs under a force.
-  ComplexVector solve(const ExtendedSector::NumberVector& force, double eta) {
-    constexpr double rounding = 1e-15;
-    const auto [k, m] = MatrixFactors<ExtendedSector::Real>(eta, loss_);
-    return extended_.observed(refined_solve(extended_, factors_, k, m, force, rounding)).cast<Complex>();
-  }
-
-  ExtendedSector extended_;
-  SectorReduction reduction_;
-  ComplexSparseMatrix matrix_;
-  ComplexFactors factors_;
-  Loss loss_;
-};
-
 /// What the modes may differ by: where the entries of K cancel so far that long double leaves no more digits
 /// of w_k^2 - w^2, by that.
 double allowed(const SectorModes& modes, const ModesRequest& request, const Loss& loss, double rounding,
@@ -246,9 +183,16 @@ double allowed(const SectorModes& modes, const ModesRequest& request, const Loss
   return std::max({worst_error, 1e3 * request.tolerance, rounding / nearest});
 }
 
+/// Modal damping has no matrix; the structural one of the same loss at each mode takes its place.
+Loss with_matrices(Loss loss) {
+  loss.structural += loss.modal;
+  loss.modal = 0;
+  return loss;
+}
+
 /// Compares the modes with the full solve at some places, evenly among all. `rounding` is that of eta_k^2.
-void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request, double rounding,
-             SectorModes& result) {
+void compare(const FullResponse& full, const Loss& loss, Index contacts, const ModesRequest& request,
+             double rounding, SectorModes& result) {
   std::vector<double> etas = places(result, request);
   const std::size_t most = 4 + result.frequencies.size() / 10;
   if (etas.size() > most) {
@@ -256,12 +200,11 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
     for (std::size_t i = 0; i < most; ++i) some.push_back(etas[i * (etas.size() - 1) / (most - 1)]);
     etas = some;
   }
-  // Modal damping has no matrix; the structural one of the same loss at each mode takes its place.
-  Loss loss = request.loss;
-  loss.structural += loss.modal;
-  loss.modal = 0;
-  FullResponse full(sector, wave, loss);
-  const Index contacts = std::ssize(sector.contacts);
+  // Where nothing damps a resonance there is no response to compare.
+  std::erase_if(etas, [&](double eta) {
+    const double least = modal_denominators(result, loss, eta).cwiseAbs().minCoeff();
+    return least <= std::numeric_limits<double>::epsilon() * eta * eta && eta > 0;
+  });
   for (const double eta : etas) {
     const double error = difference(response(result, contacts, loss, eta), full.at(eta),
                                     free_terms(result, contacts, loss, eta));
@@ -273,24 +216,18 @@ void compare(const FiniteSector& sector, const SectorWave& wave, const ModesRequ
       result.error_eta = eta;
     }
   }
-  result.factorisations += full.factorisations();
   result.check_etas = std::move(etas);
 }
 
 /// Compares the modes with the full solve of the sector as it turns.
-void compare_turning(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request,
+void compare_turning(const FullResponse& full, const Loss& loss, Index contacts, const ModesRequest& request,
                      SectorModes& result) {
-  const Index contacts = std::ssize(sector.contacts);
-  Loss loss = request.loss;
-  loss.structural += loss.modal;
-  loss.modal = 0;
-  SectorSolver full(sector, wave.forward(), loss);
   for (const Rotation& rotation : request.rotations) {
     for (const double eta :
          turning_places(turning_resonances(result, contacts, request, rotation), request)) {
       const double speed = rotation.at(eta);
       const double error = difference(stacked(modal_motions(result, contacts, loss, eta, speed)),
-                                      stacked(full.at(eta, speed)), free_terms(result, contacts, loss, eta));
+                                      full.at(eta, speed), free_terms(result, contacts, loss, eta));
       if (!(error <= std::max(worst_error, 1e3 * request.tolerance)))
         throw SectorError(
             fmt::format("the modes differ from the matrices by {:.1e} at eta = {:g} and a speed of {:g}",
@@ -300,7 +237,6 @@ void compare_turning(const FiniteSector& sector, const SectorWave& wave, const M
       result.error_eta = eta;
     }
   }
-  result.factorisations += full.factorisations();
 }
 
 /// Refuses a load that moves no contact of a structure without symmetry, not even by rounding.
@@ -337,14 +273,28 @@ SectorModes sector_modes(const FiniteSector& sector, const SectorWave& wave, con
   reduction.set_forward(wave.forward());
   check_mass(sector, reduction);
   const Index dofs = reduction.size();
-  SectorModes result = dofs <= request.all_modes ? all_modes(sector, wave, request, dofs)
-                                                 : lanczos_modes(sector, wave, request, dofs);
+  const bool is_turning = turns(request) && sector.feels_rotation();
+  RitzSpace space(sector, wave, is_turning);
+  std::optional<KrylovSpace> krylov;
+  SectorModes result;
+  if (dofs <= request.all_modes) {
+    space.add(ComplexMatrix::Identity(dofs, dofs));
+    result = space.modes(request);
+  } else {
+    krylov.emplace(space.sector(), reduction, request);
+    std::optional<TurningSpace> turning;
+    if (is_turning) turning.emplace(space.sector(), reduction, request);
+    result = lanczos_modes(sector, request, *krylov, turning ? &*turning : nullptr, space);
+  }
   result.dofs = dofs;
   if (!sector.has_boundaries()) check_load(sector, result);
   if (!request.compared) return result;
   constexpr auto digits = static_cast<double>(std::numeric_limits<ExtendedSector::Real>::epsilon());
-  compare(sector, wave, request, digits * largest_square(reduction) / (two_pi * two_pi), result);
-  if (turns(request) && sector.feels_rotation()) compare_turning(sector, wave, request, result);
+  const Loss loss = with_matrices(request.loss);
+  const FullResponse full(space, krylov ? &*krylov : nullptr, reduction, result, loss);
+  const Index contacts = std::ssize(sector.contacts);
+  compare(full, loss, contacts, request, digits * largest_square(reduction) / (two_pi * two_pi), result);
+  if (is_turning) compare_turning(full, loss, contacts, request, result);
   return result;
 }
 

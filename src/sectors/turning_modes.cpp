@@ -65,6 +65,17 @@ ComplexMatrix driven_modes(const SectorModes& modes, Index contacts,
 
 }  // namespace
 
+ComplexVector modal_denominators(const SectorModes& modes, const Loss& loss, double eta) {
+  ComplexVector denominators(std::ssize(modes.frequencies));
+  for (Index k = 0; k < denominators.size(); ++k) {
+    const auto mode = static_cast<std::size_t>(k);
+    denominators(k) = ModalDenominator(eta, modes.frequencies[mode], loss).value;
+    if (mode < modes.free_squares.size())
+      denominators(k) += Complex(1, loss.at(eta)) * modes.free_squares[mode];
+  }
+  return denominators;
+}
+
 SectorMotions modal_motions(const SectorModes& modes, Index contacts, const Loss& loss, double eta,
                             double speed) {
   const ModalStiffness stiffness(modes, loss, eta, speed);

@@ -8,6 +8,9 @@
 
 namespace arcslip {
 
+/// d_k of the modes as the matrices have them: with what stiffness their rounding gives to free motions.
+ComplexVector modal_denominators(const SectorModes& modes, const Loss& loss, double eta);
+
 /// Its response in these coordinates, of so many contacts, at a speed in revolutions. Throws
 /// std::domain_error where Z is singular.
 SectorMotions modal_motions(const SectorModes& modes, Index contacts, const Loss& loss, double eta,

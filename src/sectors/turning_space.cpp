@@ -11,7 +11,8 @@ namespace {
 constexpr double lost = 1e-10;  // of a vector: what is left of one that the space has already
 
 double norm(const ComplexSparseMatrix& mass, const ComplexVector& v) {
-  return std::sqrt(std::max(0.0, v.dot(mass * v).real()));
+  const ComplexVector product = mass * v;
+  return std::sqrt(std::max(0.0, v.dot(product).real()));
 }
 
 }  // namespace
@@ -39,8 +40,8 @@ class TurningSpace::Sequence {
       by_one_before_ = w * w * reduction.mass();
     }
     if (!factor(eta_high))
-      throw SectorError(
-          fmt::format("the stiffness of the sector is singular at a speed of {:g}", rotation.fixed));
+      throw SectorError(fmt::format(
+          "the stiffness K + Omega^2 K_2 is not positive definite at a speed of {:g}", rotation.fixed));
     ComplexMatrix first = forces;
     factors_.solve(first);
     for (Index i = 0; i < first.cols(); ++i) append(first.col(i), ComplexVector::Zero(first.rows()));
@@ -115,22 +116,19 @@ class TurningSpace::Sequence {
   ComplexSparseMatrix stiffness_;
   ComplexSparseMatrix by_last_;
   ComplexSparseMatrix by_one_before_;
-  ComplexFactors factors_;
+  Cholesky<Complex> factors_;
   std::deque<Pair> vectors_;
   std::vector<ComplexVector> fresh_;
   std::size_t done_ = 0;
   std::size_t width_ = 0;
 };
 
-TurningSpace::TurningSpace(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request)
-    : reduction_(sector) {
-  reduction_.set_forward(wave.forward());
-  basis_.resize(reduction_.size(), 0);
-  const ExtendedSector extended(sector, wave);
-  ComplexMatrix forces(reduction_.size(), extended.contacts() + 1);
-  for (Index i = 0; i < extended.contacts(); ++i) forces.col(i) = extended.contact_force(i).cast<Complex>();
+TurningSpace::TurningSpace(const ExtendedSector& sector, const SectorReduction& reduction,
+                           const ModesRequest& request)
+    : reduction_(reduction), basis_(reduction.size(), 0) {
+  ComplexMatrix forces(reduction_.size(), sector.contacts() + 1);
+  for (Index i = 0; i < sector.contacts(); ++i) forces.col(i) = sector.contact_force(i).cast<Complex>();
   forces.rightCols<1>() = reduction_.load();
-  if (!sector.feels_rotation()) return;
   for (const Rotation& rotation : request.rotations) {
     if (!rotation.is_none())
       sequences_.push_back(std::make_unique<Sequence>(reduction_, forces, rotation, request.eta_high));
@@ -145,11 +143,11 @@ ComplexMatrix TurningSpace::take(const ComplexMatrix& vectors) {
   for (Index i = 0; i < vectors.cols(); ++i) {
     ComplexVector v = vectors.col(i);
     const double before = norm(mass, v);
-    for (int pass = 0; pass < 2; ++pass) v -= basis_ * (basis_.adjoint() * (mass * v));
+    for (int pass = 0; pass < 2; ++pass) v -= basis_ * (basis_.adjoint() * (mass * v).eval()).eval();
     const double after = norm(mass, v);
     if (!(after > lost * before)) continue;
     v /= after;
-    v -= basis_ * (basis_.adjoint() * (mass * v));
+    v -= basis_ * (basis_.adjoint() * (mass * v).eval()).eval();
     basis_.conservativeResize(Eigen::NoChange, basis_.cols() + 1);
     basis_.rightCols<1>() = v / norm(mass, v);
   }

@@ -11,7 +11,7 @@
 
 #include <memory>
 
-#include "sectors/complex_factors.hpp"
+#include "sectors/cholesky.hpp"
 #include "sectors/extended_sector.hpp"
 
 namespace arcslip {
@@ -19,8 +19,9 @@ namespace arcslip {
 /// All vectors of the space, those at rest included, orthonormal in M.
 class TurningSpace {
  public:
-  /// For the rotations of `request`. Throws SectorError.
-  TurningSpace(const FiniteSector& sector, const SectorWave& wave, const ModesRequest& request);
+  /// For the rotations of `request`. `reduction`, of the sector under the wave, must outlive this. Throws
+  /// SectorError.
+  TurningSpace(const ExtendedSector& sector, const SectorReduction& reduction, const ModesRequest& request);
   ~TurningSpace();
   TurningSpace(const TurningSpace&) = delete;
   TurningSpace& operator=(const TurningSpace&) = delete;
@@ -34,7 +35,7 @@ class TurningSpace {
  private:
   class Sequence;
 
-  SectorReduction reduction_;
+  const SectorReduction& reduction_;
   ComplexMatrix basis_;
   std::vector<std::unique_ptr<Sequence>> sequences_;
 };

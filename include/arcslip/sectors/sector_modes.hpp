@@ -14,8 +14,8 @@
 // couple, stand for it in a response that is solved for: the products V^H G V and V^H K_2 V go with them.
 //
 // The products V^H A V are sums in long double of the sector's own matrices, for those of K(a) cancel: the
-// error of an eigenvalue is that of the given numbers and the square of that of V. The full solves that the
-// response is compared with are refined in the same arithmetic.
+// error of an eigenvalue is that of the given numbers and the square of that of V. The full response that
+// this is compared with is solved for in the same arithmetic, by the factors at hand.
 
 #include <vector>
 
@@ -54,7 +54,7 @@ struct SectorModes {
   double error = 0;                ///< largest relative difference of c, y_0 and outputs from the full solve
   double error_eta = 0;            ///< where
   std::vector<double> check_etas;  ///< where the two were compared, at modes and between them
-  int factorisations = 0;          ///< of the shift and of the comparison
+  int factorisations = 0;          ///< of the shift, by which the comparison solves as well
   ComplexMatrix gyroscopic = {};   ///< v_i^H G v_k, skew-Hermitian, of a request with rotations; 0 x 0: none
   ComplexMatrix stiffness_speed2 = {};  ///< v_i^H K_2 v_k, the same
 };
