@@ -6,7 +6,6 @@
 
 #include "arcslip/motion/arc_integrals.hpp"
 #include "motion/bracketed_newton.hpp"
-#include "motion/odd_turns.hpp"
 
 namespace arcslip {
 namespace {
@@ -22,17 +21,10 @@ HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
 
 /// How far beyond a turning point the motion has changed by `room`.
 double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
-  HarmonicVector there(motion_.coefficients().size());
-  OddTurns turns(from);
-  for (Index a = 0; a < there.size(); ++a)
-    there(a) =
-        Turned::of(motion_.coefficients()(a)) * turns.to(motion_.orders()[static_cast<std::size_t>(a)]);
-  const OddMotion beyond(motion_.orders(), there);
-  const double guess = std::sqrt(2 * std::abs(room / beyond.slopes(0).second));
+  const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
   return bracketed_newton(
       [&](double step) {
-        const OddMotion::Way way = beyond.onward(step);
-        return std::pair(way.change - room, way.first);
+        return std::pair(motion_.change(from, step) - room, motion_.slopes(from + step).first);
       },
       guess < longest ? guess : 0.5 * longest, 0.0, longest, room > 0);
 }
@@ -85,9 +77,8 @@ void HysteresisLoop::force(HarmonicVector& harmonics) const {
   const HarmonicVector& r = motion_.coefficients();
   const Index count = r.size();
   harmonics.resize(count);
-  OddTurns back(-begin_);
   for (Index a = 0; a < count; ++a)
-    harmonics(a) = mismatch_ * Complex(back.to(orders[static_cast<std::size_t>(a)]));
+    harmonics(a) = mismatch_ * std::polar(1.0, -orders[static_cast<std::size_t>(a)] * begin_);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
     const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * highest_order(orders));
     for (Index b = 0; b < count; ++b) {
@@ -109,10 +100,9 @@ void HysteresisLoop::derivative(ComplexMatrix& linear, ComplexMatrix& conjugate)
   conjugate.setZero(count, count);
   for (std::size_t arc = 0; arc < sticks_; ++arc) {
     const ArcIntegrals integral(stick_[arc].begin, stick_[arc].width, 2 * highest_order(orders));
-    OddTurns turns(stick_[arc].begin);
     for (Index b = 0; b < count; ++b) {
       const int l = orders[static_cast<std::size_t>(b)];
-      const Complex turn = turns.to(l);
+      const Complex turn = std::polar(1.0, l * stick_[arc].begin);
       for (Index a = 0; a < count; ++a) {
         const int h = orders[static_cast<std::size_t>(a)];
         linear(a, b) += integral[l - h] - turn * integral[-h];

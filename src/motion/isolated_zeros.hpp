@@ -34,20 +34,11 @@ void isolate_zeros(const Function& at, double bound, double begin, double span, 
     const auto [value, slope] = at(middle);
     if (std::abs(value) > (std::abs(slope) + 0.5 * bound * width) * width) continue;
     if (std::abs(slope) > bound * width || width < narrow) {  // one zero at most
-      const double near = middle - value / slope;
-      const auto zero = [&](bool rises) {
-        return bracketed_newton(at, near > cell.low && near < cell.high ? near : middle, cell.low, cell.high,
-                                rises);
-      };
-      if (std::abs(value) < (std::abs(slope) - 0.5 * bound * width) * width) {  // for sure
-        take(zero(slope > 0));
-        continue;
-      }
       const double low = at(cell.low).first;
       if (low == 0) {
         take(cell.low);
       } else if (low * at(cell.high).first < 0) {
-        take(zero(low < 0));
+        take(bracketed_newton(at, middle, cell.low, cell.high, low < 0));
       }
       continue;
     }

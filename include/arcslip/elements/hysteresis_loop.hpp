@@ -64,10 +64,10 @@ class HysteresisLoop {
 
   /// An arc of stick, in theta.
   struct Arc {
-    double begin;   ///< theta
-    double width;   ///< of theta
-    double before;  ///< force over S where it begins
-    double behind;  ///< the same where it ends in slip; 0 where it goes on as the next half period begins
+    double begin;       ///< theta
+    double width;       ///< of theta
+    double before = 1;  ///< force over S where it begins
+    double behind = 0;  ///< the same where it ends in slip; 0 where it goes on as the next half period begins
   };
 
   /// Those of half a period.

@@ -53,13 +53,6 @@ class OddMotion {
   /// r(theta + step) - r(theta) to the rounding of the difference, however small the step is.
   double change(double theta, double step) const;
 
-  /// The way from theta = 0 to `step`.
-  struct Way {
-    double change;  ///< r(step) - r(0), as above
-    double first;   ///< dr/dtheta at its end
-  };
-  Way onward(double step) const;  ///< of theta
-
   /// Where the motion turns back, within half a period: all zeros of dr/dtheta but pairs of them closer than
   /// 1e-8. Bounds on derivatives, not samples, tell that none is left. None of a motion that is zero.
   Angles turning_points() const;
@@ -76,6 +69,8 @@ class OddMotion {
   Maximum maximum(const Angles& turns) const;
 
  private:
+  double steepest() const;
+
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;
 };
