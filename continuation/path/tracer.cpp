@@ -179,8 +179,7 @@ void Tracer::step() {
 
 bool Tracer::try_step() {
   double& distance = state_.distance;
-  constexpr double longer = 2.5;  // where a longer step passes over nothing that is not watched
-  const double longest = options_.max_step * (stepper_.is_over_parameter() ? longer : 1);
+  const double longest = options_.max_step * (stepper_.is_over_parameter() ? linear_steps : 1);
   distance = std::min(distance, longest / stepper_.slope_length(state_.hold));
   stepper_.set_on_target(!targets_.taken().empty());
   const double rate = stepper_.parameter_slope(state_.hold);

@@ -17,7 +17,7 @@ constexpr int levels = 13;           // down to 1e-9 of the scale: no feature is
 constexpr std::size_t order = 3;     // columns of the extrapolation
 constexpr double agreement = 1e-11;  // relative, of two columns: as good as rounding lets it be
 constexpr double as_good = 16;       // times the error that derivatives with errors of their own have left
-constexpr double worst = 1e-3;       // of what is left, to be relied upon at other places
+constexpr double worst = 1e-6;       // of what is left, to be relied upon at other places
 
 /// An extrapolated difference and how far it is from the one before it.
 struct Estimate {

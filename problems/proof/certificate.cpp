@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "arcslip/continuation/path/step_control.hpp"
+
 namespace arcslip::problems {
 namespace {
 
@@ -20,8 +22,10 @@ constexpr int halvings_of_range = 12;   // to show Im c < 0
 int sign(double x) { return (x > 0) - (x < 0); }
 int sign(const Interval& x) { return (x.lower() > 0) - (x.upper() < 0); }
 
-double extent(const PlanePoint& from, const PlanePoint& to) {
-  return std::hypot(std::log(to.parameter / from.parameter), to.rho - from.rho);
+/// In the lengths of the steps that lead from one point to another.
+double extent(const PlanePoint& from, const PlanePoint& to, bool is_linear) {
+  const double across = std::log(to.parameter / from.parameter);
+  return is_linear ? std::abs(across) / continuation::linear_steps : std::hypot(across, to.rho - from.rho);
 }
 
 /// The way that the coordinate goes of which the other one is a function.
@@ -226,7 +230,8 @@ bool is_fold(const BranchPoint& point) {
 }
 
 /// The first segment that is not proven.
-std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<BranchPoint>& points,
+std::optional<Certificate::Gap> first_gap(const ForcedResponse& problem, Prover& prover,
+                                          const std::vector<BranchPoint>& points,
                                           const CertificateOptions& options) {
   if (points.size() < 2) return Certificate::Gap{0, "there is no second point"};
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -235,7 +240,9 @@ std::optional<Certificate::Gap> first_gap(Prover& prover, const std::vector<Bran
     const PlanePoint to = prover.point(points[i + 1]);
     std::string reason = i == 0 ? prover.check(from, options.tolerance) : "";
     if (reason.empty()) reason = prover.check(to, options.tolerance);
-    if (reason.empty() && !(extent(from, to) <= 2 * options.max_step)) reason = "it is longer than a step";
+    const bool is_linear = problem.is_linear(points[i].regime);
+    if (reason.empty() && !(extent(from, to, is_linear) <= 2 * options.max_step))
+      reason = "it is longer than a step";
     const bool at_fold = is_fold(points[i]) || is_fold(points[i + 1]);
     const long before = prover.chain().parameter_boxes();
     if (reason.empty()) reason = prover.prove(from, to, at_fold);
@@ -263,7 +270,7 @@ Certificate certify(const ForcedResponse& problem, const continuation::Branch& b
     high = std::max(high, point.parameters(ContactProblem::eta));
   }
   Prover prover(problem, parameter, first, low, high);
-  certificate.gap = first_gap(prover, branch.points, options);
+  certificate.gap = first_gap(problem, prover, branch.points, options);
   certificate.from = first(parameter);
   certificate.to = branch.points.back().parameters(parameter);
   certificate.boxes = prover.chain().boxes();

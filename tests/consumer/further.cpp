@@ -53,7 +53,8 @@ bool resume_later(const Problem& problem, const Guess& guess, TraceOptions optio
 }
 
 bool sample(const Problem& problem, const Branch& branch) {
-  // Between its points a branch is a smooth curve, of which every sample knows its error.
+  // Between its points a branch is a smooth curve, of which every sample knows its error; with a third
+  // argument, &problem, samples are solved for.
   const InterpolatedBranch curve(branch, 0);
   for (const Sample& at : curve.where(0.1)) std::cout << at.unknowns(0) << " +- " << at.error(0) << '\n';
   // All solutions at fixed parameters, without any branch: deflation.
