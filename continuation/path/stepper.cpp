@@ -237,7 +237,8 @@ bool Stepper::finish(bool lands, double value) {
   signals_.prediction_error = (step_.chord - predicted_).norm();
   work_ = step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to);
   constexpr double closer = 2;  // than elsewhere
-  if (is_over_parameter() && (lands || on_target_)) work_.head(corrector_.size()) *= closer * not_counted;
+  if (is_over_parameter() && (lands || on_target_) && !step_.is_tiny(step_.distance))
+    work_.head(corrector_.size()) *= closer * not_counted;
   signals_.mismatch = work_.norm();
   if (step_.hold == Hold::tangent) signals_.turn = std::acos(std::min(1.0, 1 / step_.slope_to.norm()));
   const bool corner = signals_.turn > limits_.turn_limit && step_.is_tiny(step_.distance);

@@ -41,8 +41,9 @@ class Workshop {
     }
   }
 
+  /// With one thread: with several, OpenBLAS' versions make ccx find other frequencies from one run to the next.
   Outcome run(const std::string& commands) const {
-    return shell(fmt::format("cd '{}' && arcslip() {{ '{}' \"$@\"; }} && {{ {}\n}}", folder_.path("."),
+    return shell(fmt::format("export OPENBLAS_NUM_THREADS=1 && cd '{}' && arcslip() {{ '{}' \"$@\"; }} && {{ {}\n}}", folder_.path("."),
                              program, chained(commands)));
   }
 
