@@ -51,8 +51,8 @@ double Monitors::border(const CurvePoint& point, int border, const Vector& scale
   return value;
 }
 
-double Monitors::roughness(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow,
-                           double most_change) const {
+double Monitors::roughness(const Step& step, double s, const std::vector<Monitor>& at_s,
+                           const Limits& limits) const {
   constexpr double hidden = 2;  // a pair of extrema may be
   double most = 0;
   if (step.is_tiny(s)) return most;
@@ -62,13 +62,13 @@ double Monitors::roughness(const Step& step, double s, const std::vector<Monitor
     const double change = (i < tracked_.size() ? observed_[i].near(b.value, a.value) : b.value) - a.value;
     const double size = i < tracked_.size() ? size_of(i, std::max(std::abs(a.value), std::abs(b.value))) : 1;
     if (i < tracked_.size() && a.value * b.value > 0)
-      most = std::max(most, std::abs(change) / (most_change * size));
+      most = std::max(most, std::abs(change) / (limits.change * size));
     // The mean of the end slopes is to give the change, or else there is more between than these can tell.
     const double error = std::abs(change - 0.5 * s * (a.slope + b.slope));
     const double turned = 0.5 * s * (std::abs(a.slope) + std::abs(b.slope));
-    const double allowed = std::min(0.1 * size, 0.12 * turned + shallow * size);
+    const double allowed = std::min(0.1 * size, limits.bend * turned + limits.shallow * size);
     most = std::max(most, std::sqrt(error / allowed));
-    if (dip(a.slope * s, b.slope * s, change, shallow * size)) most = std::max(most, hidden);
+    if (dip(a.slope * s, b.slope * s, change, limits.shallow * size)) most = std::max(most, hidden);
   }
   return most;
 }

@@ -261,12 +261,17 @@ bool Stepper::finish(bool lands, double value) {
   for (Monitor& from : step_.from) from.slope *= slope_length(step_.hold);
   monitors_.look(step_.there, step_.here.scale, step_.slope_to, step_.to);
   if (!is_near_meeting()) {
-    signals_.roughness = roughness(step_.distance, step_.to);
-    if (signals_.roughness > 1) return false;
+    const double rough = roughness(step_.distance, step_.to);
+    if (is_over_parameter()) signals_.roughness = rough;
+    if (rough > 1) {
+      signals_.mismatch = limits_.mismatch_limit * 2 * max_step_;
+      return false;
+    }
   }
-  if (is_regular() || !crossings_.may_find(pairs_) || crossings_.search()) return true;
-  if (step_.there.orientation == step_.here.orientation && step_.is_tiny(step_.distance))
-    return true;  // a corner
+  const bool keeps_way = step_.there.orientation == step_.here.orientation;
+  if (keeps_way && is_regular()) return true;
+  if (!is_regular() && (!crossings_.may_find(pairs_) || crossings_.search())) return true;
+  if (keeps_way && step_.is_tiny(step_.distance)) return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;
 }
@@ -291,13 +296,14 @@ void Stepper::set_bend(bool is_corner) {
 }
 
 double Stepper::roughness(double s, const std::vector<Monitor>& at_s) const {
-  constexpr double most_rises =
-      5;  // of observables, in largest steps, where only they tell how long these are
   constexpr double shallow = 100;  // times the tolerance: the values themselves are no better
   // No more than a factor of two at a time: an observable is wanted as a curve, too.
-  constexpr double factor_of_two = 0.5;
-  const double change = is_over_parameter() ? std::min(factor_of_two, most_rises * max_step_) : factor_of_two;
-  return monitors_.roughness(step_, s, at_s, shallow * corrector_.tolerance(), change);
+  Monitors::Limits limits{0.5, 0.15, shallow * corrector_.tolerance()};
+  if (is_over_parameter()) {  // where nothing else tells how long a step may be
+    limits.change = std::min(limits.change, 5 * max_step_);
+    limits.bend = 0.12;
+  }
+  return monitors_.roughness(step_, s, at_s, limits);
 }
 
 void Stepper::settle_on_border(int border) {

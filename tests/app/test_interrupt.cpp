@@ -240,7 +240,7 @@ TEST_CASE("A run whose branches had no time to be whole goes on to the tables of
     check(figure_8_case + " --set branch.for_each.preload=[0.5,50.0,5.0] --set continuation.max_step=0.01",
           "1e-3");
   }
-  SECTION("several curves in two parameters") { check(case_named("border"), "2e-3"); }
+  SECTION("several curves in two parameters") { check(case_named("border"), "5e-4"); }
   SECTION("a curve of peaks") { check(case_named("ridge"), "0.01"); }
 }
 

@@ -45,12 +45,28 @@ std::vector<const BranchPoint*> special(const Branch& branch) {
   return points;
 }
 
+constexpr double located = 1e-8;  // of a fold or an extremum, which is flat, in the parameter and in u
+
+/// Those that lie together, as the folds of a ridge and its extrema do, in the order of their types.
+std::vector<const BranchPoint*> ordered(std::vector<const BranchPoint*> points) {
+  const auto together = [](const BranchPoint* a, const BranchPoint* b) {
+    return (a->parameters - b->parameters).lpNorm<Eigen::Infinity>() <=
+               located * (1 + b->parameters.lpNorm<Eigen::Infinity>()) &&
+           (a->unknowns - b->unknowns).lpNorm<Eigen::Infinity>() <=
+               located * (1 + b->unknowns.lpNorm<Eigen::Infinity>());
+  };
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (together(points[i - 1], points[i]) && points[i]->type < points[i - 1]->type)
+      std::swap(points[i - 1], points[i]);
+  }
+  return points;
+}
+
 /// The same special points in the same order, as near as special points are located.
 void check_same_rows(const Branch& now, const Branch& then) {
-  constexpr double located = 1e-8;  // of a fold or an extremum, which is flat, in the parameter and in u
   CHECK(now.stop == then.stop);
-  const auto a = special(now);
-  const auto b = special(then);
+  const auto a = ordered(special(now));
+  const auto b = ordered(special(then));
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     CAPTURE(i, to_string(b[i]->type), b[i]->parameters.transpose());

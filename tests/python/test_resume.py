@@ -7,7 +7,7 @@ import pytest
 
 import arcslip
 
-SLOW = ["continuation.max_step=0.001", "branch.to=6.0", "branch.for_each.preload=[0.1, 1.0, 5.0]"]
+SLOW = ["continuation.max_step=0.0004", "branch.to=6.0", "branch.for_each.preload=[0.1, 1.0, 5.0]"]
 
 
 def interrupting(after):

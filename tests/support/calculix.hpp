@@ -41,10 +41,12 @@ class Workshop {
     }
   }
 
-  /// With one thread: with several, OpenBLAS' versions make ccx find other frequencies from one run to the next.
+  /// With one thread: with several, OpenBLAS' versions make ccx find other frequencies from one run to the
+  /// next.
   Outcome run(const std::string& commands) const {
-    return shell(fmt::format("export OPENBLAS_NUM_THREADS=1 && cd '{}' && arcslip() {{ '{}' \"$@\"; }} && {{ {}\n}}", folder_.path("."),
-                             program, chained(commands)));
+    return shell(
+        fmt::format("export OPENBLAS_NUM_THREADS=1 && cd '{}' && arcslip() {{ '{}' \"$@\"; }} && {{ {}\n}}",
+                    folder_.path("."), program, chained(commands)));
   }
 
   void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }

@@ -32,11 +32,16 @@ class Monitors {
     return std::max(observed_[observable].scale, std::abs(value));
   }
 
+  /// What a step may leave open.
+  struct Limits {
+    double change;   ///< of an observable, relative
+    double bend;     ///< of a change, by which the mean of the end slopes may miss it
+    double shallow;  ///< of a value: how good it is
+  };
+
   /// How far values and slopes where a step begins and at s are from those of a curve without more in
-  /// between: at most 1 where they fit one, and about as s; `shallow` is how good the values are,
-  /// `most_change` what those of observables may change by, relatively.
-  double roughness(const Step& step, double s, const std::vector<Monitor>& at_s, double shallow,
-                   double most_change) const;
+  /// between: at most 1 where they fit one, and about as s.
+  double roughness(const Step& step, double s, const std::vector<Monitor>& at_s, const Limits& limits) const;
 
  private:
   const Problem& problem_;
