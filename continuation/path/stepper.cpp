@@ -236,7 +236,7 @@ bool Stepper::finish(bool lands, double value) {
   corrector_.difference(step_.there, step_.here, step_.chord);
   signals_.prediction_error = (step_.chord - predicted_).norm();
   work_ = step_.chord - 0.5 * step_.distance * (step_.slope_from + step_.slope_to);
-  constexpr double closer = 2;  // than elsewhere
+  constexpr double closer = 3;  // than elsewhere
   if (is_over_parameter() && (lands || on_target_) && !step_.is_tiny(step_.distance))
     work_.head(corrector_.size()) *= closer * not_counted;
   signals_.mismatch = work_.norm();

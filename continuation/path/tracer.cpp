@@ -179,12 +179,15 @@ void Tracer::step() {
 
 bool Tracer::try_step() {
   double& distance = state_.distance;
-  const double longest = options_.max_step * (stepper_.is_over_parameter() ? linear_steps : 1);
-  distance = std::min(distance, longest / stepper_.slope_length(state_.hold));
+  distance = std::min(distance, options_.max_step / stepper_.slope_length(state_.hold));
   stepper_.set_on_target(!targets_.taken().empty());
   const double rate = stepper_.parameter_slope(state_.hold);
   landing_ = next_target(1.1 * distance * std::abs(rate) * parameter_scale(), rate > 0 ? 1 : -1);
   if (landing_ != nullptr) return try_landing();
+  if (stepper_.is_over_parameter()) {
+    use(Hold::parameter);
+    distance = to_even_value(distance, rate);
+  }
   if (!stepper_.attempt(state_.hold, distance)) {
     const double factor = step_factor(stepper_.signals(), {}, options_.max_step);
     if (stepper_.signals().roughness > 1) {
@@ -203,6 +206,19 @@ bool Tracer::try_step() {
   if (find_events()) return true;
   distance *= 0.5;
   return false;
+}
+
+/// A distance, a little shorter, to a value of the parameter that hangs little on where the step begins: so
+/// that rounding of the places of special points does not move all points behind them, to where on the flank
+/// of a needle the response is another.
+double Tracer::to_even_value(double distance, double rate) const {
+  constexpr double parts = 64;  // of the step
+  const double way = distance * parameter_scale();
+  const double unit = std::exp2(std::floor(std::log2(way))) / parts;
+  const double end = std::copysign(1.0, rate) > 0 ? std::floor((value() + way) / unit) * unit
+                                                  : std::ceil((value() - way) / unit) * unit;
+  const double even = std::abs(end - value()) / parameter_scale();
+  return even > 0.5 * distance ? even : distance;
 }
 
 /// Looks for events in the step, and probes it where it ends at one; false if it has to be shorter. A target

@@ -6,8 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "arcslip/continuation/path/step_control.hpp"
-
 namespace arcslip::problems {
 namespace {
 
@@ -25,7 +23,7 @@ int sign(const Interval& x) { return (x.lower() > 0) - (x.upper() < 0); }
 /// In the lengths of the steps that lead from one point to another.
 double extent(const PlanePoint& from, const PlanePoint& to, bool is_linear) {
   const double across = std::log(to.parameter / from.parameter);
-  return is_linear ? std::abs(across) / continuation::linear_steps : std::hypot(across, to.rho - from.rho);
+  return is_linear ? std::abs(across) : std::hypot(across, to.rho - from.rho);
 }
 
 /// The way that the coordinate goes of which the other one is a function.

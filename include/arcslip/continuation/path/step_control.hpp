@@ -7,9 +7,6 @@
 
 namespace arcslip::continuation {
 
-/// The largest step where F is linear in u, in largest steps: nothing lies in it but what is watched.
-constexpr double linear_steps = 2.5;
-
 /// Of one attempt.
 struct StepSignals {
   double contraction = 0;       ///< |dz_2|/|dz_1| of Newton's method

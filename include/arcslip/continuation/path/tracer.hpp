@@ -60,6 +60,7 @@ class Tracer {
   const Target* next_target(double reach, double direction) const;
   bool only_approaches(const Target& target) const;
   void rest_before(const Target& target);
+  double to_even_value(double distance, double rate) const;
   bool find_events();
   bool leaves_range() const;
   void take();
