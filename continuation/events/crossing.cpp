@@ -27,12 +27,12 @@ CrossingSearch::CrossingSearch(Corrector& corrector, Prober& prober, Step& step,
       work_(expected_) {}
 
 bool CrossingSearch::starts_singular(double max_step) {
-  const double there = corrector_.log_determinant(step_.here.scale);
+  const double there = corrector_.log_determinant();
   step_.slope_from = step_.normal;
   if (prober_.linearise_beside(step_.here, step_.slope_from, a_little_way * max_step) ==
       Correction::cannot_evaluate)
     return false;
-  return there < corrector_.log_determinant(step_.here.scale) + std::log(much_less);
+  return there < corrector_.log_determinant() + std::log(much_less);
 }
 
 void CrossingSearch::rescale(double max_step) {
@@ -47,9 +47,9 @@ void CrossingSearch::rescale(double max_step) {
   }
   if (corrector_.linearise(step_.here, step_.normal) != Correction::converged) return;
   const double sign = corrector_.orientation() * step_.here.orientation;
-  const double change = corrector_.log_determinant(step_.here.scale) - step_.here.log_determinant;
+  const double change = corrector_.log_determinant() - step_.here.log_determinant;
   step_.here.orientation *= sign;
-  step_.here.log_determinant = corrector_.log_determinant(step_.here.scale);
+  step_.here.log_determinant = corrector_.log_determinant();
   for (PastPoint& past : step_.past) {
     past.sign *= sign;
     past.log += change;
@@ -72,7 +72,7 @@ bool CrossingSearch::may_find(bool pairs) const {
 
 bool CrossingSearch::search() {
   log_here_ = step_.here.log_determinant + std::log(step_.normal.dot(step_.here.tangent));
-  log_there_ = corrector_.log_determinant(step_.here.scale);
+  log_there_ = corrector_.log_determinant();
   unit_ = std::max(log_here_, log_there_);
   from_zero_ = std::isinf(log_here_);
   step_.anchors.clear();
@@ -92,14 +92,13 @@ std::optional<Node> CrossingSearch::determinant_at(double s) {
   if (inside && !probe_between(s)) return std::nullopt;
   const CurvePoint& point = inside ? prober_.probed().point : s > 0 ? step_.there : step_.here;
   const Vector& slope = inside ? prober_.probed().slope : s > 0 ? step_.slope_to : step_.slope_from;
-  Node node{s, sized(corrector_.orientation(), corrector_.log_determinant(step_.here.scale)), std::nan("")};
+  Node node{s, sized(corrector_.orientation(), corrector_.log_determinant()), std::nan("")};
   if (inside && std::abs(node.value) > too_near) prober_.anchor();
   if (!inside) node.value = sized(point.orientation, s > 0 ? log_there_ : log_here_);
 
   const double offset = prober_.offset_beside(s);
   if (prober_.linearise_beside(point, slope, offset) != Correction::cannot_evaluate)
-    node.slope =
-        (sized(corrector_.orientation(), corrector_.log_determinant(step_.here.scale)) - node.value) / offset;
+    node.slope = (sized(corrector_.orientation(), corrector_.log_determinant()) - node.value) / offset;
   if (!from_zero_) return node;
   if (s == 0) return Node{0, node.slope, std::nan("")};
   return Node{s, node.value / s, (node.slope - node.value / s) / s};

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <istream>
 #include <limits>
@@ -17,7 +16,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr std::string_view signature = "arcslip-checkpoint-";
-constexpr int newest = 5;  // of the versions of the text
+constexpr int newest = 4;  // of the versions of the text
 
 std::string escaped(const std::string& text) {
   std::string result;
@@ -188,12 +187,6 @@ void progress(Archive& archive, Way& way) {
     list(archive, look.rates, number);
   });
   if (archive.version >= 4) archive(way.rescaled);
-  if constexpr (Archive::reads) {
-    if (archive.version >= 5) return;
-    // Determinants were in other units.
-    if (std::isfinite(way.here.log_determinant)) way.here.log_determinant = std::nan("");
-    way.past.clear();
-  }
 }
 
 Stop read_stop(const std::string& name) {

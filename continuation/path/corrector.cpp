@@ -235,15 +235,19 @@ void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
   const double length = point.tangent.norm();
   point.tangent /= length;
   point.orientation = border_sign_;
-  point.log_determinant =
-      log_determinant(origin.scale) + std::log(length * point.scale(size_) / parameter_scale);
+  LogProduct size;
+  solver_->multiply_determinant(size);
+  if (&point != &origin) {
+    for (Index i = 0; i <= size_; ++i) size *= point.scale(i) / origin.scale(i);
+  }
+  size *= length;
+  point.log_determinant = size.log();
 }
 
-double Corrector::log_determinant(const Vector& scale) const {
+double Corrector::log_determinant() const {
   if (border_sign_ == 0) return -std::numeric_limits<double>::infinity();
   LogProduct size;
   solver_->multiply_determinant(size);
-  for (Index i = 0; i < size_; ++i) size /= scale(i);
   return size.log();
 }
 

@@ -99,7 +99,7 @@ void Stepper::restore(const Progress& progress) {
   revision_ = problem_.revision() - progress.rescaled;
   if (!std::isnan(step_.here.log_determinant)) return;
   if (corrector_.linearise(step_.here, step_.here.tangent) == Correction::converged)
-    step_.here.log_determinant = corrector_.log_determinant(step_.here.scale);
+    step_.here.log_determinant = corrector_.log_determinant();
 }
 
 Correction Stepper::enter(const Regime& regime) {

@@ -24,8 +24,7 @@ struct CurvePoint {
   Vector scale;    ///< n + 1, of z at this point; that of u times sqrt(n), so that norms do not grow with n
   Vector tangent;  ///< n + 1, unit length, dz/ds in units of `scale`
   double orientation = 0;  ///< sign of det [J F_p; tangent^T], which changes at branch points alone
-  /// The logarithm of its size, the unknowns in their own units, so that it changes smoothly wherever their
-  /// scale does: -infinity at a branch point, nan where it is not known.
+  /// The logarithm of its size, in units of `scale`: -infinity at a branch point, nan where it is not known.
   double log_determinant = std::numeric_limits<double>::quiet_NaN();
   double residual = 0;  ///< largest entry of F
   int iterations = 0;   ///< Newton corrections spent on it
@@ -120,10 +119,10 @@ class Corrector {
   /// Whether the bordered Jacobian last factored is singular but for rounding.
   bool nearly_singular();
 
-  /// Sign of det [J F_p; normal^T] as last factored, in units of a scale, and the logarithm of its size but
-  /// for that of the unknowns.
+  /// Sign of det [J F_p; normal^T] as last factored, in units of the origin's scale, and the logarithm of its
+  /// size.
   double orientation() const { return border_sign_; }
-  double log_determinant(const Vector& scale) const;
+  double log_determinant() const;
 
   /// What was spent so far.
   Work& work() { return work_; }
