@@ -16,14 +16,11 @@ constexpr double first_step = 0.02;  // of the problem's scale
 constexpr int levels = 13;           // down to 1e-9 of the scale: no feature is sharper
 constexpr std::size_t order = 3;     // columns of the extrapolation
 constexpr double agreement = 1e-11;  // relative, of two columns: as good as rounding lets it be
-constexpr double as_good = 16;       // times the error that derivatives with errors of their own have left
-constexpr double worst = 1e-6;       // of what is left, to be relied upon at other places
 
 /// An extrapolated difference and how far it is from the one before it.
 struct Estimate {
   Vector derivative;
   double error;
-  int level;
 };
 
 /// Coarse estimates may agree by chance, being blind to a feature between their points, and the finest are
@@ -32,7 +29,7 @@ Estimate& best_of(std::vector<Estimate>& estimates) {
   std::size_t best = estimates.size() - 1;
   int rising = 0;
   for (std::size_t k = estimates.size(); k-- > 0 && rising < 2;) {
-    rising = estimates[k].error > as_good * estimates[best].error ? rising + 1 : 0;
+    rising = estimates[k].error > 16 * estimates[best].error ? rising + 1 : 0;
     if (estimates[k].error < estimates[best].error) best = k;
   }
   return estimates[best];
@@ -41,7 +38,7 @@ Estimate& best_of(std::vector<Estimate>& estimates) {
 }  // namespace
 
 Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
-                         int level, double enough) {
+                         int level) {
   std::array<Vector, order> row;
   std::array<Vector, order> previous;
   std::vector<Estimate> estimates;
@@ -60,9 +57,8 @@ Difference differentiate(const std::function<bool(double h, Vector& out)>& f, do
     for (std::size_t k = 1; k <= last; ++k, factor *= 16)
       row[k] = (factor * row[k - 1] - previous[k - 1]) / (factor - 1);
     if (last == 0) continue;
-    estimates.push_back({row[last], (row[last] - row[last - 1]).lpNorm<Eigen::Infinity>(), level});
-    const double least = std::max(agreement, enough) * row[last].lpNorm<Eigen::Infinity>();
-    if (last == order - 1 && estimates.back().error <= least) {
+    estimates.push_back({row[last], (row[last] - row[last - 1]).lpNorm<Eigen::Infinity>()});
+    if (last == order - 1 && estimates.back().error <= agreement * row[last].lpNorm<Eigen::Infinity>()) {
       derivative = row[last];
       return {estimates.back().error, true, level};
     }
@@ -70,7 +66,7 @@ Difference differentiate(const std::function<bool(double h, Vector& out)>& f, do
   if (estimates.empty()) return {std::numeric_limits<double>::infinity(), false, level};
   Estimate& best = best_of(estimates);
   derivative = std::move(best.derivative);
-  return {best.error, false, best.level};
+  return {best.error, false, level};
 }
 
 SecondDerivative::SecondDerivative(const Problem& problem)
@@ -134,16 +130,11 @@ bool SecondDerivative::difference(const Vector& u, const Vector& p, const Regime
   };
   Vector derivative;
   const double step = first_step / length(u, p, du, dp);
-  // Where the last differences agreed, or came nearest to it, these will, too, as a rule: that saves others.
-  const int begin = std::max(0, static_cast<int>(memory_) - static_cast<int>(order) + 1);
-  double enough = memory_ - std::floor(memory_);
-  Difference difference = differentiate(f, step, derivative, begin, enough);
-  if (!difference.agrees && begin > 0) {
-    difference = differentiate(f, step, derivative);
-    enough = 0;
-  }
-  if (!difference.agrees) enough = as_good * difference.error / derivative.lpNorm<Eigen::Infinity>();
-  memory_ = enough <= worst ? difference.level + enough : 0;
+  // Where the last differences agreed these will, too, as a rule: that saves the coarser ones.
+  const int begin = std::max(0, static_cast<int>(level_) - static_cast<int>(order) + 1);
+  Difference difference = differentiate(f, step, derivative, begin);
+  if (!difference.agrees && begin > 0) difference = differentiate(f, step, derivative);
+  level_ = difference.agrees ? difference.level : 0;
   if (!std::isfinite(difference.error)) return false;
   out = derivative.reshaped(out.rows(), out.cols());
   return true;

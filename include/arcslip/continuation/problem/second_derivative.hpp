@@ -18,14 +18,13 @@ namespace arcslip::continuation {
 struct Difference {
   double error = 0;     ///< estimated, of the largest entry; infinity if no difference could be formed
   bool agrees = false;  ///< whether differences have come to agree
-  int level = 0;        ///< of its steps, each a quarter of the one before
+  int level = 0;        ///< the finest that was taken, of steps that are each a quarter of the one before
 };
 
 /// d f/dh at h = 0 of a function that fills a vector, or returns false where it has no value. Steps begin at
-/// `step` times 4^-`level`, and end where differences agree to rounding or, relative to the largest entry, to
-/// `enough`.
+/// `step` times 4^-`level`.
 Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
-                         int level = 0, double enough = 0);
+                         int level = 0);
 
 /// Serves one thread. The problem is kept by reference.
 class SecondDerivative {
@@ -48,9 +47,8 @@ class SecondDerivative {
   /// Of the problem so far, with its derivatives.
   long evaluations() const { return at_.evaluations() + own_; }
 
-  /// What is kept from one place to the next: the level of steps, and as its fraction how far differences
-  /// came to agree, of first derivatives that are no better.
-  double& memory() { return memory_; }
+  /// What is kept from one place to the next, a whole number.
+  double& memory() { return level_; }
 
  private:
   [[nodiscard]] bool ask(const Vector& u, const Vector& p, const Regime& regime, const Matrix& weights,
@@ -65,7 +63,7 @@ class SecondDerivative {
   Vector row_;
   Vector weight_;
   Vector own_row_;
-  double memory_ = 0;
+  double level_ = 0;  // of the steps that came to agree last
   long own_ = 0;
 };
 
