@@ -17,17 +17,6 @@ constexpr Index few = 16;       // contacts, of which products by entries are fa
 /// Whether nothing holds a mode: at rest no force is met by a rigid motion.
 bool drifts(const ContactMode& mode, double eta) { return eta == 0 && mode.is_rigid(); }
 
-/// y += factor x for n entries, by real products: complex ones look for infinities.
-void add_multiple(Complex factor, const Complex* x, Index n, Complex* y) {
-  const auto* from = reinterpret_cast<const double*>(x);
-  auto* to = reinterpret_cast<double*>(y);
-  for (Index i = 0; i < 2 * n; i += 2) {
-    const double real = factor.real() * from[i] - factor.imag() * from[i + 1];
-    to[i + 1] += factor.real() * from[i + 1] + factor.imag() * from[i];
-    to[i] += real;
-  }
-}
-
 }  // namespace
 
 ContactModes::ContactModes(Index contacts, std::vector<ContactMode> modes, const Loss& loss)
@@ -125,7 +114,7 @@ void invert(ContactMatrix& a) {
     for (Index j = 0; j < m; ++j) {
       if (j == k) continue;
       const Complex factor = a(k, j) * pivot;
-      add_multiple(-factor, a.col(k).data(), m, a.col(j).data());
+      a.col(j) -= factor * a.col(k);
       a(k, j) = factor;
     }
     a.col(k) *= -pivot;
@@ -166,9 +155,10 @@ void ContactModes::add(double eta, ContactReceptance& sum) const {
     const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex slope = -inverse * inverse * d.by_eta;
     for (Index j = 0; j < contacts_; ++j) {  // faster than products of such small matrices
-      const Complex push = std::conj(mode.shape(j));
-      add_multiple(inverse * push, mode.shape.data(), contacts_, sum.compliance.col(j).data());
-      add_multiple(slope * push, mode.shape.data(), contacts_, sum.compliance_eta.col(j).data());
+      const Complex column = inverse * std::conj(mode.shape(j));
+      const Complex column_eta = slope * std::conj(mode.shape(j));
+      sum.compliance.col(j) += column * mode.shape;
+      sum.compliance_eta.col(j) += column_eta * mode.shape;
     }
     sum.free += (mode.load * inverse) * mode.shape;
     sum.free_eta += (mode.load * slope) * mode.shape;
