@@ -8,9 +8,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double straight = 1.8e-3;   // of a piece's width and height, or of what is seen of it enlarged
-constexpr double seen = 0.004;      // of the branch: half of what pictures enlarge
-constexpr double invisible = 1e-5;  // of the branch: a four-hundredth of the narrowest part that is enlarged
+constexpr double straight = 1.8e-3;  // of a piece's width and height, or of what is seen of it enlarged
+constexpr double seen = 0.004;       // of the branch: half of what pictures enlarge
+constexpr double invisible = 1e-5;   // of the branch: a four-hundredth of the narrowest part that is enlarged
 constexpr int most_halvings = 6;
 
 bool is_singular(const BranchPoint& point) {

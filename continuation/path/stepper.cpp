@@ -103,10 +103,13 @@ void Stepper::restore(const Progress& progress) {
 }
 
 Correction Stepper::enter(const Regime& regime) {
+  const bool was_over_parameter = is_over_parameter();
   step_.here.regime = regime;
-  work_ = step_.here.tangent.cwiseProduct(step_.here.scale);
-  corrector_.set_scale(step_.here);
-  step_.here.tangent = work_.cwiseQuotient(step_.here.scale).normalized();
+  if (is_over_parameter() != was_over_parameter) {
+    work_ = step_.here.tangent.cwiseProduct(step_.here.scale);
+    corrector_.set_scale(step_.here);
+    step_.here.tangent = work_.cwiseQuotient(step_.here.scale).normalized();
+  }
   double nearest = std::numeric_limits<double>::infinity();
   // The border of the new regime on which the point lies; the new piece leaves it against its gradient.
   for (int b = 0; b < problem_.border_count(regime); ++b) {

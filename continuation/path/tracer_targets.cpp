@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "arcslip/continuation/path/tracer.hpp"
 
@@ -25,45 +24,19 @@ void Tracer::forget_tries() {
 }
 
 bool Tracer::try_landing() {
-  const Target& target = *landing_;
-  const double gap = std::abs(target.value - value()) / parameter_scale();
-  const bool ends_here = only_approaches(target) || gap <= options_.tolerances.on_target;
-  if (!ends_here && turns_within(gap) && try_around(length())) return true;
-  if (stepper_.attempt_landing(target.value) && find_events()) return true;
+  if (stepper_.attempt_landing(landing_->value) && find_events()) return true;
   // A special point at the very value, where the parameter cannot be kept, is stepped over and located.
-  const double beyond = 1.5 * gap / std::abs(stepper_.parameter_slope(Hold::tangent));
-  const bool may_go_on = !ends_here && beyond <= options_.max_step;
-  if (try_around(beyond) && (may_go_on || !events_.empty())) return true;
-  landing_failed_ = true;
-  rest_before(target);
-  use(Hold::parameter);
-  state_.distance = 0.5 * gap;
-  return false;
-}
-
-/// A step along the tangent that does not pass the value ahead, or ends at an event before it.
-bool Tracer::try_around(double distance) {
-  const Target* const ahead = std::exchange(landing_, nullptr);
-  const bool kept = stepper_.attempt(Hold::tangent, distance) && find_events();
-  if (!kept) {
-    landing_ = ahead;
-  } else if (events_.empty()) {
-    state_.hold = Hold::tangent;
-    state_.distance = distance;
-  } else {
-    use(Hold::tangent);
+  const double distance = stepper_.step().distance;
+  const double beyond = 1.5 * distance / std::abs(stepper_.parameter_slope(Hold::tangent));
+  if (stepper_.attempt(Hold::tangent, beyond) && find_events() && !events_.empty()) {
+    use(Hold::tangent);  // at a fold the parameter cannot be kept
+    return true;
   }
-  return kept;
-}
-
-/// Whether the parameter, as it slows down, seems to turn before it has changed by so much, or never comes
-/// that far: no step lands there.
-bool Tracer::turns_within(double gap) const {
-  const std::vector<PastPoint>& past = stepper_.step().past;
-  if (past.empty()) return false;
-  const double rate = std::abs(stepper_.parameter_slope(Hold::tangent));
-  const double slows = (std::abs(past.front().rate) - rate) / past.front().behind;
-  return slows > 0 && rate * rate < 2 * slows * gap;
+  landing_failed_ = true;
+  rest_before(*landing_);
+  use(Hold::parameter);
+  state_.distance = 0.5 * distance;
+  return false;
 }
 
 /// The next value to land on within `reach`, or one that the branch seems to approach only: on this it is
@@ -79,16 +52,14 @@ const Target* Tracer::next_target(double reach, double direction) const {
 }
 
 /// Whether the branch is as near to a value as can be told, and yet its last step came nearer by a factor
-/// only, or slowed down, however long it was. Before a fold it would have been as short as the root of the
-/// gap.
+/// only, however long it was. Before a fold it would have been as short as the root of the gap.
 bool Tracer::only_approaches(const Target& target) const {
   constexpr double most_of_it = 0.1;
   constexpr double long_step = 0.01;
   const double gap = std::abs(target.value - value());
   const double scale = target.value == 0 ? start_scale() : parameter_scale();
-  return gap <= options_.tolerances.same_value * scale && state_.last_chord >= long_step &&
-         (gap >= most_of_it * std::abs(target.value - state_.last_value) ||
-          turns_within(gap / parameter_scale()));
+  return gap <= options_.tolerances.same_value * scale &&
+         gap >= most_of_it * std::abs(target.value - state_.last_value) && state_.last_chord >= long_step;
 }
 
 /// Where no step lands on a value that is within rounding, the branch has reached it; one that it only

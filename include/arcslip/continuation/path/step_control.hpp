@@ -27,7 +27,7 @@ struct StepLimits {
   double error_aim = 0.05;      ///< of the largest step
   double error_limit = 0.25;    ///< of the largest step
   double mismatch_limit = 0.1;  ///< of the largest step
-  double roughness_aim = 0.85;  ///< steps are not kept above 1
+  double roughness_aim = 0.8;   ///< steps are not kept above 1
   double growth = 2;            ///< largest factor after a good step
   double shrink = 0.2;          ///< smallest factor
 };

@@ -55,8 +55,6 @@ class Tracer {
   bool try_step();
   void take_where_it_starts();
   bool try_landing();
-  bool try_around(double distance);
-  bool turns_within(double gap) const;
   const Target* next_target(double reach, double direction) const;
   bool only_approaches(const Target& target) const;
   void rest_before(const Target& target);
