@@ -1,6 +1,5 @@
 #include "arcslip/motion/periodic_motion.hpp"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -8,25 +7,6 @@
 #include "motion/isolated_zeros.hpp"
 
 namespace arcslip {
-namespace {
-
-/// e^{j theta}, of the parts of a turn that halving it goes through from a table.
-Complex turn_of(double theta) {
-  constexpr long parts = 256;
-  constexpr double rounding = 1e-15;
-  static const std::array<Complex, parts> turns = [] {
-    std::array<Complex, parts> all;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i] = std::polar(1.0, two_pi * static_cast<double>(i) / parts);
-    return all;
-  }();
-  const double place = theta * (parts / two_pi);
-  const double nearest = std::nearbyint(place);
-  if (!(std::abs(place - nearest) <= rounding * std::abs(place))) return std::polar(1.0, theta);
-  return turns[static_cast<std::size_t>(static_cast<long>(nearest) & (parts - 1))];
-}
-
-}  // namespace
 
 PeriodicMotion::PeriodicMotion(ComplexVector coefficients) : coefficients_(std::move(coefficients)) {
   if (coefficients_.size() == 0) throw std::invalid_argument("PeriodicMotion: no harmonics");
@@ -52,7 +32,7 @@ PeriodicMotion PeriodicMotion::drifting(double drift) const {
 }
 
 PeriodicMotion::Local PeriodicMotion::at(double theta) const {
-  const Complex turn = turn_of(theta);
+  const Complex turn = std::polar(1.0, theta);
   double cosine = 1;  // of h theta, by real products, which unlike complex ones look for no infinities
   double sine = 0;
   Local sum{coefficients_(0).real(), 0};

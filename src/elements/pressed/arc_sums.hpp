@@ -40,16 +40,7 @@ class ArcSums {
 
   /// Of one arc in theta.
   ArcSums(int highest, double begin, double width) : ArcSums(highest) {
-    const Complex middle = std::polar(1.0, begin + 0.5 * width);
-    const Complex end = std::polar(1.0, 0.5 * width);
-    Complex turn = 1;  // of m times these angles
-    Complex way = 1;
-    sums_[0] = width;
-    for (std::size_t m = 1; m < sums_.size(); ++m) {
-      turn *= middle;
-      way *= end;
-      sums_[m] = turn * (2 * way.imag() / static_cast<double>(m));
-    }
+    for (std::size_t m = 0; m < sums_.size(); ++m) sums_[m] = arc_integral(begin, width, static_cast<int>(m));
   }
 
   void add(const ArcSums& other, int sign = 1) {
