@@ -111,4 +111,26 @@ void Tracer::take_target(const Target& target) {
   }
 }
 
+/// A distance, a little shorter, to a value of the parameter that hangs little on where the step begins: so
+/// that rounding of the places of special points does not move all points behind them, to where on the flank
+/// of a needle the response is another.
+double Tracer::to_even_value(double distance, double rate) const {
+  constexpr double parts = 64;  // of the step
+  const double way = distance * parameter_scale();
+  const double unit = std::exp2(std::floor(std::log2(way))) / parts;
+  const double end = std::copysign(1.0, rate) > 0 ? std::floor((value() + way) / unit) * unit
+                                                  : std::ceil((value() - way) / unit) * unit;
+  const double even = std::abs(end - value()) / parameter_scale();
+  return even > 0.5 * distance ? even : distance;
+}
+
+/// Whether a step leads out of the range from a point that lies on its limit but for rounding, on which no
+/// further step could land.
+bool Tracer::leaves_range() const {
+  const double beyond = stepper_.step().there.parameters(parameter_);
+  const double same = options_.tolerances.same_value * parameter_scale();
+  const auto [low, high] = std::minmax(options_.from, options_.to);
+  return (beyond < low && value() <= low + same) || (beyond > high && value() >= high - same);
+}
+
 }  // namespace arcslip::continuation
