@@ -38,7 +38,7 @@ CurvePoint Corrector::make_point() const {
 void Corrector::set_scale(CurvePoint& point) {
   problem_.scale(point.unknowns, point.parameters, unknown_scale_, parameter_scale_);
   double size = std::sqrt(static_cast<double>(size_));
-  if (options_.over_parameter && problem_.is_linear(point.regime)) size *= not_counted;
+  if (is_over_parameter(point.regime)) size *= not_counted;
   point.scale.head(size_) = unknown_scale_ * size;
   point.scale(size_) = parameter_scale_(parameter_);
 }

@@ -5,11 +5,6 @@
 
 namespace arcslip::continuation {
 
-void Hermite::clear(std::optional<Corner> corner) {
-  corner_ = corner;
-  places_ = 0;
-}
-
 double Hermite::variable(double s) const {
   return corner_ ? std::sqrt(std::max(0.0, corner_->into * (s - corner_->s))) : s;
 }

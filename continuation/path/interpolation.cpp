@@ -29,15 +29,17 @@ Vector weights(const Vector& sizes) {
   return all;
 }
 
+double weighted(const Vector& weight, const Vector& a, const Vector& b) {
+  return (weight.array() * a.array() * b.array()).sum();
+}
+
 /// The lengths of the slopes d_0, d_1 of a cubic over [0, 1] with this chord for which its third derivative
 /// is least.
 std::array<double, 2> fitted(const Vector& weight, const Vector& chord, const Vector& d_0,
                              const Vector& d_1) {
   // Where the ends turn by less than about 0.03 any lengths will do, and rounding would decide.
   constexpr double straight = 1e-3;
-  const auto product = [&](const Vector& a, const Vector& b) {
-    return (weight.array() * a.array() * b.array()).sum();
-  };
+  const auto product = [&](const Vector& a, const Vector& b) { return weighted(weight, a, b); };
   const double a = straight + product(d_0, d_0);
   const double b = product(d_0, d_1);
   const double c = straight + product(d_1, d_1);
@@ -71,7 +73,7 @@ class InterpolatedBranch::Piece {
   Knot knot(std::size_t point, bool arrives) const;
   bool fits(const Knot& knot) const;
   double along(double x) const;
-  double size(const Vector& v) const { return std::sqrt((weight_.array() * v.array().square()).sum()); }
+  double size(const Vector& v) const { return std::sqrt(weighted(weight_, v, v)); }
 
   const InterpolatedBranch& branch_;
   std::size_t piece_;
@@ -107,9 +109,7 @@ InterpolatedBranch::Piece::Piece(const InterpolatedBranch& branch, std::size_t p
 
 /// That of the parabola which the piece is most like.
 Vector InterpolatedBranch::Piece::axis(const Vector& d_0, const Vector& d_1) const {
-  const auto product = [&](const Vector& a, const Vector& b) {
-    return (weight_.array() * a.array() * b.array()).sum();
-  };
+  const auto product = [&](const Vector& a, const Vector& b) { return weighted(weight_, a, b); };
   const auto [a_0, a_1] = fitted(weight_, chord_, d_0, d_1);
   const double square = product(chord_, chord_);
   Vector across = a_1 * d_1 - a_0 * d_0;
@@ -167,11 +167,10 @@ bool InterpolatedBranch::Piece::fits(const Knot& knot) const {
   return knot.slope.allFinite() && size(knot.slope) < steep * size(chord_) && knot.runs;
 }
 
-/// Takes this curve if it is the best so far: as many nodes as the terms that they add fall off.
+/// Takes this curve if it is the best so far: as many knots as the terms that they add fall off.
 void InterpolatedBranch::Piece::try_powers(std::optional<Hermite::Corner> corner,
                                            const std::vector<Knot>& knots) {
-  Hermite curve;
-  curve.clear(corner);
+  Hermite curve(corner);
   for (const Knot& knot : knots) curve.add(knot.s, knot.value, knot.slope);
   double last = size(curve.cubic()) / 16;
   double error = last;
@@ -202,12 +201,12 @@ double InterpolatedBranch::Piece::along(double x) const {
 
 Vector InterpolatedBranch::Piece::at(double x) const {
   Vector z = begin_;  // of a piece of no length
-  if (curve_.places() > 0) curve_.at(along(x), used_, z);
+  if (std::isfinite(least_)) curve_.at(along(x), used_, z);
   return z;
 }
 
 Vector InterpolatedBranch::Piece::error(double x) const {
-  if (curve_.places() == 0) return Vector::Zero(begin_.size());
+  if (!std::isfinite(least_)) return Vector::Zero(begin_.size());
   const double s = along(x);
   const double bulge = s * (1 - s);
   Vector last = bulge * bulge * curve_.cubic();

@@ -168,10 +168,6 @@ void Stepper::begin_piece(const CurvePoint& origin) {
   revision_ = problem_.revision();
 }
 
-bool Stepper::is_over_parameter() const {
-  return corrector_.options().over_parameter && problem_.is_linear(step_.here.regime);
-}
-
 double Stepper::slope_length(Hold hold) const {
   return hold == Hold::tangent ? 1 : 1 / std::abs(step_.here.tangent(step_.here.tangent.size() - 1));
 }
@@ -272,8 +268,7 @@ bool Stepper::finish(bool lands, double value) {
     }
   }
   const bool keeps_way = step_.there.orientation == step_.here.orientation;
-  if (keeps_way && is_regular()) return true;
-  if (!is_regular() && (!crossings_.may_find(pairs_) || crossings_.search())) return true;
+  if (is_regular() ? keeps_way : !crossings_.may_find(pairs_) || crossings_.search()) return true;
   if (keeps_way && step_.is_tiny(step_.distance)) return true;  // a corner
   signals_.turn = limits_.turn_limit * 4;
   return false;

@@ -118,8 +118,8 @@ double Tracer::to_even_value(double distance, double rate) const {
   constexpr double parts = 64;  // of the step
   const double way = distance * parameter_scale();
   const double unit = std::exp2(std::floor(std::log2(way))) / parts;
-  const double end = std::copysign(1.0, rate) > 0 ? std::floor((value() + way) / unit) * unit
-                                                  : std::ceil((value() - way) / unit) * unit;
+  const double end =
+      rate > 0 ? std::floor((value() + way) / unit) * unit : std::ceil((value() - way) / unit) * unit;
   const double even = std::abs(end - value()) / parameter_scale();
   return even > 0.5 * distance ? even : distance;
 }

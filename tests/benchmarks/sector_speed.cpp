@@ -21,9 +21,9 @@
 #include "../../src/sectors/cholesky.hpp"
 #include "../../src/sectors/complex_factors.hpp"
 #include "../../src/sectors/full_receptance.hpp"
+#include "../support/rim_plate.hpp"
 #include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
-#include "arcslip/sectors/annular_plate.hpp"
 #include "arcslip/sectors/lowest_frequency.hpp"
 #include "arcslip/sectors/sector_modes.hpp"
 #include "arcslip/sectors/sector_solver.hpp"
@@ -55,22 +55,6 @@ double peak_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-FiniteSector plate(Index elements) {
-  FiniteSector sector = annular_plate_sector({.inner_radius = 0.06,
-                                              .outer_radius = 0.15,
-                                              .thickness = 0.012,
-                                              .youngs_modulus = 1.1e11,
-                                              .poisson_ratio = 0.26,
-                                              .density = 7200,
-                                              .sectors = wave.sectors,
-                                              .radial_elements = elements,
-                                              .angular_elements = elements});
-  sector.contacts.resize(1);
-  sector.outputs.clear();
-  sector.load(sector.contacts.front()) = 1;
-  return sector;
 }
 
 /// Stiffness and mass of a cube of steel with eight nodes, three dofs each, by two points in each direction.
@@ -211,7 +195,8 @@ void measure(const char* shape, const FiniteSector& sector) {
 }
 
 void measure_both(double dofs) {
-  measure("plate", plate(std::lround(std::sqrt(dofs / 4))));
+  const auto elements = static_cast<Index>(std::lround(std::sqrt(dofs / 4)));
+  measure("plate", testing::rim_plate(wave.sectors, elements, elements));
   measure("cube", cube(std::lround(std::cbrt(dofs / 3))));
 }
 

@@ -12,12 +12,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "../support/engine_problems.hpp"
+#include "../support/least_seconds.hpp"
 #include "../support/sparse_problems.hpp"
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/trace.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 using namespace arcslip;
 using namespace arcslip::continuation;
-using Clock = std::chrono::steady_clock;
+using testing::least_seconds;
 
 /// Bratu's problem in one dimension as an integral equation, u(x) = L int G(x, y) e^u(y) dy with Green's
 /// function G = min(x, y) (1 - max(x, y)): its Jacobian is full.
@@ -74,18 +74,6 @@ struct Case {
   long points;
   double goal;
 };
-
-/// Least of several runs, which is the one that nothing disturbed, in seconds a run.
-template <class Run>
-double least_seconds(int runs, Run run) {
-  double least = HUGE_VAL;
-  for (int i = 0; i < runs; ++i) {
-    const Clock::time_point start = Clock::now();
-    run();
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  return least;
-}
 
 struct Cost {
   double evaluation;

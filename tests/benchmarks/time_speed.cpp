@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 
+#include "../support/least_seconds.hpp"
 #include "../support/ring_cases.hpp"
 #include "arcslip/structure/spectrum.hpp"
 #include "arcslip/time/ring_response.hpp"
@@ -20,19 +20,7 @@
 namespace {
 
 using namespace arcslip;
-using Clock = std::chrono::steady_clock;
-
-/// Least of a few runs, which is the one that nothing disturbed, in seconds.
-template <class Run>
-double least_seconds(int runs, Run run) {
-  double least = HUGE_VAL;
-  for (int i = 0; i < runs; ++i) {
-    const Clock::time_point start = Clock::now();
-    run();
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  return least;
-}
+using testing::least_seconds;
 
 SystemParameters figure_8(Index nodes) {
   SystemParameters system;

@@ -1,8 +1,8 @@
 // The response that modes are compared with is that of the matrices, whatever the modes are worth.
 
-#include "arcslip/sectors/annular_plate.hpp"
 #include "arcslip/sectors/sector_solver.hpp"
 #include "catch.hpp"
+#include "rim_plate.hpp"
 #include "sectors/full_response.hpp"
 #include "sectors/turning_modes.hpp"
 
@@ -14,18 +14,8 @@ constexpr Loss plate_loss{.structural = 2e-3};
 constexpr SectorWave three_waves{3, 24};
 
 FiniteSector plate() {
-  FiniteSector sector = annular_plate_sector({.inner_radius = 0.06,
-                                              .outer_radius = 0.15,
-                                              .thickness = 0.012,
-                                              .youngs_modulus = 1.1e11,
-                                              .poisson_ratio = 0.26,
-                                              .density = 7200,
-                                              .sectors = three_waves.sectors,
-                                              .radial_elements = 12,
-                                              .angular_elements = 4});
-  sector.contacts.resize(1);
+  FiniteSector sector = testing::rim_plate(three_waves.sectors, 12, 4);
   sector.outputs = {sector.contacts.front() + 5};
-  sector.load(sector.contacts.front()) = 1;
   return checked(sector);
 }
 

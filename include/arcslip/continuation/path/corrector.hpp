@@ -78,6 +78,11 @@ class Corrector {
   /// An unset point of the right sizes.
   CurvePoint make_point() const;
 
+  /// Whether in this regime lengths are those of the parameter alone.
+  bool is_over_parameter(const Regime& regime) const {
+    return options_.over_parameter && problem_.is_linear(regime);
+  }
+
   /// Fills `point.scale` from the problem.
   void set_scale(CurvePoint& point);
 

@@ -15,7 +15,7 @@
 
 namespace arcslip::continuation {
 
-/// Of a vector function of s, at up to four places. Keeps its memory.
+/// Of a vector function of s, at up to four places.
 class Hermite {
  public:
   static constexpr std::size_t most_places = 4;
@@ -26,14 +26,11 @@ class Hermite {
     double into;
   };
 
-  /// Forgets its places.
-  void clear(std::optional<Corner> corner = std::nullopt);
+  /// In s, or in the root of the distance from a corner.
+  explicit Hermite(std::optional<Corner> corner = std::nullopt) : corner_(corner) {}
 
   /// Another place, with the function's value and slope there.
   void add(double s, const Vector& value, const Vector& slope);
-
-  /// How many places it has.
-  std::size_t places() const { return places_; }
 
   /// The function at s, by the first places alone.
   void at(double s, std::size_t places, Vector& out) const;

@@ -79,7 +79,7 @@ class Stepper {
   bool is_regular() const { return problem_.is_regular(step_.here.regime); }
 
   /// Whether from `here` on the unknowns are linear functions' and lengths those of the parameter.
-  bool is_over_parameter() const;
+  bool is_over_parameter() const { return corrector_.is_over_parameter(step_.here.regime); }
 
   /// Arclength per distance at `here`: 1 or more.
   double slope_length(Hold hold) const;
