@@ -119,6 +119,9 @@ CurveStart curve_through(const Problem& base, const std::string& active, const B
       start.problem = std::make_unique<BorderProblem>(base, parameter, nearest_border(base, point));
       break;
     default:
+      start.problem = base.special(point.type, parameter, {point.unknowns, point.parameters, point.regime},
+                                   start.point.extras);
+      if (start.problem != nullptr) break;
       throw std::invalid_argument(
           fmt::format("curve_through: no curve is made of points of type {}", to_string(point.type)));
   }

@@ -95,12 +95,11 @@ ComplexVector vector_at(const Matrix& a, double sign, double& omega) {
 
 }  // namespace
 
-std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf) {
+std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, double omega) {
   if (problem.sparse()) return std::nullopt;
   Derivatives derivatives(problem, hopf);
   Matrix a;
   if (!derivatives.linear(a)) return std::nullopt;
-  double omega = 0;
   const ComplexVector q = vector_at(a, 1, omega);
   if (q.size() == 0) return std::nullopt;
   double same = omega;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/points/hopf_form.hpp"
 
 namespace arcslip::continuation {
 
@@ -118,8 +119,14 @@ bool HopfProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& re
   return true;
 }
 
-void HopfProblem::test(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/, Vector& values) const {
-  values = u.tail(1);
+void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const BasePoint point = split(u, p, regime);
+  const double kappa = point.extras(0);
+  values.resize(2);
+  values << kappa, std::nan("");
+  if (!(kappa > 0)) return;
+  if (const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa)))
+    values(1) = form->lyapunov;
 }
 
 }  // namespace arcslip::continuation

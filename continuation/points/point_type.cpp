@@ -23,12 +23,14 @@ std::string_view to_string(PointType type) {
     case PointType::neimark_sacker: return "neimark_sacker";
     case PointType::period_doubling: return "period_doubling";
     case PointType::symmetry_breaking: return "symmetry_breaking";
+    case PointType::generalized_hopf: return "generalized_hopf";
+    case PointType::strong_resonance: return "strong_resonance";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::symmetry_breaking); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::strong_resonance); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

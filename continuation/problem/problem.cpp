@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
 
@@ -34,6 +35,11 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime
 
 void Problem::test(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/, Vector& values) const {
   values.resize(0);
+}
+
+std::unique_ptr<ExtendedProblem> Problem::special(PointType /*type*/, Index /*active*/, const Guess& /*at*/,
+                                                  Vector& /*extras*/) const {
+  return nullptr;
 }
 
 std::string Problem::describe(const Regime& regime) const {

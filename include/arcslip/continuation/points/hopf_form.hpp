@@ -22,8 +22,8 @@ struct HopfForm {
   double lyapunov = 0;  ///< l_1
 };
 
-/// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to the imaginary axis. None
-/// where derivatives cannot be had or no pair is there.
-[[nodiscard]] std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf);
+/// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
+/// 0, to the imaginary axis. None where derivatives cannot be had or no pair is there.
+[[nodiscard]] std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, double omega = 0);
 
 }  // namespace arcslip::continuation

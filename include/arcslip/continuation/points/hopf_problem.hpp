@@ -26,7 +26,10 @@ class HopfProblem : public ExtendedProblem {
   std::optional<PointType> last_of_curve() const override { return PointType::bogdanov_takens; }
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
-  std::vector<PointType> test_types() const override { return {PointType::bogdanov_takens}; }
+  /// kappa, and the first Lyapunov coefficient of the cycles that leave.
+  std::vector<PointType> test_types() const override {
+    return {PointType::bogdanov_takens, PointType::generalized_hopf};
+  }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                  ComplexVector& values) const override;

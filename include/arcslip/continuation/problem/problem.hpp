@@ -4,6 +4,7 @@
 // each of its regimes. A regime ends where one of its border functions, negative inside, reaches zero.
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ struct Observable {
     return period > 0 ? other + std::remainder(value - other, period) : value;
   }
 };
+
+class ExtendedProblem;
+struct Guess;
 
 /// Only the first three have to be written. All are called from several threads and must not change the
 /// problem.
@@ -166,6 +170,11 @@ class Problem {
   [[nodiscard]] virtual std::optional<std::string> wrong_derivative(const Vector& u, const Vector& p,
                                                                     const Regime& regime, Index parameter,
                                                                     const std::vector<Index>& tracked) const;
+
+  /// The conditions on special points of a type that this problem has of its own, with `active` as an
+  /// unknown, for a point like `at`: sets the extras that they begin with. Null where there are none.
+  virtual std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
+                                                   Vector& extras) const;
 
   /// Its symmetries but for the identity, at all parameters: a group.
   virtual std::vector<Symmetry> symmetries() const { return {}; }

@@ -1,0 +1,79 @@
+#include "arcslip/continuation/cycles/collocation_rule.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/math/special_functions/legendre.hpp>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip::continuation {
+namespace {
+
+/// P_m and its first two derivatives at x.
+struct Legendre {
+  double value, first, second;
+};
+
+Legendre legendre(int m, double x) {
+  const double value = boost::math::legendre_p(m, x);
+  const double first = boost::math::legendre_p_prime(m, x);
+  return {value, first, (2 * x * first - m * (m + 1) * value) / (1 - x * x)};
+}
+
+}  // namespace
+
+CollocationRule::CollocationRule(int degree)
+    : degree_(degree), nodes_(degree + 1), barycentric_(degree + 1), points_(degree), weights_(degree) {
+  if (degree < least || degree > most)
+    throw std::invalid_argument(
+        fmt::format("collocation: expected a degree from {} to {}, got {}", least, most, degree));
+  const int m = degree;
+  nodes_(0) = 0;
+  nodes_(m) = 1;
+  for (int i = 0; i < m; ++i) {  // zeros of P_m, and between them those of P_m'
+    double x = -std::cos(pi * (i + 0.75) / (m + 0.5));
+    for (int round = 0; round < 8; ++round) x -= legendre(m, x).value / legendre(m, x).first;
+    const double slope = legendre(m, x).first;
+    points_(i) = 0.5 * (1 + x);
+    weights_(i) = 1 / ((1 - x * x) * slope * slope);
+    if (i == 0) continue;
+    double y = -std::cos(pi * i / m);
+    for (int round = 0; round < 8; ++round) y -= legendre(m, y).first / legendre(m, y).second;
+    nodes_(i) = 0.5 * (1 + y);
+  }
+  for (int k = 0; k <= m; ++k) {
+    double product = 1;
+    for (int l = 0; l <= m; ++l) product *= l == k ? 1 : nodes_(k) - nodes_(l);
+    barycentric_(k) = 1 / product;
+  }
+  highest_ = std::tgamma(m + 1) * barycentric_;
+  values_.resize(m, m + 1);
+  derivatives_.resize(m, m + 1);
+  Vector value;
+  Vector derivative;
+  for (int i = 0; i < m; ++i) {
+    at(points_(i), value, derivative);
+    values_.row(i) = value.transpose();
+    derivatives_.row(i) = derivative.transpose();
+  }
+}
+
+void CollocationRule::at(double s, Vector& value, Vector& derivative) const {
+  const Index count = degree_ + 1;
+  value.resize(count);
+  derivative.resize(count);
+  for (Index k = 0; k < count; ++k) {
+    // product and its derivative, factor by factor
+    double product = barycentric_(k);
+    double slope = 0;
+    for (Index l = 0; l < count; ++l) {
+      if (l == k) continue;
+      slope = slope * (s - nodes_(l)) + product;
+      product *= s - nodes_(l);
+    }
+    value(k) = product;
+    derivative(k) = slope;
+  }
+}
+
+}  // namespace arcslip::continuation

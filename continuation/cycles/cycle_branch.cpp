@@ -1,0 +1,236 @@
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace arcslip::continuation {
+namespace {
+
+/// Vectors of one frame in another one.
+class Carrier {
+ public:
+  Carrier(const CycleProblem& problem, const Regime& from, const Regime& to)
+      : problem_(problem), from_(problem.frame(from).mesh), to_(problem.frame(to).mesh), regime_(to) {}
+
+  /// n + 1 or n entries, of which those of the orbit change.
+  Vector operator()(const Vector& all) const {
+    Vector result = all;
+    const Index n = problem_.field().size();
+    result.head(n * to_.nodes()) = from_.carried(problem_.orbit(all), to_).reshaped();
+    return result;
+  }
+
+  /// A point with its tangent, corrected where that can be done.
+  bool carry(Corrector& corrector, CurvePoint& point) const {
+    const Vector raw = (*this)(point.tangent.cwiseProduct(point.scale));
+    point.unknowns = (*this)(point.unknowns);
+    point.regime = regime_;
+    corrector.set_scale(point);
+    point.tangent = raw.cwiseQuotient(point.scale).normalized();
+    const CurvePoint origin = point;
+    if (corrector.correct(point, origin, origin.tangent, 0, true) != Correction::converged) {
+      point = origin;
+      return false;
+    }
+    corrector.set_tangent(point, origin);
+    return true;
+  }
+
+ private:
+  const CycleProblem& problem_;
+  const OrbitMesh& from_;
+  const OrbitMesh& to_;
+  Regime regime_;
+};
+
+/// How far along a branch the frame of its last point serves.
+class MeshWatch {
+ public:
+  MeshWatch(CycleProblem& problem, const CycleOptions& options) : problem_(problem), options_(options) {}
+
+  bool serves(const BranchPoint& point) const {
+    constexpr double grip = 0.5;
+    return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
+           problem_.phase_grip(point.unknowns, point.regime) > grip;
+  }
+
+  /// A frame for an orbit; none where no mesh of as many intervals is good enough.
+  std::optional<Regime> renewed(const Vector& u, const Vector& p, const Regime& regime) {
+    constexpr double margin = 0.3;  // or the next point would ask again
+    const OrbitFrame& frame = problem_.frame(regime);
+    const Matrix orbit = problem_.orbit(u);
+    OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.intervals());
+    Matrix carried = frame.mesh.carried(orbit, mesh);
+    if (mesh.errors(carried, frame.range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
+    return problem_.add_frame(mesh, carried, p);
+  }
+
+ private:
+  CycleProblem& problem_;
+  const CycleOptions& options_;
+};
+
+/// Thrown where more intervals are needed and there may be more.
+struct TooCoarse {};
+
+/// Puts a branch on a mesh that fits where it stands; false if no mesh of as many intervals does.
+bool renew(CycleProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
+  Progress& progress = *branch.checkpoint->ahead;
+  const Regime before = progress.here.regime;
+  const auto regime = meshes.renewed(progress.here.unknowns, progress.here.parameters, before);
+  if (!regime) return false;
+  const Carrier carrier(problem, before, *regime);
+  Corrector corrector(problem, index_of(problem.parameter_names(), options.parameter),
+                      {.tolerance = options.tolerance});
+  const Vector bend = carrier(progress.bend.cwiseProduct(progress.here.scale));
+  if (!carrier.carry(corrector, progress.here)) return false;
+  progress.bend = bend.cwiseQuotient(progress.here.scale);
+  Carrier(problem, progress.start.regime, *regime).carry(corrector, progress.start);
+  progress.past.clear();
+  return true;
+}
+
+/// Tells where the period grows while the parameter no longer changes: where an orbit comes ever nearer to an
+/// equilibrium.
+class GrowthWatch {
+ public:
+  GrowthWatch(const CycleProblem& problem, const TraceOptions& options)
+      : problem_(problem),
+        options_(options),
+        parameter_(index_of(problem.parameter_names(), options.parameter)) {}
+
+  bool goes_on(const BranchPoint& point) {
+    constexpr double grown = 1.05;
+    if (!problem_.has_duration()) return true;
+    Vector unknowns(problem_.size());
+    Vector scale(point.parameters.size());
+    problem_.scale(point.unknowns, point.parameters, unknowns, scale);
+    const double value = point.parameters(parameter_);
+    const double period = problem_.duration(point.unknowns, point.parameters);
+    const double same = options_.tolerances.same_value * scale(parameter_);
+    if (!(std::abs(value - value_) <= same) || period < period_) {
+      value_ = value;
+      period_ = period;
+    }
+    return period < grown * period_;
+  }
+
+  /// A sentence.
+  std::string told() const {
+    return fmt::format(
+        "the period grows without bound, past {:.6g}: an orbit that begins and ends on an equilibrium lies "
+        "at {} = {:.10g}",
+        period_, options_.parameter, value_);
+  }
+
+ private:
+  const CycleProblem& problem_;
+  const TraceOptions& options_;
+  Index parameter_;
+  double value_ = std::numeric_limits<double>::quiet_NaN();
+  double period_ = 0;
+};
+
+/// Ends a branch where its cycles become simpler ones, by an event.
+class KindWatch {
+ public:
+  KindWatch(const CycleProblem& problem, TraceOptions& options)
+      : problem_(problem), parameter_(options.parameter) {
+    constexpr double nothing = 1e-3;  // of what there was: nearer to it cycles are hard to tell from others
+    options.events.push_back({name, [&problem](const Vector& u, const Vector& /*p*/, const Regime& regime) {
+                                return problem.apart(u, regime) - nothing;
+                              }});
+    options.stop_after.push_back({PointType::event, 1, name});
+  }
+
+  /// Says so of a branch that has ended for it.
+  void tell(Branch& branch) const {
+    if (branch.stop != Stop::requested || branch.points.back().label != name) return;
+    BranchPoint& last = branch.points.back();
+    last.type = PointType::end;
+    last.label.clear();
+    branch.stop = Stop::left_regime;
+    branch.explanation = fmt::format("{}, at {} = {:.10g}", problem_.end_of_kind(), parameter_,
+                                     last.parameters(index_of(problem_.parameter_names(), parameter_)));
+    branch.checkpoint.reset();
+  }
+
+ private:
+  static constexpr const char* name = "end of a kind of cycles";
+  const CycleProblem& problem_;
+  std::string parameter_;
+};
+
+/// One way; `begin` traces up to where the observer says no.
+template <class Begin>
+Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& cycles,
+               const Observer& observer, const Begin& begin) {
+  const KindWatch kind(problem, options);
+  MeshWatch meshes(problem, cycles);
+  GrowthWatch growth(problem, options);
+  bool worn = false;
+  bool told = false;
+  bool grows = false;
+  const TimeBudget time(options);
+  const Observer watching = [&](const BranchPoint& point) {
+    told = observer && !observer(point);
+    worn = !meshes.serves(point);
+    grows = !growth.goes_on(point);
+    return !told && !worn && !grows;
+  };
+  Branch branch = begin(options, watching);
+  while (branch.stop == Stop::interrupted && worn && !told && !grows) {
+    worn = false;
+    if (!renew(problem, meshes, branch, options)) {
+      if (2 * problem.intervals() <= cycles.most_intervals) throw TooCoarse{};
+      branch.stop = Stop::no_value;
+      branch.explanation = fmt::format(
+          "an orbit of {} intervals misses more than {:g} of what its unknowns do, at {} = {:.10g}",
+          problem.intervals(), cycles.tolerance, options.parameter,
+          branch.points.back().parameters(index_of(problem.parameter_names(), options.parameter)));
+      return branch;
+    }
+    TraceOptions rest = options;
+    rest.max_seconds = time.rest().max_seconds;
+    branch = go_on_with(problem, std::move(branch), rest, watching);
+  }
+  kind.tell(branch);
+  if (branch.stop == Stop::interrupted && grows && !told) {
+    branch.stop = Stop::asymptotic;
+    branch.explanation = growth.told();
+    branch.checkpoint.reset();
+  }
+  return branch;
+}
+
+CycleBranch on_these_intervals(const CycleStart& start, const TraceOptions& options,
+                               const CycleOptions& cycles, const Observer& observer) {
+  CycleProblem& problem = *start.problem;
+  const auto part = [&](bool towards_to) {
+    return one_way(problem, options, cycles, observer,
+                   [&](const TraceOptions& watched, const Observer& watching) {
+                     return trace_one_way(problem, start.guess, towards_to, watched, watching);
+                   });
+  };
+  if (start.guess.direction.size() > 0 && !start.both_ways) return {start.problem, part(true)};
+  return {start.problem, trace_parts([&] { return part(true); }, [&] { return part(false); }, start.guess)};
+}
+
+}  // namespace
+
+CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options, const CycleOptions& cycles,
+                         const Observer& observer) {
+  const TimeBudget time(options);
+  CycleStart at = start;
+  while (true) {
+    try {
+      return on_these_intervals(at, time.rest(), cycles, observer);
+    } catch (const TooCoarse&) {
+      at = refined(start, 2 * at.problem->intervals());
+    }
+  }
+}
+
+}  // namespace arcslip::continuation

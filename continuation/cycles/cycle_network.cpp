@@ -1,0 +1,147 @@
+// All cycles that can be reached from equilibria.
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+/// By what a solution is known whatever its mesh and its phase are.
+struct Mark {
+  PointType type;
+  double value;  // of the parameter, in its scale
+  Vector observed;
+};
+
+/// Follows cycles, each branch once.
+class CycleNetwork {
+ public:
+  CycleNetwork(std::shared_ptr<const Field> field, const TraceOptions& options, const CycleOptions& cycles,
+               const Observer& observer)
+      : field_(std::move(field)),
+        options_(unwatched(options)),
+        cycles_(cycles),
+        observer_(observer),
+        parameter_(index_of(field_->parameter_names(), options.parameter)),
+        time_(options_) {}
+
+  void leave_hopf(const BranchPoint& hopf) {
+    CycleStart start = cycle_from_hopf(field_, {hopf.unknowns, hopf.parameters, hopf.regime}, cycles_);
+    const double period = start.guess.unknowns.tail(1)(0);
+    if (is_reached(hopf.parameters, period)) return;
+    follow(start, 0);
+  }
+
+  void follow_waiting() {
+    while (!waiting_.empty() && may_go_on()) {
+      const Waiting next = std::move(waiting_.front());
+      waiting_.pop_front();
+      leave(next);
+    }
+  }
+
+  bool may_go_on() const { return !interrupted_ && time_.goes_on() && found_.size() < cycles_.max_branches; }
+  std::vector<CycleBranch> take() { return std::move(found_); }
+
+ private:
+  struct Waiting {
+    std::shared_ptr<const CycleProblem> problem;
+    BranchPoint point;
+    int doublings;
+  };
+
+  void follow(const CycleStart& start, int doublings) {
+    CycleBranch traced = trace_cycles(start, time_.rest(), cycles_, observer_);
+    interrupted_ = is_unfinished(traced.branch.stop);
+    for (const BranchPoint& point : traced.branch.points) {
+      if (point.type == PointType::branch_point || point.type == PointType::period_doubling) {
+        marks_.push_back(mark(*traced.problem, point));
+        waiting_.push_back({traced.problem, point, doublings});
+      }
+    }
+    if (traced.branch.stop == Stop::left_regime) {
+      const BranchPoint& last = traced.branch.points.back();
+      const double rounds = traced.problem->is_doubled() ? 2 : 1;
+      ends_.push_back({last.parameters, traced.problem->duration(last.unknowns, last.parameters) / rounds});
+    }
+    found_.push_back(std::move(traced));
+  }
+
+  void leave(const Waiting& from) {
+    const bool doubles = from.point.type == PointType::period_doubling;
+    if (doubles) {
+      const double period = from.problem->duration(from.point.unknowns, from.point.parameters);
+      if (from.doublings >= cycles_.doublings || is_reached(from.point.parameters, period)) return;
+    } else if (times_marked(mark(*from.problem, from.point)) > 1) {
+      return;  // both of its branches are known
+    }
+    const std::optional<CycleStart> start =
+        doubles ? cycle_from_doubling(*from.problem, parameter_, from.point)
+                : cycle_from_branch_point(*from.problem, options_.parameter, from.point, options_.tolerances);
+    if (start) follow(*start, from.doublings + (doubles ? 1 : 0));
+  }
+
+  /// Whether a branch has ended there, on a cycle of this period or on an equilibrium.
+  bool is_reached(const Vector& parameters, double period) const {
+    constexpr double near = 1e-3;  // branches end this short of it, and nearer by the square of their size
+    return std::any_of(ends_.begin(), ends_.end(), [&](const End& end) {
+      const Vector size = parameters.cwiseAbs().cwiseMax(near);
+      return (end.parameters - parameters).cwiseQuotient(size).lpNorm<Eigen::Infinity>() < near &&
+             std::abs(end.period - period) < near * period;
+    });
+  }
+
+  Mark mark(const CycleProblem& problem, const BranchPoint& point) const {
+    Mark result{point.type, point.parameters(parameter_), {}};
+    problem.observe(point.unknowns, point.parameters, point.regime, result.observed);
+    return result;
+  }
+
+  long times_marked(const Mark& at) const {
+    constexpr double same = 1e-5;  // located as well, on meshes of their own
+    return std::count_if(marks_.begin(), marks_.end(), [&](const Mark& other) {
+      const Vector size = at.observed.cwiseAbs().cwiseMax(1e-3 * at.observed.lpNorm<Eigen::Infinity>());
+      return other.type == at.type &&
+             std::abs(other.value - at.value) <= same * std::max(1.0, std::abs(at.value)) &&
+             (other.observed - at.observed).cwiseQuotient(size).lpNorm<Eigen::Infinity>() < 10 * same;
+    });
+  }
+
+  struct End {
+    Vector parameters;
+    double period;
+  };
+
+  std::shared_ptr<const Field> field_;
+  TraceOptions options_;
+  CycleOptions cycles_;
+  const Observer& observer_;
+  Index parameter_;
+  TimeBudget time_;
+  std::vector<CycleBranch> found_;
+  std::deque<Waiting> waiting_;
+  std::vector<Mark> marks_;
+  std::vector<End> ends_;
+  bool interrupted_ = false;
+};
+
+}  // namespace
+
+std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
+                                              const std::vector<Branch>& equilibria,
+                                              const TraceOptions& options, const CycleOptions& cycles,
+                                              const Observer& observer) {
+  CycleNetwork network(field, options, cycles, observer);
+  for (const Branch& branch : equilibria) {
+    for (const BranchPoint& point : branch.points) {
+      if (point.type == PointType::hopf && network.may_go_on()) network.leave_hopf(point);
+    }
+  }
+  network.follow_waiting();
+  return network.take();
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,222 @@
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/cycles/torus_problem.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
+
+namespace arcslip::continuation {
+
+CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
+                           const Vector& p, int periods, bool doubled)
+    : OrbitProblem(field, !field->is_periodic()), periods_(periods), doubled_(doubled) {
+  begin(mesh, orbit, p);
+}
+
+std::string CycleProblem::end_of_kind() const {
+  return doubled_ ? "the cycle becomes two rounds of one of half the period"
+                  : "the cycle shrinks onto an equilibrium";
+}
+
+/// What it is beside its mean or, of a doubled one, half of what tells both of its rounds apart.
+Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
+  if (!doubled_ && !has_duration()) return {};
+  const CollocationRule& rule = mesh.rule();
+  const Index m = rule.degree();
+  Matrix part(orbit.rows(), m * mesh.intervals());
+  Vector mean = Vector::Zero(orbit.rows());
+  Vector here;
+  Vector there;
+  for (Index j = 0; j < mesh.intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
+      mesh.at(orbit, s, here, nullptr);
+      if (doubled_) {
+        mesh.at(orbit, s < 0.5 ? s + 0.5 : s - 0.5, there, nullptr);
+        here = 0.5 * (here - there);
+      } else {
+        mean += rule.weights()(i) * mesh.length(j) * here;
+      }
+      part.col(j * m + i) = here;
+    }
+  }
+  part.colwise() -= mean;
+  return part;
+}
+
+bool CycleProblem::end_conditions(const Vector& left, const Vector& right, const Vector& /*p*/,
+                                  const EndConditions& out) const {
+  if (out.values != nullptr) *out.values = right - left;
+  if (out.by_left != nullptr) *out.by_left = -Matrix::Identity(left.size(), left.size());
+  if (out.by_right != nullptr) out.by_right->setIdentity();
+  if (out.by_parameters != nullptr) out.by_parameters->setZero();
+  return true;
+}
+
+double CycleProblem::given_duration(const Vector& p, Vector* by_parameters) const {
+  const double period = field().period(p, by_parameters);
+  if (by_parameters != nullptr) *by_parameters *= periods_;
+  return periods_ * period;
+}
+
+ComplexVector CycleProblem::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  std::vector<Matrix> factors;
+  if (!transfers(u, p, regime, factors)) return {};
+  if (!has_duration()) return continuation::log_multipliers(factors);
+  std::vector<Vector> velocities;
+  Vector velocity(field().size());
+  for (Index j = 0; j <= intervals(); ++j) {
+    if (!field().evaluate(0, orbit(u).col(j * degree()), p, {&velocity})) return {};
+    velocities.push_back(velocity);
+  }
+  return log_multipliers_beside(factors, velocities);
+}
+
+bool CycleProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                               ComplexVector& values) const {
+  values = log_multipliers(u, p, regime);
+  for (Complex& value : values) {
+    value.real(std::max(value.real(), -1e3));  // of a multiplier that is 0
+    if (std::abs(value.imag()) == pi) value.imag(0);
+  }
+  values /= duration(u, p);
+  return values.size() > 0 && values.allFinite();
+}
+
+/// prod (1 + mu), each factor over 1 + |mu|.
+void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const ComplexVector logs = log_multipliers(u, p, regime);
+  Complex product = 1;
+  for (const Complex& log : logs) {
+    const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
+    const Complex turn = std::polar(1.0, log.imag());
+    product *= (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
+  }
+  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : product.real());
+}
+
+std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index active, const Guess& at,
+                                                       Vector& extras) const {
+  if (type == PointType::period_doubling) return std::make_unique<DoublingProblem>(*this, active);
+  if (type != PointType::neimark_sacker) return nullptr;
+  const ComplexVector logs = log_multipliers(at.unknowns, at.parameters, at.regime);
+  double nearest = std::numeric_limits<double>::infinity();  // of all pairs to the unit circle
+  for (const Complex& log : logs) {
+    const bool is_pair = log.imag() > 0 && log.imag() < pi;
+    if (!is_pair || std::abs(log.real()) >= nearest) continue;
+    nearest = std::abs(log.real());
+    extras = Vector::Constant(1, std::cos(log.imag()));
+  }
+  if (!std::isfinite(nearest)) return nullptr;
+  return std::make_unique<TorusProblem>(*this, active);
+}
+
+std::vector<Observable> CycleProblem::observables() const {
+  std::vector<Observable> all{{"T", true}};
+  for (const std::string& name : field().names()) {
+    all.push_back({name + "_max", true});
+    all.push_back({name + "_min", true});
+  }
+  all.push_back({"norm", true});
+  return all;
+}
+
+/// The largest value of an unknown times a sign, and by which nodes.
+struct CycleProblem::Extremum {
+  double value = 0;
+  Index first = 0;  // node
+  Vector weights;
+};
+
+auto CycleProblem::extremum(const Vector& u, const Regime& regime, Index unknown, double sign) const
+    -> Extremum {
+  const CollocationRule& rule = frame(regime).mesh.rule();
+  const Vector values = sign * orbit(u).row(unknown).transpose();
+  const Index m = degree();
+  Index highest = 0;
+  values.maxCoeff(&highest);
+  Extremum best{values(highest), highest, Vector::Ones(1)};
+  Vector weights;
+  Vector slopes;
+  const auto look = [&](Index interval) {  // bisects the slope about the highest of many values
+    const auto within = values.segment(interval * m, m + 1);
+    const auto value_at = [&](double s) {
+      rule.at(s, weights, slopes);
+      return within.dot(weights);
+    };
+    constexpr int looks = 16;
+    double top = 0;
+    double at = 0;
+    for (int i = 0; i <= looks; ++i) {
+      const double s = static_cast<double>(i) / looks;
+      const double value = value_at(s);
+      if (i == 0 || value > top) at = s;
+      top = i == 0 ? value : std::max(top, value);
+    }
+    double low = std::max(0.0, at - 1.0 / looks);
+    double high = std::min(1.0, at + 1.0 / looks);
+    for (int round = 0; round < 60 && low < high; ++round) {
+      at = 0.5 * (low + high);
+      value_at(at);
+      (within.dot(slopes) > 0 ? low : high) = at;
+    }
+    const double value = value_at(at);
+    if (value > best.value) best = {value, interval * m, weights};
+  };
+  const Index j = std::min(highest / m, intervals() - 1);
+  look(j);
+  if (highest % m == 0) look((j + intervals() - 1) % intervals());
+  best.value *= sign;
+  return best;
+}
+
+void CycleProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const Index n = field().size();
+  values.resize(2 * n + 2);
+  values(0) = duration(u, p);
+  for (Index i = 0; i < n; ++i) {
+    values(1 + 2 * i) = extremum(u, regime, i, 1).value;
+    values(2 + 2 * i) = extremum(u, regime, i, -1).value;
+  }
+  Gradient unused{Vector(size()), Vector(p.size())};
+  values(2 * n + 1) = observe(u, p, regime, 2 * n + 1, unused);
+}
+
+double CycleProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
+                             Gradient& gradient) const {
+  const Index n = field().size();
+  gradient.unknowns.setZero();
+  gradient.parameters.setZero();
+  if (which == 0) {
+    if (has_duration()) gradient.unknowns(size() - 1) = 1;
+    return duration(u, p, &gradient.parameters);
+  }
+  if (which <= 2 * n) {
+    const Index unknown = (which - 1) / 2;
+    const Extremum found = extremum(u, regime, unknown, which % 2 == 1 ? 1 : -1);
+    for (Index k = 0; k < found.weights.size(); ++k)
+      gradient.unknowns((found.first + k) * n + unknown) = found.weights(k);
+    return found.value;
+  }
+  const OrbitMesh& mesh = frame(regime).mesh;
+  const CollocationRule& rule = mesh.rule();
+  const Index m = degree();
+  double square = 0;
+  auto by_nodes = gradient.unknowns.head(n * nodes()).reshaped(n, nodes());
+  for (Index j = 0; j < intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const Vector at = orbit(u).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
+      const double weight = mesh.length(j) * rule.weights()(i);
+      square += weight * at.squaredNorm();
+      by_nodes.middleCols(j * m, m + 1) += weight * at * rule.values().row(i);
+    }
+  }
+  const double norm = std::sqrt(square);
+  if (norm > 0) gradient.unknowns /= norm;
+  return norm;
+}
+
+}  // namespace arcslip::continuation

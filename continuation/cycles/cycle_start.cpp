@@ -1,0 +1,140 @@
+// Where branches of cycles begin.
+
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/path/switching.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+// Of the scale: how far the first orbit of a branch is from what it leaves, and that which sets the first
+// frame.
+constexpr double first = 1e-3;
+constexpr double shape = 1e-2;
+
+/// A change of an orbit, as large as the scale.
+Matrix in_units(const Matrix& change, const Vector& scale) {
+  return change / change.cwiseQuotient(scale.replicate(1, change.cols())).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
+                            double duration, const Vector& p, int periods, bool doubled) {
+  CycleStart start{std::make_shared<CycleProblem>(std::move(field), mesh, orbit, p, periods, doubled), {}};
+  start.guess.unknowns.resize(start.problem->size());
+  start.guess.unknowns.head(orbit.size()) = orbit.reshaped();
+  if (start.problem->has_duration()) start.guess.unknowns.tail(1).setConstant(duration);
+  start.guess.parameters = p;
+  return start;
+}
+
+CycleStart cycle_from_hopf(std::shared_ptr<const Field> field, const Guess& hopf,
+                           const CycleOptions& options) {
+  const Index n = field->size();
+  Matrix jacobian(n, n);
+  if (field->is_periodic() || !field->evaluate(0, hopf.unknowns, hopf.parameters, {nullptr, &jacobian}))
+    throw std::invalid_argument("cycle_from_hopf: no equilibrium");
+  ComplexMatrix vectors;
+  const ComplexVector values = eigenvalues(jacobian, &vectors);
+  Index best = -1;
+  for (Index i = 0; i < n; ++i) {
+    if (values(i).imag() > 0 && (best < 0 || std::abs(values(i).real()) < std::abs(values(best).real())))
+      best = i;
+  }
+  if (best < 0) throw std::invalid_argument("cycle_from_hopf: no pair of eigenvalues is complex");
+  Vector scale(n);
+  Vector unused(hopf.parameters.size());
+  field->scale(hopf.unknowns, hopf.parameters, scale, unused);
+  const ComplexVector q = vectors.col(best);
+  const OrbitMesh mesh(CollocationRule(options.degree), options.intervals);
+  Matrix motion(n, mesh.nodes());
+  for (Index node = 0; node < mesh.nodes(); ++node)
+    motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
+  motion.rightCols(1) = motion.col(0);
+  motion = in_units(motion, scale);
+  const Matrix still = hopf.unknowns.replicate(1, mesh.nodes());
+  CycleStart start = cycle_from_orbit(std::move(field), mesh, still + shape * motion,
+                                      two_pi / values(best).imag(), hopf.parameters);
+  start.guess.unknowns.head(still.size()) = (still + first * motion).reshaped();
+  start.guess.direction.setZero(start.guess.unknowns.size() + 1);
+  start.guess.direction.head(motion.size()) = motion.reshaped();
+  return start;
+}
+
+std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
+                                              const BranchPoint& doubling) {
+  DoublingProblem conditions(problem, parameter);
+  const BasePoint guess{doubling.unknowns, doubling.parameters, doubling.regime, {}};
+  const auto located = locate(conditions, guess);
+  if (!located || !conditions.adapt(located->point)) return std::nullopt;
+  const OrbitMesh& single = problem.frame(doubling.regime).mesh;
+  const Index count = problem.intervals();
+  Vector borders(2 * count + 1);
+  borders << 0.5 * single.borders(), 0.5 + 0.5 * single.borders().tail(count).array();
+  const OrbitMesh mesh(single.rule(), borders);
+  const auto twice = [&](const Vector& all, double sign) {
+    const Matrix once = problem.orbit(all);
+    Matrix both(once.rows(), mesh.nodes());
+    both << once, sign * once.rightCols(once.cols() - 1);
+    return both;
+  };
+  const BasePoint& at = located->point;
+  const Matrix both = twice(at.unknowns, 1);
+  const Matrix change = in_units(twice(conditions.variation(), -1), problem.frame(at.regime).scale);
+  CycleStart start = cycle_from_orbit(problem.shared_field(), mesh, both + shape * change,
+                                      2 * problem.duration(at.unknowns, at.parameters), at.parameters,
+                                      2 * problem.periods(), true);
+  start.guess.unknowns.head(both.size()) = (both + first * change).reshaped();
+  start.guess.direction.setZero(start.guess.unknowns.size() + 1);
+  start.guess.direction.head(change.size()) = change.reshaped();
+  return start;
+}
+
+std::optional<CycleStart> cycle_from_branch_point(const CycleProblem& problem, const std::string& parameter,
+                                                  const BranchPoint& point, const Tolerances& tolerances) {
+  const std::vector<Guess> ways = other_ways(problem, parameter, point, tolerances);
+  if (ways.empty()) return std::nullopt;
+  const Guess& way = ways.front();
+  CycleStart start =
+      cycle_from_orbit(problem.shared_field(), problem.frame(point.regime).mesh, problem.orbit(way.unknowns),
+                       problem.duration(way.unknowns, way.parameters), way.parameters, problem.periods(),
+                       problem.is_doubled());
+  start.guess.direction = way.direction;
+  start.both_ways = true;
+  return start;
+}
+
+CycleStart refined(const CycleStart& start, Index intervals) {
+  const CycleProblem& from = *start.problem;
+  const OrbitFrame& frame = from.frame(start.guess.regime);
+  const Matrix orbit = from.orbit(start.guess.unknowns);
+  const bool has_direction = start.guess.direction.size() > 0;
+  const auto carried = [&](const OrbitMesh& mesh, const Vector& all) {
+    Vector result(from.field().size() * mesh.nodes() + all.size() - orbit.size());
+    result << frame.mesh.carried(from.orbit(all), mesh).reshaped(), all.tail(all.size() - orbit.size());
+    return result;
+  };
+  Matrix reference =
+      orbit;  // of the frame: more of the direction than the guess has, which is close to others
+  if (has_direction) {
+    const Matrix along = from.orbit(start.guess.direction);
+    reference += shape * in_units(along, frame.scale);
+  }
+  const OrbitMesh mesh = frame.mesh.equidistributed(reference, frame.range, intervals);
+  CycleStart result = cycle_from_orbit(from.shared_field(), mesh, frame.mesh.carried(reference, mesh), 1,
+                                       start.guess.parameters, from.periods(), from.is_doubled());
+  result.guess = start.guess;
+  result.both_ways = start.both_ways;
+  result.guess.unknowns = carried(mesh, start.guess.unknowns);
+  if (has_direction) result.guess.direction = carried(mesh, start.guess.direction);
+  result.guess.regime = {};
+  return result;
+}
+
+}  // namespace arcslip::continuation

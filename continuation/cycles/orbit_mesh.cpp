@@ -1,0 +1,95 @@
+#include "arcslip/continuation/cycles/orbit_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcslip::continuation {
+
+double OrbitMesh::place(Index node) const {
+  const Index j = std::min(node / rule_.degree(), intervals() - 1);
+  return borders_(j) + length(j) * rule_.nodes()(node - j * rule_.degree());
+}
+
+Index OrbitMesh::interval(double s) const {
+  const auto* beyond = std::upper_bound(borders_.data(), borders_.data() + borders_.size(), s);
+  return std::clamp<Index>(beyond - borders_.data() - 1, 0, intervals() - 1);
+}
+
+void OrbitMesh::at(const Matrix& values, double s, Vector& value, Vector* velocity) const {
+  const Index j = interval(s);
+  Vector weights;
+  Vector slopes;
+  rule_.at((s - borders_(j)) / length(j), weights, slopes);
+  const auto within = values.middleCols(j * rule_.degree(), rule_.degree() + 1);
+  value.noalias() = within * weights;
+  if (velocity != nullptr) velocity->noalias() = within * (slopes / length(j));
+}
+
+Matrix OrbitMesh::carried(const Matrix& values, const OrbitMesh& to) const {
+  Matrix result(values.rows(), to.nodes());
+  Vector value;
+  for (Index node = 0; node < to.nodes(); ++node) {
+    at(values, to.place(node), value, nullptr);
+    result.col(node) = value;
+  }
+  result.col(0) = values.col(0);
+  result.rightCols(1) = values.rightCols(1);
+  return result;
+}
+
+/// Of order m + 1 on each interval, in units of the scale: by how the m-th jumps at its ends, an orbit being
+/// periodic or not: a jump across the ends counts as the one beside it does.
+Vector OrbitMesh::highest_derivatives(const Matrix& values, const Vector& scale) const {
+  const Index m = rule_.degree();
+  const Index count = intervals();
+  Matrix of_degree(values.rows(), count);
+  for (Index j = 0; j < count; ++j) {
+    of_degree.col(j) =
+        (values.middleCols(j * m, m + 1) * rule_.highest()).cwiseQuotient(scale) / std::pow(length(j), m);
+  }
+  Vector at_borders(count + 1);
+  for (Index j = 1; j < count; ++j) {
+    at_borders(j) = (of_degree.col(j) - of_degree.col(j - 1)).lpNorm<Eigen::Infinity>() /
+                    (0.5 * (length(j) + length(j - 1)));
+  }
+  at_borders(0) = at_borders(std::min<Index>(1, count - 1));
+  at_borders(count) = at_borders(std::max<Index>(count - 1, 1));
+  return at_borders.head(count).cwiseMax(at_borders.tail(count));
+}
+
+Vector OrbitMesh::errors(const Matrix& values, const Vector& scale) const {
+  const Index order = rule_.degree() + 1;
+  double largest = 0;  // of the product of all s - nodes
+  for (int i = 1; i < 200; ++i)
+    largest = std::max(largest, std::abs((0.005 * i - rule_.nodes().array()).prod()));
+  Vector result = highest_derivatives(values, scale) * (largest / std::tgamma(order + 1));
+  for (Index j = 0; j < intervals(); ++j) result(j) *= std::pow(length(j), order);
+  return result;
+}
+
+OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, Index intervals) const {
+  constexpr double least = 0.2;   // of the mean density: what is smooth now may not be at the next point
+  constexpr double graded = 0.5;  // of the density next to it: no interval is much longer than its neighbour
+  const Index count = this->intervals();
+  Vector density = highest_derivatives(values, scale).array().pow(1.0 / (rule_.degree() + 1));
+  for (Index j = 1; j < count; ++j) density(j) = std::max(density(j), graded * density(j - 1));
+  for (Index j = count - 1; j-- > 0;) density(j) = std::max(density(j), graded * density(j + 1));
+  Vector lengths = borders_.tail(count) - borders_.head(count);
+  const double mean = density.dot(lengths);
+  if (!(mean > 0)) return {rule_, intervals};
+  density = density.cwiseMax(least * mean);
+  Vector sums = Vector::Zero(count + 1);
+  for (Index j = 0; j < count; ++j) sums(j + 1) = sums(j) + density(j) * lengths(j);
+  Vector borders(intervals + 1);
+  Index j = 0;
+  for (Index i = 0; i <= intervals; ++i) {
+    const double wanted = sums(count) * static_cast<double>(i) / static_cast<double>(intervals);
+    while (j + 1 < count && sums(j + 1) < wanted) ++j;
+    borders(i) = borders_(j) + (wanted - sums(j)) / density(j);
+  }
+  borders(0) = 0;
+  borders(intervals) = 1;
+  return {rule_, borders};
+}
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,366 @@
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace arcslip::continuation {
+namespace {
+
+/// Typical magnitudes of an orbit.
+void scales(const Field& field, const Eigen::Ref<const Matrix>& orbit, const Vector& p, Vector& unknowns,
+            Vector& parameters) {
+  field.scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, unknowns, parameters);
+}
+
+/// How far each unknown goes along an orbit; of those that hardly move as far as others do.
+Vector ranges(const Matrix& orbit, const Vector& scale) {
+  constexpr double least = 1e-3;
+  const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
+  const double largest = range.maxCoeff();
+  return largest > 0 ? range.cwiseMax(least * largest).cwiseProduct(scale) : scale;
+}
+
+/// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
+Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
+  const CollocationRule& rule = mesh.rule();
+  const Index m = rule.degree();
+  Matrix weights = Matrix::Zero(orbit.rows(), orbit.cols());
+  double square = 0;
+  for (Index j = 0; j < mesh.intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const Vector change = (orbit.middleCols(j * m, m + 1) * rule.derivatives().row(i).transpose())
+                                .cwiseQuotient(scale);  // over the interval
+      square += rule.weights()(i) * change.squaredNorm() / mesh.length(j);
+      weights.middleCols(j * m, m + 1) +=
+          rule.weights()(i) * change.cwiseQuotient(scale) * rule.values().row(i);
+    }
+  }
+  return weights.reshaped() / square;
+}
+
+}  // namespace
+
+/// What is found of the field at the Gauss points of an interval.
+struct OrbitProblem::Scratch {
+  Scratch(Index n, Index parameters, Index degree)
+      : place(n), velocity(n), by_time(n), velocities(n, degree), changes(n, degree) {
+    by_unknowns.assign(static_cast<std::size_t>(degree), Matrix(n, n));
+    by_parameters.assign(static_cast<std::size_t>(degree), Matrix(n, parameters));
+  }
+  Vector place;
+  Vector velocity;
+  Vector by_time;
+  Matrix velocities;  // f
+  Matrix changes;     // sum_k D_ik u_k
+  std::vector<Matrix> by_unknowns;
+  std::vector<Matrix> by_parameters;
+};
+
+OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration)
+    : field_(std::move(field)), has_duration_(has_duration) {}
+
+void OrbitProblem::begin(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
+  add_frame(mesh, orbit, p);
+  build_pattern();
+}
+
+const OrbitFrame& OrbitProblem::frame(const Regime& regime) const {
+  std::size_t number = 0;
+  for (Index digit = frame_digits; digit-- > 0;)
+    number = number * Regime::states + static_cast<std::size_t>(regime[digit]);
+  return *frames_.at(number);
+}
+
+Regime OrbitProblem::last_frame() const {
+  Regime regime;
+  auto rest = static_cast<int>(frames_.size() - 1);
+  for (Index digit = 0; digit < frame_digits; ++digit, rest /= Regime::states)
+    regime = regime.with(digit, rest % Regime::states);
+  return regime;
+}
+
+Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
+  Vector scale(orbit.rows());
+  Vector unused(p.size());
+  scales(*field_, orbit, p, scale, unused);
+  OrbitFrame frame{
+      mesh, scale, ranges(orbit, scale), has_duration_ ? phase_weights(mesh, orbit, scale) : Vector(), {}};
+  set_apart(frame, part_apart(mesh, orbit));
+  if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
+  frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
+  return last_frame();
+}
+
+void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
+  if (part.size() == 0) return;
+  const CollocationRule& rule = frame.mesh.rule();
+  const Index m = rule.degree();
+  Matrix weights = Matrix::Zero(part.rows(), frame.mesh.nodes());
+  double square = 0;
+  for (Index j = 0; j < frame.mesh.intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const double weight = rule.weights()(i) * frame.mesh.length(j);
+      const Vector at = part.col(j * m + i).cwiseQuotient(frame.scale);
+      square += weight * at.squaredNorm();
+      weights.middleCols(j * m, m + 1) += weight * at.cwiseQuotient(frame.scale) * rule.values().row(i);
+    }
+  }
+  frame.most_apart = std::sqrt(square);
+  frame.apart = weights.reshaped() / frame.most_apart;
+}
+
+double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  return at.apart.size() > 0 ? at.apart.dot(u.head(at.apart.size())) / at.most_apart : 1;
+}
+
+std::string OrbitProblem::describe(const Regime& regime) const {
+  return fmt::format("mesh {}", digits(regime));
+}
+
+double OrbitProblem::duration(const Vector& u, const Vector& p, Vector* by_parameters) const {
+  if (!has_duration_) return given_duration(p, by_parameters);
+  if (by_parameters != nullptr) by_parameters->setZero(p.size());
+  return u(u.size() - 1);
+}
+
+double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  return at.mesh.errors(orbit(u), at.range).maxCoeff();
+}
+
+double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  if (at.phase.size() == 0) return 1;
+  constexpr double still = 1e-6;
+  const Matrix values = orbit(u);
+  const Vector moves = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
+  if (moves.cwiseQuotient(at.range).maxCoeff() < still) return 1;
+  const Vector own = phase_weights(at.mesh, values, at.scale);
+  return std::abs(own.dot(at.phase)) / (own.norm() * at.phase.norm());
+}
+
+/// Columns of nodes hold the rows of each interval that they are on, those of the ends the conditions as
+/// well; that of T holds all but these.
+void OrbitProblem::build_pattern() {
+  const Index n = field_->size();
+  const Index rows = n * degree();
+  const Index ends = rows * intervals();
+  pattern_.resize(size(), size());
+  for (Index node = 0; node < nodes(); ++node) {
+    const Index j = node / degree();
+    const bool is_border = node % degree() == 0;
+    for (Index c = 0; c < n; ++c) {
+      const Index column = node * n + c;
+      pattern_.startVec(column);
+      const Index first = is_border && j > 0 ? j - 1 : j;
+      const Index last = std::min(j, intervals() - 1);
+      for (Index row = first * rows; row < (last + 1) * rows; ++row) pattern_.insertBack(row, column) = 0;
+      for (Index row = 0; row < n && (node == 0 || node + 1 == nodes()); ++row)
+        pattern_.insertBack(ends + row, column) = 0;
+      if (has_duration_) pattern_.insertBack(ends + n, column) = 0;
+    }
+  }
+  if (has_duration_) {
+    pattern_.startVec(size() - 1);
+    for (Index row = 0; row < ends; ++row) pattern_.insertBack(row, size() - 1) = 0;
+  }
+  pattern_.finalize();
+  pattern_.makeCompressed();
+}
+
+bool OrbitProblem::at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
+                            Index interval, Index point, bool derivatives, Scratch& scratch) const {
+  const CollocationRule& rule = frame.mesh.rule();
+  const auto within = orbit(u).middleCols(interval * degree(), degree() + 1);
+  scratch.place.noalias() = within * rule.values().row(point).transpose();
+  scratch.changes.col(point).noalias() = within * rule.derivatives().row(point).transpose();
+  const double s = frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(point);
+  const auto i = static_cast<std::size_t>(point);
+  FieldValues wanted{&scratch.velocity, nullptr, nullptr, nullptr};
+  if (derivatives) {
+    wanted.by_unknowns = &scratch.by_unknowns[i];
+    wanted.by_parameters = &scratch.by_parameters[i];
+    if (field_->is_periodic()) wanted.by_time = &scratch.by_time;
+  }
+  if (!field_->evaluate(s * duration, scratch.place, p, wanted)) return false;
+  scratch.velocities.col(point) = scratch.velocity;
+  if (derivatives) {  // of T f
+    scratch.by_parameters[i] *= duration;
+    Vector by_parameters;
+    if (!has_duration_) {
+      given_duration(p, &by_parameters);
+      Vector change = scratch.velocity;
+      if (wanted.by_time != nullptr) change += duration * s * scratch.by_time;
+      scratch.by_parameters[i] += change * by_parameters.transpose();
+    }
+  }
+  return true;
+}
+
+void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index interval,
+                                 const Scratch& scratch, const Evaluation& out) const {
+  const Index n = field_->size();
+  const Index m = degree();
+  const CollocationRule& rule = frame.mesh.rule();
+  const double h = frame.mesh.length(interval);
+  for (Index i = 0; i < m; ++i) {
+    const Index first = (interval * m + i) * n;
+    const auto at = static_cast<std::size_t>(i);
+    if (out.residual != nullptr) {
+      out.residual->segment(first, n) =
+          (scratch.changes.col(i) - h * duration * scratch.velocities.col(i)).cwiseQuotient(frame.scale);
+    }
+    if (out.parameter_jacobian != nullptr) {
+      out.parameter_jacobian->middleRows(first, n) =
+          -h * frame.scale.cwiseInverse().asDiagonal() * scratch.by_parameters[at];
+    }
+    if (out.sparse_jacobian == nullptr) continue;
+    double* values = out.sparse_jacobian->valuePtr();
+    const int* starts = out.sparse_jacobian->outerIndexPtr();
+    for (Index k = 0; k <= m; ++k) {
+      for (Index c = 0; c < n; ++c) {
+        const bool is_second = k == 0 && interval > 0;  // the interval before comes first
+        double* block = values + starts[(interval * m + k) * n + c] + (is_second ? n * m : 0) + i * n;
+        for (Index row = 0; row < n; ++row) {
+          const double own = row == c ? rule.derivatives()(i, k) : 0;
+          block[row] =
+              (own - h * duration * rule.values()(i, k) * scratch.by_unknowns[at](row, c)) / frame.scale(row);
+        }
+      }
+    }
+    if (!has_duration_) continue;
+    double* block = values + starts[size() - 1] + first;
+    for (Index row = 0; row < n; ++row) block[row] = -h * scratch.velocities(row, i) / frame.scale(row);
+  }
+}
+
+bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,
+                                   const Evaluation& out) const {
+  const Index n = field_->size();
+  const Index last = n * (nodes() - 1);
+  const Index ends = n * degree() * intervals();
+  Vector values(n);
+  Matrix by_left(n, n);
+  Matrix by_right(n, n);
+  Matrix by_parameters(n, p.size());
+  const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
+  const EndConditions wanted{&values, derivatives ? &by_left : nullptr, derivatives ? &by_right : nullptr,
+                             derivatives ? &by_parameters : nullptr};
+  if (!end_conditions(u.head(n), u.segment(last, n), p, wanted)) return false;
+  const auto in_units = frame.scale.cwiseInverse().asDiagonal();
+  if (out.residual != nullptr) {
+    out.residual->segment(ends, n) = in_units * values;
+    if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes()));
+  }
+  if (out.parameter_jacobian != nullptr) {
+    out.parameter_jacobian->middleRows(ends, n) = in_units * by_parameters;
+    if (has_duration_) out.parameter_jacobian->row(ends + n).setZero();
+  }
+  if (out.sparse_jacobian == nullptr) return true;
+  double* entries = out.sparse_jacobian->valuePtr();
+  const int* starts = out.sparse_jacobian->outerIndexPtr();
+  for (Index c = 0; c < n; ++c) {
+    Eigen::Map<Vector>(entries + starts[c] + n * degree(), n) = in_units * by_left.col(c);
+    Eigen::Map<Vector>(entries + starts[last + c] + n * degree(), n) = in_units * by_right.col(c);
+  }
+  for (Index column = 0; column < n * nodes() && has_duration_; ++column)
+    entries[starts[column + 1] - 1] = frame.phase(column);
+  return true;
+}
+
+bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                            const Evaluation& out) const {
+  const OrbitFrame& at = frame(regime);
+  const double length = duration(u, p);
+  if (out.sparse_jacobian != nullptr && out.sparse_jacobian->nonZeros() != pattern_.nonZeros())
+    *out.sparse_jacobian = pattern_;
+  const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
+  Scratch scratch(field_->size(), p.size(), degree());
+  for (Index j = 0; j < intervals(); ++j) {
+    for (Index i = 0; i < degree(); ++i) {
+      if (!at_point(at, u, p, length, j, i, derivatives, scratch)) return false;
+    }
+    fill_interval(at, length, j, scratch, out);
+  }
+  return fill_conditions(at, u, p, out);
+}
+
+/// Conditions at the ends count only as far as they are linear: those that derive from this say so.
+bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                          const Vector& du, const Vector& dp, Vector& out) const {
+  if (!has_duration_) return false;
+  const OrbitFrame& at = frame(regime);
+  const CollocationRule& rule = at.mesh.rule();
+  const Index n = field_->size();
+  const Index m = degree();
+  const double length = duration(u, p);
+  const double by_duration = du(du.size() - 1);
+  Scratch scratch(n, p.size(), m);
+  Vector row(n + p.size());
+  Vector direction(n);
+  Vector weight(n);
+  out.setZero(size() + p.size());
+  for (Index j = 0; j < intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      if (!at_point(at, u, p, 1, j, i, true, scratch)) return false;
+      const auto point = static_cast<std::size_t>(i);
+      const Matrix& by_unknowns = scratch.by_unknowns[point];
+      const Matrix& by_parameters = scratch.by_parameters[point];
+      direction.noalias() = orbit(du).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
+      weight = w.segment((j * m + i) * n, n).cwiseQuotient(at.scale) * -at.mesh.length(j);
+      if (!field_->second(0, scratch.place, p, weight, direction, dp, row)) return false;
+      row *= length;
+      row.head(n).noalias() += by_duration * (by_unknowns.transpose() * weight);
+      row.tail(p.size()).noalias() += by_duration * (by_parameters.transpose() * weight);
+      for (Index k = 0; k <= m; ++k) out.segment((j * m + k) * n, n) += rule.values()(i, k) * row.head(n);
+      out(size() - 1) += weight.dot(by_unknowns * direction + by_parameters * dp);
+      out.tail(p.size()) += row.tail(p.size());
+    }
+  }
+  return true;
+}
+
+void OrbitProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+  const Index n = field_->size();
+  Vector sizes(n);
+  scales(*field_, orbit(u), p, sizes, parameters);
+  unknowns.head(n * nodes()).reshaped(n, nodes()).colwise() = sizes;
+  if (has_duration_) unknowns(size() - 1) = std::abs(duration(u, p));
+}
+
+bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& regime,
+                             std::vector<Matrix>& out) const {
+  const OrbitFrame& at = frame(regime);
+  const CollocationRule& rule = at.mesh.rule();
+  const Index n = field_->size();
+  const Index m = degree();
+  const double length = duration(u, p);
+  Scratch scratch(n, p.size(), m);
+  Matrix left(n * m, n);
+  Matrix inner(n * m, n * m);
+  out.resize(static_cast<std::size_t>(intervals()));
+  for (Index j = 0; j < intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      if (!at_point(at, u, p, length, j, i, true, scratch)) return false;
+      for (Index k = 0; k <= m; ++k) {
+        const Matrix block = rule.derivatives()(i, k) * Matrix::Identity(n, n) -
+                             at.mesh.length(j) * length * rule.values()(i, k) *
+                                 scratch.by_unknowns[static_cast<std::size_t>(i)];
+        if (k == 0) {
+          left.middleRows(i * n, n) = block;
+        } else {
+          inner.block(i * n, (k - 1) * n, n, n) = block;
+        }
+      }
+    }
+    out[static_cast<std::size_t>(j)] = -inner.partialPivLu().solve(left).bottomRows(n);
+  }
+  return true;
+}
+
+}  // namespace arcslip::continuation

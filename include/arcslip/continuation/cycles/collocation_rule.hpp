@@ -1,0 +1,41 @@
+#pragma once
+
+// Polynomials of degree m on an interval of length 1, held by their values at m + 1 nodes, the ends among
+// them, and asked for at the m Gauss points: what collocation at these is made of [C. de Boor, B. Swartz,
+// SIAM J. Numer. Anal. 10 (1973) 582].
+
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+class CollocationRule {
+ public:
+  static constexpr int least = 2;
+  static constexpr int most = 7;
+
+  /// Of degree m. Throws std::invalid_argument unless least <= m <= most.
+  explicit CollocationRule(int degree);
+
+  int degree() const { return degree_; }
+  const Vector& nodes() const { return nodes_; }              ///< m + 1, from 0 to 1: those of Lobatto
+  const Vector& points() const { return points_; }            ///< m, of Gauss
+  const Vector& weights() const { return weights_; }          ///< m, their sum is 1
+  const Matrix& values() const { return values_; }            ///< m x (m + 1): at the points from the nodes
+  const Matrix& derivatives() const { return derivatives_; }  ///< m x (m + 1): the same of the derivative
+  const Vector& highest() const { return highest_; }          ///< m + 1: of the m-th derivative
+
+  /// Weights of the values at the nodes, m + 1, in the value at s and in the derivative there.
+  void at(double s, Vector& value, Vector& derivative) const;
+
+ private:
+  int degree_;
+  Vector nodes_;
+  Vector barycentric_;
+  Vector points_;
+  Vector weights_;
+  Matrix values_;
+  Matrix derivatives_;
+  Vector highest_;
+};
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,65 @@
+#pragma once
+
+// Branches of cycles, on meshes that follow them.
+
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::continuation {
+
+/// On what orbits are held.
+struct CycleOptions {
+  Index intervals = 20;           ///< N to begin with
+  int degree = 5;                 ///< m
+  double tolerance = 1e-6;        ///< on the estimated error of orbits, relative to how far their unknowns go
+  Index most_intervals = 2560;    ///< a branch that asks for more has ended
+  int doublings = 3;              ///< how often a period is doubled, of cascades without end
+  std::size_t max_branches = 50;  ///< all of them together
+};
+
+/// A cycle to set out from: the guess is one of the problem's.
+struct CycleStart {
+  std::shared_ptr<CycleProblem> problem;
+  Guess guess;
+  bool both_ways = false;  ///< whether a direction is gone along and against
+};
+
+/// The cycles that leave a Hopf point of the field's equilibria.  Throws std::invalid_argument where no pair
+/// of eigenvalues is near the imaginary axis.
+CycleStart cycle_from_hopf(std::shared_ptr<const Field> field, const Guess& hopf,
+                           const CycleOptions& options = {});
+
+/// The cycles of twice the period that leave a period doubling; none where it is not located.
+std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
+                                              const BranchPoint& doubling);
+
+/// The other branch of cycles through a branch point; none where it is not found.
+std::optional<CycleStart> cycle_from_branch_point(const CycleProblem& problem, const std::string& parameter,
+                                                  const BranchPoint& point,
+                                                  const Tolerances& tolerances = {});
+
+/// A cycle close to an orbit: as its values at nodes tell, ends equal, over a time T.
+CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
+                            double duration, const Vector& p, int periods = 1, bool doubled = false);
+
+/// The same start on so many intervals.
+CycleStart refined(const CycleStart& start, Index intervals);
+
+/// A branch and what its points are solutions of: their regimes are this problem's frames.
+struct CycleBranch {
+  std::shared_ptr<const CycleProblem> problem;
+  Branch branch;
+};
+
+/// As `trace` does it, from a guess with a direction along it, or along it and against it; else both ways.
+CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options,
+                         const CycleOptions& cycles = {}, const Observer& observer = {});
+
+/// The cycles that leave the Hopf points of branches of equilibria, and all that can be reached from these
+/// through branch points and period doublings, each branch once.
+std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
+                                              const std::vector<Branch>& equilibria,
+                                              const TraceOptions& options, const CycleOptions& cycles = {},
+                                              const Observer& observer = {});
+
+}  // namespace arcslip::continuation

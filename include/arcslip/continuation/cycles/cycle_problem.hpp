@@ -1,0 +1,61 @@
+#pragma once
+
+// Cycles: periodic orbits of u' = f(t, u, p),
+//
+//   u(T) = u(0),   and where f does not depend on t    int u . u_0' ds = 0
+//
+// with the last orbit of a frame for u_0. T is an unknown, or the field's own period. Stability by Floquet
+// multipliers, those of the orbit's own velocity left out.
+
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Unknowns: see OrbitProblem. Observables: T; the largest and the smallest value of each unknown, `x_max`
+/// and `x_min`; `norm`, the root of the mean of |u|^2.
+class CycleProblem : public OrbitProblem {
+ public:
+  /// `periods` of the field's own period, where it has one, make one of the cycle. A branch of cycles ends
+  /// where they shrink onto an equilibrium or, of those that are `doubled`, come to be two rounds of one of
+  /// half the period.
+  CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
+               const Vector& p, int periods = 1, bool doubled = false);
+
+  int periods() const { return periods_; }
+  bool is_doubled() const { return doubled_; }
+  /// Where `apart` vanishes, as the end of a sentence.
+  std::string end_of_kind() const;
+
+  /// ln(mu) of the multipliers; empty where there are none.
+  ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
+
+  /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const override;
+  /// Of period doublings and of Neimark-Sacker points.
+  std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
+                                           Vector& extras) const override;
+  PointType pair_crossing() const override { return PointType::neimark_sacker; }
+  std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
+  void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+
+  std::vector<Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
+                 Gradient& gradient) const override;
+
+ protected:
+  [[nodiscard]] bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
+                                    const EndConditions& out) const override;
+  Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const override;
+  double given_duration(const Vector& p, Vector* by_parameters) const override;
+
+ private:
+  struct Extremum;
+  Extremum extremum(const Vector& u, const Regime& regime, Index unknown, double sign) const;
+
+  int periods_;
+  bool doubled_;
+};
+
+}  // namespace arcslip::continuation

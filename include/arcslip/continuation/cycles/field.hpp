@@ -1,0 +1,83 @@
+#pragma once
+
+// What moves along an orbit:
+//
+//   u' = f(t, u, p)
+//
+// with n unknowns u and named parameters p.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+/// What `Field::evaluate` is asked for; a null is not wanted. Every target comes with its size.
+struct FieldValues {
+  Vector* velocity = nullptr;       ///< f, n
+  Matrix* by_unknowns = nullptr;    ///< df/du, n x n
+  Matrix* by_parameters = nullptr;  ///< df/dp, n x (number of parameters)
+  Vector* by_time = nullptr;        ///< df/dt, n; asked of fields with a period alone
+};
+
+/// All functions are called from several threads and must not change the field.
+class Field {
+ public:
+  virtual ~Field() = default;
+
+  virtual Index size() const = 0;                                ///< n
+  virtual std::vector<std::string> names() const = 0;            ///< of the unknowns
+  virtual std::vector<std::string> parameter_names() const = 0;  ///< in the order in which `p` holds them
+
+  /// Fills what is asked for, with exact derivatives. False where the field has no value.
+  [[nodiscard]] virtual bool evaluate(double t, const Vector& u, const Vector& p,
+                                      const FieldValues& out) const = 0;
+
+  /// w^T d/dh [df/du  df/dp](u + h du, p + h dp) at h = 0, n + number of parameters entries. False where the
+  /// field does not give it: then differences take its place.
+  [[nodiscard]] virtual bool second(double /*t*/, const Vector& /*u*/, const Vector& /*p*/,
+                                    const Vector& /*w*/, const Vector& /*du*/, const Vector& /*dp*/,
+                                    Vector& /*out*/) const {
+    return false;
+  }
+
+  /// Whether it depends on time, with a period.
+  virtual bool is_periodic() const { return false; }
+  /// This period, and where that is not null its derivatives by the parameters.
+  virtual double period(const Vector& /*p*/, Vector* /*by_parameters*/) const { return 0; }
+
+  /// Typical magnitudes, as Problem::scale has them.
+  virtual void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
+    unknowns = u.cwiseAbs().cwiseMax(1);
+    parameters = p.cwiseAbs().cwiseMax(1);
+  }
+};
+
+/// The field of which a dense problem's solutions are the equilibria. The observables of the problem that are
+/// its unknowns in their order name these; else they are u1, u2, ...
+class EquilibriumField : public Field {
+ public:
+  /// Throws std::invalid_argument of a problem that has no equilibria, is sparse or has several regimes.
+  explicit EquilibriumField(std::shared_ptr<const Problem> problem);
+
+  const Problem& problem() const { return *problem_; }
+
+  Index size() const override { return problem_->size(); }
+  std::vector<std::string> names() const override { return names_; }
+  std::vector<std::string> parameter_names() const override { return problem_->parameter_names(); }
+  [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
+                              const FieldValues& out) const override;
+  [[nodiscard]] bool second(double t, const Vector& u, const Vector& p, const Vector& w, const Vector& du,
+                            const Vector& dp, Vector& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {
+    problem_->scale(u, p, unknowns, parameters);
+  }
+
+ private:
+  std::shared_ptr<const Problem> problem_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace arcslip::continuation

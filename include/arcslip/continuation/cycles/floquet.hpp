@@ -1,0 +1,24 @@
+#pragma once
+
+// Floquet multipliers: the eigenvalues of a product of matrices X_N ... X_1, each accurate to its own digits
+// however far they lie apart. Bases that are carried through the product again and again, orthogonal anew
+// after each factor, come to span its invariant subspaces, the largest eigenvalue's first; what does not part
+// lies so near together that the product of its triangular factors is as good as its eigenvalues are [A.
+// Bojanczyk, G. Golub, P. Van Dooren, Proc. SPIE 1770 (1992) 31].
+
+#include <vector>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+/// ln(mu) of the product of `factors`, the first of which comes to act first, each n x n; imaginary parts
+/// from -pi to pi. In any order, conjugates side by side. -infinity for mu = 0. Empty where a factor is not
+/// finite.
+ComplexVector log_multipliers(const std::vector<Matrix>& factors);
+
+/// The same without that of the directions that the factors carry into each other: v_(j+1) = X_j v_j but for
+/// its length, one more than there are factors, the last a multiple of the first.
+ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const std::vector<Vector>& along);
+
+}  // namespace arcslip::continuation

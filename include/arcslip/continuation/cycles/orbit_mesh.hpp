@@ -1,0 +1,52 @@
+#pragma once
+
+// Orbits u(s), 0 <= s <= 1, as polynomials of degree m on N intervals that meet at their ends, and where
+// these are to lie: so that an estimate of the error is the same on each [C. de Boor, Good approximation by
+// splines with variable knots, Lecture Notes in Mathematics 363 (1974) 12; R. D. Russell, J. Christiansen,
+// SIAM J. Numer. Anal. 15 (1978) 59].
+
+#include "arcslip/continuation/cycles/collocation_rule.hpp"
+
+namespace arcslip::continuation {
+
+/// Values at the nodes are n x `nodes()`, those of an interval side by side, its last being the first of the
+/// next one.
+class OrbitMesh {
+ public:
+  /// `borders` N + 1, ascending from 0 to 1.
+  OrbitMesh(const CollocationRule& rule, Vector borders) : rule_(rule), borders_(std::move(borders)) {}
+
+  /// All intervals of one length.
+  OrbitMesh(const CollocationRule& rule, Index intervals)
+      : OrbitMesh(rule, Vector::LinSpaced(intervals + 1, 0, 1)) {}
+
+  const CollocationRule& rule() const { return rule_; }
+  const Vector& borders() const { return borders_; }
+  Index intervals() const { return borders_.size() - 1; }
+  Index nodes() const { return intervals() * rule_.degree() + 1; }
+  double length(Index interval) const { return borders_(interval + 1) - borders_(interval); }
+
+  /// The place s of a node, and the interval that holds a place.
+  double place(Index node) const;
+  Index interval(double s) const;
+
+  /// An orbit and its derivative by s at a place, n each; `velocity` may be null.
+  void at(const Matrix& values, double s, Vector& value, Vector* velocity) const;
+
+  /// The values at the nodes of another mesh.
+  Matrix carried(const Matrix& values, const OrbitMesh& to) const;
+
+  /// Estimated size of |u - exact| on each interval, of the largest entry in units of `scale` (n).
+  Vector errors(const Matrix& values, const Vector& scale) const;
+
+  /// A mesh of so many intervals on which this orbit's errors would be alike.
+  OrbitMesh equidistributed(const Matrix& values, const Vector& scale, Index intervals) const;
+
+ private:
+  Vector highest_derivatives(const Matrix& values, const Vector& scale) const;
+
+  CollocationRule rule_;
+  Vector borders_;
+};
+
+}  // namespace arcslip::continuation

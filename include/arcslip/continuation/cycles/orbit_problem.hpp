@@ -1,0 +1,133 @@
+#pragma once
+
+// Orbits of u' = f(t, u, p) over a duration T, by collocation: with s = t/T and a mesh s_0 = 0 .. s_N = 1,
+//
+//   sum_k D_ik u_jk - h_j T f(s_ji T, sum_k L_ik u_jk, p) = 0      at the Gauss points i = 1 .. m of interval
+//   j n conditions on both ends
+//
+// with the values u_jk at the nodes of a polynomial of degree m on each interval as unknowns, those at the
+// ends of intervals but once. What T is, and what holds at the ends, is for those who derive from this.
+//
+// Errors are O(h^(m+1)), at the ends of intervals O(h^(2m)), as those of T and of parameters are.
+//
+// A mesh belongs to an orbit. Along a branch there are several, each a frame: the regime of a point is the
+// number of its frame.
+
+#include <memory>
+#include <vector>
+
+#include "arcslip/continuation/cycles/field.hpp"
+#include "arcslip/continuation/cycles/orbit_mesh.hpp"
+
+namespace arcslip::continuation {
+
+/// What is fixed while a stretch of a branch is traced.
+struct OrbitFrame {
+  OrbitMesh mesh;
+  Vector scale;  ///< n, of the unknowns of the field
+  Vector range;  ///< n, how far these go along the orbit
+  Vector phase;  ///< n x nodes: of the condition that keeps the orbit from sliding along itself; or empty
+  /// n x nodes: of what is left of the motion that keeps the orbit apart from others, over the most that
+  /// there was of it; or empty.
+  Vector apart;
+  double most_apart = 0;
+};
+
+/// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one.
+class OrbitProblem : public Problem {
+ public:
+  const Field& field() const { return *field_; }
+  std::shared_ptr<const Field> shared_field() const { return field_; }
+
+  /// N, m, and whether T is an unknown.
+  Index intervals() const { return frames_.front()->mesh.intervals(); }
+  Index degree() const { return frames_.front()->mesh.rule().degree(); }
+  bool has_duration() const { return has_duration_; }
+
+  /// That of a point, and the regime of a further one, of as many intervals, for orbits like this one: values
+  /// at the nodes of `mesh`. Not while others read.
+  const OrbitFrame& frame(const Regime& regime) const;
+  Regime add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p);
+  /// The last one that was added.
+  Regime last_frame() const;
+
+  /// The values at the nodes, n x nodes, of a vector of unknowns.
+  auto orbit(const Vector& u) const { return Eigen::Map<const Matrix>(u.data(), field_->size(), nodes()); }
+
+  /// T, and its derivatives by the parameters where that is not null.
+  double duration(const Vector& u, const Vector& p, Vector* by_parameters = nullptr) const;
+
+  /// Largest estimated error of an orbit, relative to how far its unknowns go.
+  double mesh_error(const Vector& u, const Regime& regime) const;
+
+  /// How nearly the condition on the phase is one on the orbit's own phase: 1 for that of the frame, 0 where
+  /// it tells nothing.
+  double phase_grip(const Vector& u, const Regime& regime) const;
+
+  /// How much there is of what keeps an orbit apart from those of a simpler kind, over the most that there
+  /// was: 0 where it is one of these, below 0 beyond; 1 where nothing does.
+  double apart(const Vector& u, const Regime& regime) const;
+
+  /// du(s_(j+1))/du(s_j) of each interval, n x n. False where the field has no value.
+  [[nodiscard]] bool transfers(const Vector& u, const Vector& p, const Regime& regime,
+                               std::vector<Matrix>& out) const;
+
+  Index size() const override { return field_->size() * nodes() + (has_duration_ ? 1 : 0); }
+  std::vector<std::string> parameter_names() const override { return field_->parameter_names(); }
+  bool sparse() const override { return true; }
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
+                              const Evaluation& out) const override;
+  [[nodiscard]] bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
+                            const Vector& du, const Vector& dp, Vector& out) const override;
+  void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
+  Index switch_count() const override { return frame_digits; }
+  std::string describe(const Regime& regime) const override;
+  int border_count(const Regime& /*regime*/) const override { return 0; }
+
+ protected:
+  /// Values g of the n conditions, and their derivatives; those that are null are not wanted.
+  struct EndConditions {
+    Vector* values;         ///< n
+    Matrix* by_left;        ///< n x n
+    Matrix* by_right;       ///< n x n
+    Matrix* by_parameters;  ///< n x number of parameters
+  };
+
+  /// `begin` is to follow.
+  OrbitProblem(std::shared_ptr<const Field> field, bool has_duration);
+
+  /// Begins with a frame for this orbit.
+  void begin(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p);
+
+  [[nodiscard]] virtual bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
+                                            const EndConditions& out) const = 0;
+
+  /// That part of an orbit, at the Gauss points of its mesh (n x m N), which keeps it apart from orbits of a
+  /// simpler kind; empty where it does not matter.
+  virtual Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const = 0;
+
+  /// T where it is no unknown.
+  virtual double given_duration(const Vector& p, Vector* by_parameters) const = 0;
+
+  Index nodes() const { return intervals() * degree() + 1; }
+
+ private:
+  struct Scratch;
+  static constexpr Index frame_digits = 4;
+
+  static void set_apart(OrbitFrame& frame, const Matrix& part);
+  void build_pattern();
+  [[nodiscard]] bool at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
+                              Index interval, Index point, bool derivatives, Scratch& scratch) const;
+  void fill_interval(const OrbitFrame& frame, double duration, Index interval, const Scratch& scratch,
+                     const Evaluation& out) const;
+  [[nodiscard]] bool fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,
+                                     const Evaluation& out) const;
+
+  std::shared_ptr<const Field> field_;
+  bool has_duration_;
+  std::vector<std::shared_ptr<const OrbitFrame>> frames_;
+  SparseMatrix pattern_;
+};
+
+}  // namespace arcslip::continuation

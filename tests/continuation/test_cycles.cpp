@@ -1,0 +1,278 @@
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/problem/derivative_check.hpp"
+#include "catch.hpp"
+#include "flow.hpp"
+
+namespace arcslip::tests {
+namespace {
+
+using namespace continuation;
+
+/// Cycles of radius sqrt(mu) that turn with omega = 1 + mu: T = 2 pi/(1 + mu), multiplier e^(-2 mu T).
+std::shared_ptr<const Problem> hopf_normal_form() {
+  return make_flow(2, {"mu"}, [](const auto& u, const auto& p, auto& f) {
+    const auto square = u[0] * u[0] + u[1] * u[1];
+    const auto turn = 1.0 + p[0];
+    f[0] = p[0] * u[0] - turn * u[1] - u[0] * square;
+    f[1] = turn * u[0] + p[0] * u[1] - u[1] * square;
+  });
+}
+
+std::shared_ptr<const Problem> van_der_pol() {
+  return make_flow(2, {"mu"}, [](const auto& u, const auto& p, auto& f) {
+    f[0] = u[1];
+    f[1] = p[0] * (1.0 - u[0] * u[0]) * u[1] - u[0];
+  });
+}
+
+std::shared_ptr<const Problem> lorenz() {
+  return make_flow(3, {"rho", "beta", "sigma"}, [](const auto& u, const auto& p, auto& f) {
+    f[0] = p[2] * (u[1] - u[0]);
+    f[1] = p[0] * u[0] - u[1] - u[0] * u[2];
+    f[2] = u[0] * u[1] - p[1] * u[2];
+  });
+}
+
+std::shared_ptr<const Problem> roessler() {
+  return make_flow(3, {"c", "a"}, [](const auto& u, const auto& p, auto& f) {
+    f[0] = -u[1] - u[2];
+    f[1] = u[0] + p[1] * u[1];
+    f[2] = 0.2 + u[2] * (u[0] - p[0]);
+  });
+}
+
+/// x' = mu x - y - x (x^2 + y^2), y' likewise, beside z: a pair of multipliers e^((a - j nu) T) of a cycle of
+/// radius 1 and T = 2 pi, as two of its unknowns turn by themselves.
+std::shared_ptr<const Problem> with_rider() {
+  return make_flow(4, {"a", "nu"}, [](const auto& u, const auto& p, auto& f) {
+    const auto square = u[0] * u[0] + u[1] * u[1];
+    f[0] = u[0] - u[1] - u[0] * square;
+    f[1] = u[0] + u[1] - u[1] * square;
+    f[2] = p[0] * u[2] - p[1] * u[3] + 0.1 * u[0] * u[2];
+    f[3] = p[1] * u[2] + p[0] * u[3] + 0.1 * u[0] * u[3];
+  });
+}
+
+std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
+  std::vector<BranchPoint> found;
+  std::copy_if(branch.points.begin(), branch.points.end(), std::back_inserter(found),
+               [&](const BranchPoint& point) { return point.type == type; });
+  return found;
+}
+
+TraceOptions over(const std::string& parameter, double from, double to) {
+  TraceOptions options;
+  options.parameter = parameter;
+  options.from = from;
+  options.to = to;
+  return options;
+}
+
+/// The equilibria from a guess, then all cycles.
+std::vector<CycleBranch> cycles_of(const std::shared_ptr<const Problem>& problem, const Vector& u,
+                                   const Vector& p, const TraceOptions& options,
+                                   const CycleOptions& cycles = {}) {
+  const Branch equilibria = trace(*problem, {u, p}, options);
+  REQUIRE(equilibria.complete());
+  return trace_cycles_leaving(std::make_shared<EquilibriumField>(problem), {equilibria}, options, cycles);
+}
+
+/// A circle of radius r as an orbit of n unknowns, in the first two; one that turns the other way where r <
+/// 0.
+Matrix circle(const OrbitMesh& mesh, Index n, double r, double phase = 0) {
+  Matrix orbit = Matrix::Zero(n, mesh.nodes());
+  for (Index node = 0; node < mesh.nodes(); ++node) {
+    orbit(0, node) = std::abs(r) * std::cos(two_pi * mesh.place(node) + phase);
+    orbit(1, node) = r * std::sin(two_pi * mesh.place(node) + phase);
+  }
+  return orbit;
+}
+
+/// The cycle of van der Pol's oscillator at mu = 1 on a mesh: its period.
+double period_of_van_der_pol(int degree, Index intervals) {
+  const OrbitMesh mesh(CollocationRule(degree), intervals);
+  const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(van_der_pol()), mesh,
+                                            circle(mesh, 2, -2), 6.6, Vector::Constant(1, 1));
+  const Solution solution = solve(*start.problem, start.guess);
+  REQUIRE(solution.outcome == Correction::converged);
+  return solution.unknowns.tail(1)(0);
+}
+
+/// Roessler's cycle at c = 2 and this a, by way of the Hopf point over a.
+CycleStart roessler_at(double a) {
+  const auto all =
+      cycles_of(roessler(), Eigen::Vector3d(0, 0, 0.1), Eigen::Vector2d(2, 0.001), over("a", 0.001, a));
+  REQUIRE(all.size() == 1);
+  const CycleProblem& problem = *all[0].problem;
+  const BranchPoint& end = all[0].branch.points.back();
+  REQUIRE(all[0].branch.stop == Stop::reached_end);
+  return cycle_from_orbit(problem.shared_field(), problem.frame(end.regime).mesh, problem.orbit(end.unknowns),
+                          problem.duration(end.unknowns, end.parameters), end.parameters);
+}
+
+}  // namespace
+
+TEST_CASE("Cycles of a Hopf normal form are its circles", "[cycles]") {
+  const auto all =
+      cycles_of(hopf_normal_form(), Vector::Zero(2), Vector::Constant(1, -0.5), over("mu", -0.5, 2));
+  REQUIRE(all.size() == 1);
+  const CycleProblem& problem = *all[0].problem;
+  const Branch& branch = all[0].branch;
+  CHECK(branch.stop == Stop::reached_end);
+  for (const BranchPoint& point : branch.points) {
+    const double mu = point.parameters(0);
+    const double period = two_pi / (1 + mu);
+    Vector observed;
+    problem.observe(point.unknowns, point.parameters, point.regime, observed);
+    CHECK_THAT(observed(0), Catch::Matchers::WithinRel(period, 1e-9));
+    CHECK_THAT(observed(1), Catch::Matchers::WithinAbs(std::sqrt(mu), 1e-7));
+    CHECK_THAT(observed(5), Catch::Matchers::WithinAbs(std::sqrt(mu), 1e-8));
+    const ComplexVector logs = problem.log_multipliers(point.unknowns, point.parameters, point.regime);
+    REQUIRE(logs.size() == 1);
+    CHECK_THAT(logs(0).real(), Catch::Matchers::WithinAbs(-2 * mu * period, 1e-7));
+    CHECK(point.unstable == 0);
+  }
+}
+
+TEST_CASE("Collocation converges at twice its degree at the ends of intervals", "[cycles]") {
+  // 17 digits by a Taylor series of order 30 with 40 digits
+  const double exact = period_of_van_der_pol(7, 64);
+  CHECK_THAT(exact, Catch::Matchers::WithinRel(6.6632868593231301, 1e-13));
+  for (const int degree : {2, 3, 4}) {
+    const double coarse = std::abs(period_of_van_der_pol(degree, 32) - exact);
+    const double fine = std::abs(period_of_van_der_pol(degree, 64) - exact);
+    INFO("degree " << degree << ", errors " << coarse << " and " << fine);
+    CHECK(std::abs(std::log2(coarse / fine) - 2 * degree) < 0.35);
+  }
+}
+
+TEST_CASE("Multipliers keep their digits over forty decades", "[cycles]") {
+  const Index n = 5;
+  const int factors = 12;
+  const ComplexVector wanted =
+      (ComplexVector(5) << Complex(46, 0), Complex(3, 1), Complex(3, -1), Complex(-2, pi), Complex(-46, 0))
+          .finished();
+  // each factor is S_(j+1) D S_j^-1 with D a twelfth of the exponents
+  Matrix step = Matrix::Zero(n, n);
+  step(0, 0) = std::exp(46.0 / factors);
+  const double size = std::exp(3.0 / factors);
+  step.block<2, 2>(1, 1) << size * std::cos(1.0 / factors), size * std::sin(1.0 / factors),
+      -size * std::sin(1.0 / factors), size * std::cos(1.0 / factors);
+  step(3, 3) = std::exp(-2.0 / factors);
+  step(4, 4) = std::exp(-46.0 / factors);
+  std::vector<Matrix> product;
+  std::vector<Matrix> frames;
+  for (int j = 0; j < factors; ++j) {
+    Matrix frame = Matrix::Identity(n, n);
+    for (Index i = 0; i < n; ++i) {
+      for (Index k = 0; k < n; ++k) frame(i, k) += 0.2 * std::sin(1.0 + i + 2.3 * k + 1.7 * j);
+    }
+    frames.push_back(frame);
+  }
+  for (int j = 0; j < factors; ++j) {
+    Matrix here = step;
+    if (j == 0) here.row(3) *= -1;  // the fourth turns round once
+    const Matrix& before = frames[static_cast<std::size_t>(j)];
+    const Matrix& after = frames[static_cast<std::size_t>((j + 1) % factors)];
+    product.emplace_back(after * here * before.inverse());
+  }
+  const ComplexVector found = log_multipliers(product);
+  REQUIRE(found.size() == n);
+  for (const Complex& log : wanted) {
+    const double nearest = (found.array() - log).abs().minCoeff();
+    INFO(log);
+    CHECK(nearest < 1e-10);
+  }
+}
+
+TEST_CASE("Derivatives of cycles and of their special points are exact", "[cycles]") {
+  const auto problem = lorenz();
+  const OrbitMesh mesh(CollocationRule(3), 5);
+  Matrix orbit = circle(mesh, 3, 2, 0.3);
+  orbit.row(2).setConstant(9);
+  orbit.row(2) += 0.7 * orbit.row(0);
+  const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(problem), mesh, orbit, 0.8,
+                                            Eigen::Vector3d(20, 2.5, 10));
+  const DerivativeReport report =
+      check_derivatives(*start.problem, start.guess.unknowns, start.guess.parameters, start.guess.regime);
+  INFO(report.where);
+  CHECK(report.worst < 1e-7);
+}
+
+TEST_CASE("Lorenz' cycles end on his homoclinic orbit", "[cycles]") {
+  TraceOptions options = over("rho", 10, 30);
+  const auto all =
+      cycles_of(lorenz(), Eigen::Vector3d(4.9, 4.9, 9), Eigen::Vector3d(10, 8.0 / 3, 10), options);
+  REQUIRE(all.size() == 1);
+  const Branch& branch = all[0].branch;
+  CHECK(branch.stop == Stop::asymptotic);
+  const BranchPoint& last = branch.points.back();
+  // [Sparrow, The Lorenz Equations, Springer 1982: 13.926]; by shooting along the unstable manifold
+  CHECK_THAT(last.parameters(0), Catch::Matchers::WithinAbs(13.926557407, 2e-8));
+  CHECK(of_type(branch, PointType::fold).empty());
+}
+
+TEST_CASE("Roessler's cycles double their periods", "[cycles]") {
+  CycleOptions cycles;
+  cycles.doublings = 2;
+  const CycleStart start = roessler_at(0.2);
+  const CycleBranch single = trace_cycles(start, over("c", 2, 4.5), cycles);
+  const auto first = of_type(single.branch, PointType::period_doubling);
+  REQUIRE(!first.empty());
+  CHECK_THAT(first[0].parameters(0), Catch::Matchers::WithinAbs(2.832445, 2e-6));
+  const auto doubled = cycle_from_doubling(*single.problem, 0, first[0]);
+  REQUIRE(doubled);
+  const CycleBranch twice = trace_cycles(*doubled, over("c", 2, 4.5), cycles);
+  CHECK(twice.problem->periods() == 2);
+  const auto second = of_type(twice.branch, PointType::period_doubling);
+  REQUIRE(!second.empty());
+  CHECK_THAT(second[0].parameters(0), Catch::Matchers::WithinAbs(3.837, 2e-3));
+}
+
+TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly known places", "[cycles]") {
+  // The mean of 0.1 u_0 over the cycle is 0: the multipliers are e^(2 pi (a +- j nu)).
+  const OrbitMesh mesh(CollocationRule(5), 12);
+  const CycleStart start = cycle_from_orbit(std::make_shared<EquilibriumField>(with_rider()), mesh,
+                                            circle(mesh, 4, 1), two_pi, Eigen::Vector2d(-0.1, 0.15));
+  const CycleBranch traced = trace_cycles(start, over("a", -0.1, 0.1));
+  const auto tori = of_type(traced.branch, PointType::neimark_sacker);
+  REQUIRE(tori.size() == 1);
+  CHECK_THAT(tori[0].parameters(0), Catch::Matchers::WithinAbs(0, 1e-9));
+  CurveStart curve = curve_through(*traced.problem, "a", tori[0]);
+  const Branch along = trace_curve(*curve.problem, curve.point, over("nu", 0.05, 0.3), {-1, 1});
+  CHECK(along.complete());
+  REQUIRE(along.points.size() > 4);
+  for (const BranchPoint& point : along.points) {
+    const BasePoint at = curve.problem->split(point.unknowns, point.parameters, point.regime);
+    CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(0, 1e-9));
+    CHECK_THAT(at.extras(0), Catch::Matchers::WithinAbs(std::cos(two_pi * at.parameters(1)), 1e-8));
+  }
+}
+
+TEST_CASE("Curves of period doublings pass those of branches across them", "[cycles]") {
+  const auto doubling = [](double a) {
+    const CycleBranch branch = trace_cycles(roessler_at(a), over("c", 2, 3.5));
+    const auto found = of_type(branch.branch, PointType::period_doubling);
+    REQUIRE(!found.empty());
+    return std::pair{branch.problem, found[0]};
+  };
+  const auto [problem, first] = doubling(0.2);
+  CurveStart curve = curve_through(*problem, "c", first);
+  TraceOptions along = over("a", 0.2, 0.22);
+  along.stop_at = {0.21};
+  const Branch traced = trace_curve(*curve.problem, curve.point, along, {0, 10});
+  const auto there = of_type(traced, PointType::user);
+  REQUIRE(there.size() == 1);
+  const BasePoint at = curve.problem->split(there[0].unknowns, there[0].parameters, there[0].regime);
+  CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(doubling(0.21).second.parameters(0), 1e-8));
+}
+
+}  // namespace arcslip::tests
