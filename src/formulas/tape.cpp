@@ -69,25 +69,25 @@ bool Tape::uses(Index variable) const {
          });
 }
 
-void Tape::go_forward(std::span<const double> x, double* slots) const {
-  std::copy(constants_.begin(), constants_.end(), std::copy(x.begin(), x.end(), slots));
+void Tape::go_forward(const double* x, double* slots) const {
+  std::copy(constants_.begin(), constants_.end(), std::copy_n(x, variables_, slots));
   double* value = slots + first_;
   for (const Operation& one : operations_) *value++ = value_of(one, slots[one.left], slots[right_of(one)]);
 }
 
-bool Tape::take_values(const double* slots, std::span<double> values) const {
+bool Tape::take_values(const double* slots, double* values) const {
   for (std::size_t i = 0; i < results_.size(); ++i) values[i] = slots[results_[i]];
-  return are_finite(values.data(), values.size());
+  return are_finite(values, results_.size());
 }
 
-bool Tape::evaluate(std::span<const double> x, std::span<double> values) const {
+bool Tape::evaluate(const double* x, double* values) const {
   Scratch scratch(slots());
   double* const at = scratch.take(slots());
   go_forward(x, at);
   return take_values(at, values);
 }
 
-bool Tape::evaluate(std::span<const double> x, std::span<double> values, std::span<double> gradients) const {
+bool Tape::evaluate(const double* x, double* values, double* gradients) const {
   const std::size_t count = operations_.size();
   Scratch scratch(2 * slots() + 2 * count);
   double* const at = scratch.take(slots());
@@ -115,14 +115,13 @@ bool Tape::evaluate(std::span<const double> x, std::span<double> values, std::sp
       adjoint[operations_[i].left] += left[i] * here;
       if (has_two(operations_[i].kind)) adjoint[operations_[i].right] += right[i] * here;
     }
-    std::copy_n(adjoint, variables, gradients.data() + r * variables);
+    std::copy_n(adjoint, variables, gradients + r * variables);
     begin = needed_to_[r];
   }
-  return are_finite(gradients.data(), results_.size() * variables);
+  return are_finite(gradients, results_.size() * variables);
 }
 
-bool Tape::second(std::span<const double> x, std::span<const double> w, std::span<const double> dx,
-                  std::span<double> out) const {
+bool Tape::second(const double* x, const double* w, const double* dx, double* out) const {
   const std::size_t count = operations_.size();
   Scratch scratch(4 * slots() + 4 * count);
   double* const at = scratch.take(slots());
@@ -134,7 +133,7 @@ bool Tape::second(std::span<const double> x, std::span<const double> w, std::spa
   double* const adjoint = scratch.zeros(slots());
   double* const adjoint_rate = scratch.zeros(slots());
   go_forward(x, at);
-  std::copy(dx.begin(), dx.end(), rate);
+  std::copy_n(dx, variables_, rate);
   for (std::size_t i = 0; i < count; ++i) {
     const Operation& one = operations_[i];
     const std::size_t b = right_of(one);
@@ -158,8 +157,8 @@ bool Tape::second(std::span<const double> x, std::span<const double> w, std::spa
     adjoint[one.right] += right[i] * here;
     adjoint_rate[one.right] += right_rate[i] * here + right[i] * here_rate;
   }
-  std::copy_n(adjoint_rate, out.size(), out.data());
-  return are_finite(out.data(), out.size());
+  std::copy_n(adjoint_rate, variables_, out);
+  return are_finite(out, static_cast<std::size_t>(variables_));
 }
 
 }  // namespace arcslip

@@ -17,7 +17,7 @@ Tape tape_of(const std::string& text) { return compile({.variables = {"x", "y"},
 double value(const std::string& text) {
   const std::vector<double> at{-3, 2};
   std::vector<double> values(1);
-  return tape_of(text).evaluate(at, values) ? values[0] : std::nan("");
+  return tape_of(text).evaluate(at.data(), values.data()) ? values[0] : std::nan("");
 }
 
 std::string message(const FormulaSet& set) {
@@ -113,7 +113,7 @@ TEST_CASE("What two formulas share is evaluated once, and what none needs not at
   CHECK(tape.operations() == 6);
   const std::vector<double> at{3, 0.5};
   std::vector<double> values(2);
-  REQUIRE(tape.evaluate(at, values));
+  REQUIRE(tape.evaluate(at.data(), values.data()));
   CHECK(values[0] == 1.5 * std::exp(-0.5) - 3);
   CHECK(values[1] == 2 * (1.5 * std::exp(-0.5)));
   CHECK(tape_of("2*(3 + 4)").operations() == 0);
@@ -133,7 +133,7 @@ TEST_CASE("Formulas that are iterated take the place of their variables") {
   }
   const std::vector<double> at{0.3, 0, 3.5};
   std::vector<double> values(2);
-  REQUIRE(tape.evaluate(at, values));
+  REQUIRE(tape.evaluate(at.data(), values.data()));
   CHECK(values[0] == x);
   CHECK(values[1] == y);
 }

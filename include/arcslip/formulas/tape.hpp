@@ -9,7 +9,6 @@
 // Evaluating Derivatives, 2nd ed., SIAM 2008, ch. 3 and 5]. All are exact to rounding.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "arcslip/types.hpp"
@@ -54,7 +53,8 @@ struct Slopes {
 double value_of(const Operation& operation, double a, double b);
 Slopes slopes_of(const Operation& operation, double a, double b, double value, bool second);
 
-/// Results by variables; may be shared by threads. Up to some hundred operations nothing is allocated.
+/// Results by variables x, as many as `variables()`; may be shared by threads. Up to some hundred operations
+/// nothing is allocated.
 class Tape {
  public:
   Tape() = default;
@@ -70,20 +70,18 @@ class Tape {
   bool uses(Index variable) const;  ///< whether any result depends on it
 
   /// Fills `values`, one for each result. False where one is not finite.
-  [[nodiscard]] bool evaluate(std::span<const double> x, std::span<double> values) const;
+  [[nodiscard]] bool evaluate(const double* x, double* values) const;
 
   /// Also their gradients, row by row: results x variables.
-  [[nodiscard]] bool evaluate(std::span<const double> x, std::span<double> values,
-                              std::span<double> gradients) const;
+  [[nodiscard]] bool evaluate(const double* x, double* values, double* gradients) const;
 
   /// w^T d/dh [dF/dx](x + h dx) at h = 0: one entry for each variable. False where one is not finite.
-  [[nodiscard]] bool second(std::span<const double> x, std::span<const double> w, std::span<const double> dx,
-                            std::span<double> out) const;
+  [[nodiscard]] bool second(const double* x, const double* w, const double* dx, double* out) const;
 
  private:
   std::size_t slots() const { return first_ + operations_.size(); }
-  void go_forward(std::span<const double> x, double* slots) const;
-  bool take_values(const double* slots, std::span<double> values) const;
+  void go_forward(const double* x, double* slots) const;
+  bool take_values(const double* slots, double* values) const;
 
   Index variables_ = 0;
   std::vector<double> constants_;
