@@ -21,7 +21,8 @@ using continuation::TraceOptions;
 using Handles = std::vector<std::shared_ptr<BranchHandle>>;
 
 /// What stands for the library's model where a problem is written in Python.
-const problems::LibraryModel written_in_python{"python", "written in Python", {}, {}, {}};
+const auto written_in_python = std::make_shared<const problems::LibraryModel>(
+    problems::LibraryModel{"python", "written in Python", {}, {}, {}});
 
 /// Work of the engine without the lock; `observer` of it is told of each point.
 template <class Work>
@@ -52,7 +53,7 @@ TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem, const Trac
                        Branch branch) {
   auto request = std::make_shared<CaseBranch>();
   request->values = nlohmann::ordered_json::object();
-  request->problem.model = &written_in_python;
+  request->problem.model = written_in_python;
   request->options = options;
   request->options.go_on = {};
   TracedBranch traced;
