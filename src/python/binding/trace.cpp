@@ -9,6 +9,7 @@
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
+#include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
 
 namespace arcslip::python {
@@ -309,6 +310,8 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
   made.by_unknowns = step_named(traits["jacobian"].cast<std::string>());
   made.by_parameters = step_named(traits["parameter_jacobian"].cast<std::string>());
   made.of_observables = step_named(traits["of_observables"].cast<std::string>());
+  if (const py::object formulas = traits["formulas"]; !formulas.is_none())
+    made.formulas = formulas.cast<const Formulas&>().problem;
   made.of_borders = step_named(traits["of_borders"].cast<std::string>());
   return std::make_shared<PythonProblem>(
       PythonFunctions{function("residual"), function("jacobian"), function("parameter_jacobian"),
