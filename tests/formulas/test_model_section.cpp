@@ -135,6 +135,36 @@ TEST_CASE("Curves over two parameters are those of formulas") {
   }
 }
 
+TEST_CASE("Where a map doubles its period is a curve of branch points of twice the iterate") {
+  const CasePlan plan = plan_of(R"toml(
+[model]
+kind = "map"
+iterate = 2
+[model.parameters]
+a = 0
+b = 0.3
+[model.equations]
+x = "1 - a*x^2 + y"
+y = "b*x"
+[model.start]
+x = "1/(1 - b)"
+y = "b/(1 - b)"
+[branch]
+curve = "branch_point"
+parameters = ["a", "b"]
+window = [0, 1.2]
+from = 0.1
+to = 0.5
+)toml");
+  const std::vector<TracedBranch> curves = all_traced(plan);
+  REQUIRE(curves.size() == 1);
+  for (const BranchPoint& point : curves[0].branch.points) {
+    const continuation::BasePoint at = curves[0].curve->split(point.unknowns, point.parameters, point.regime);
+    const double b = at.parameters(1);
+    CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(0.75 * (1 - b) * (1 - b), 1e-9));
+  }
+}
+
 TEST_CASE("All solutions of formulas are found by deflation") {
   const std::string text = R"(
 [model]
