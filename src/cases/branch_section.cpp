@@ -97,7 +97,7 @@ void read_window(CaseBranch& branch, const TomlSection& section) {
   const std::string expected = "two different numbers, the range of " + curve.active;
   section.require("window", expected);
   const std::vector<double> window =
-      section.numbers("window", parameter_rule(branch.problem.model, curve.active));
+      section.numbers("window", parameter_rule(branch.problem.model.get(), curve.active));
   if (window.size() != 2 || window[0] == window[1]) section.mismatch("window", expected);
   curve.from = window[0];
   curve.to = window[1];
@@ -105,7 +105,7 @@ void read_window(CaseBranch& branch, const TomlSection& section) {
 }
 
 NumberRule rule_of_parameter(const CaseBranch& branch) {
-  return parameter_rule(branch.problem.model, branch.options.parameter);
+  return parameter_rule(branch.problem.model.get(), branch.options.parameter);
 }
 
 NumberRule rule_of_range(const CaseBranch& branch) {
@@ -263,7 +263,8 @@ const KeyTable<CaseBranch>& branch_keys() {
   return keys;
 }
 
-CaseBranch read_branch(const TomlDocument& document, const problems::LibraryModel* model) {
+CaseBranch read_branch(const TomlDocument& document,
+                       const std::shared_ptr<const problems::LibraryModel>& model) {
   CaseBranch branch;
   branch.problem.model = model;
   branch_keys().read(branch, TomlSection(document, "branch"));

@@ -12,6 +12,7 @@ const KeyTable<CaseBranch>& branch_keys();
 
 /// Reads [branch] for a model, null for a system with friction, and [continuation], but for what `for_each`
 /// may change. Throws InputError.
-CaseBranch read_branch(const TomlDocument& document, const problems::LibraryModel* model);
+CaseBranch read_branch(const TomlDocument& document,
+                       const std::shared_ptr<const problems::LibraryModel>& model);
 
 }  // namespace arcslip

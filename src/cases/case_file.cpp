@@ -14,6 +14,7 @@
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
+#include "cases/model_section.hpp"
 #include "cases/system_section.hpp"
 #include "cases/unit_names.hpp"
 #include "keys/toml_reader.hpp"
@@ -21,8 +22,8 @@
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title",   "system", "geometry", "element", "excitation",
-          "flutter", "ring",   "branch",   "study",   "continuation"};
+  return {"title",   "system", "model",  "geometry", "element",     "excitation",
+          "flutter", "ring",   "branch", "study",    "continuation"};
 }
 
 namespace {
@@ -30,10 +31,15 @@ namespace {
 using nlohmann::ordered_json;
 using problems::LibraryModel;
 
-const LibraryModel* read_model(const TomlDocument& document) {
+using Model = std::shared_ptr<const LibraryModel>;
+
+/// Null for a system with friction.
+Model read_model(const TomlDocument& document) {
+  if (has_model(document)) return read_model_section(document);
   const TomlSection section(document, "system");
-  if (section.table() == nullptr) document.fail(nullptr, "system", "missing; expected a section [system]");
-  return problems::find_model(section.text("model", model_names(document)));
+  if (section.table() == nullptr)
+    document.fail(nullptr, "system", "missing; expected a section [system] or [model]");
+  return {Model(), problems::find_model(section.text("model", model_names(document)))};  // which stays
 }
 
 /// What may differ from branch to branch.
@@ -50,7 +56,7 @@ ordered_json resolve(const TomlDocument& document, const CaseBranch& first,
                      const continuation::TraceOptions& given) {
   ordered_json resolved = to_json(document.root());
   resolved.erase("study");
-  resolve_system(first.problem, resolved);
+  resolve_system(document, first.problem, resolved);
   resolved["continuation"].update(continuation_keys().values(given));
   return resolved;
 }
@@ -236,7 +242,7 @@ class BranchSource {
  private:
   std::shared_ptr<const TomlDocument> document_;
   TomlSection section_;
-  const LibraryModel* model_;
+  Model model_;
   CaseBranch common_;      ///< what is the same in all branches
   std::string parameter_;  ///< of a curve, that of the branch on which its first points are looked for
   std::optional<ForEach> for_each_;
@@ -254,7 +260,7 @@ BranchSource::BranchSource(std::shared_ptr<const TomlDocument> document)
   model_ = read_model(*document_);
   common_ = read_branch(*document_, model_);
   parameter_ = common_.curve ? common_.curve->active : common_.options.parameter;
-  const std::vector<ListedKey> listed = for_each_keys(*document_, model_);
+  const std::vector<ListedKey> listed = for_each_keys(*document_, model_.get());
   for_each_.emplace(*document_, section_, listed, ForEach::Lists::together);
   if (model_ == nullptr) check_fixed(section_, *for_each_, listed, common_, parameter_);
   use_ = {parameter_, false, model_ == nullptr ? load_structures(*document_) : nullptr};
@@ -323,8 +329,9 @@ const std::string& CaseFile::path() const { return document_->path(); }
 bool CaseFile::has(const std::string& section) const { return document_->root().contains(section); }
 
 void CaseFile::named(const std::string& section, const std::function<void()>& work) const {
+  const std::string place = section == "system" && has_model(*document_) ? "model" : section;
   const auto fail = [&](const std::string& why) {
-    document_->fail(document_->root().get(section), section, why);
+    document_->fail(document_->root().get(place), place, why);
   };
   try {
     work();

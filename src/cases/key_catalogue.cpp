@@ -7,6 +7,7 @@
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
 #include "cases/flutter_section.hpp"
+#include "cases/model_section.hpp"
 #include "cases/ring_section.hpp"
 #include "cases/structure_kind.hpp"
 #include "cases/study_section.hpp"
@@ -74,6 +75,7 @@ std::vector<KeySection> key_catalogue() {
     for (const StructureKind::Section& one : kind.sections) section(one.name, one.note, one.keys());
   }
   section("system", "models of the library", library_words());
+  section("model", "a system of one's own, in place of `[system]`", model_words());
   section("element", "beside the contacts, any number of them",
           words_of_kinds(element_kinds(), shared_element_keys, "what it is", element_keys));
   sections.back().repeats = true;

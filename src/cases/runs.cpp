@@ -26,13 +26,12 @@ using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
 Built build_library(const ProblemRequest& request) {
-  const problems::LibraryModel& model = *request.model;
-  const std::shared_ptr<const continuation::Problem> problem = model.build(request.settings);
-  const auto guess = [&model, problem](const Built::ValueOf& value,
-                                       const continuation::TraceOptions& /*limits*/) {
+  const std::shared_ptr<const continuation::Problem> problem = request.model->build(request.settings);
+  const auto guess = [model = request.model, problem](const Built::ValueOf& value,
+                                                      const continuation::TraceOptions& /*limits*/) {
     problems::LibraryModel::Values settings;
-    for (const Setting& setting : model.settings) settings.push_back(value(setting.name));
-    return model.guess(*problem, settings);
+    for (const Setting& setting : model->settings) settings.push_back(value(setting.name));
+    return model->guess(*problem, settings);
   };
   return {problem, guess};
 }

@@ -9,6 +9,7 @@
 #include "cases/continuation_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/geometry_section.hpp"
+#include "cases/model_section.hpp"
 #include "cases/study_section.hpp"
 #include "cases/system_section.hpp"
 #include "cases/unit_names.hpp"
@@ -69,7 +70,7 @@ struct Source {
 ordered_json resolve(const Source& source, const StudyCase& study) {
   ordered_json resolved = to_json(source.file->root());
   resolved.erase("branch");
-  resolve_system(study.design(0).problem(), resolved);
+  resolve_system(*source.file, study.design(0).problem(), resolved);
   fill(resolved["study"], study_keys().values(study));
   if (!study.keys.empty()) resolved["study"]["for_each"] = source.for_each->to_json();
   resolved["continuation"].update(continuation_keys().values(study.options));
@@ -136,6 +137,8 @@ StudyCase read_study(const CaseFile& file) {
         nullptr, "study",
         std::string("missing; expected a section [study]") +
             (document.root().contains("branch") ? "; what [branch] asks for is done by arcslip run" : ""));
+  if (has_model(document))
+    document.fail(root.table()->get("model"), "model", "not of studies, which are of systems with friction");
   if (TomlSection(document, "system").table() == nullptr)
     document.fail(nullptr, "system", "missing; expected a section [system]");
 

@@ -15,6 +15,7 @@
 #include "cases/geometry_section.hpp"
 #include "cases/given_structure.hpp"
 #include "cases/harmonics_section.hpp"
+#include "cases/model_section.hpp"
 #include "cases/ring_section.hpp"
 
 namespace arcslip {
@@ -232,6 +233,7 @@ std::vector<std::string> model_names(const TomlDocument& document) {
 }
 
 std::vector<ListedKey> listed_keys(const TomlDocument& document, const LibraryModel* model) {
+  if (has_model(document)) return listed_model_keys(*model);
   if (model != nullptr) return listed_keys(library_keys(*model).words(), "system");
   const StructureKind& kind = kind_of(document);
   std::vector<ListedKey> keys = listed_keys(kind.keys(), "system");
@@ -308,8 +310,9 @@ NumberRule parameter_rule(const LibraryModel* model, const std::string& paramete
   return any_number();
 }
 
-void read_system(const TomlDocument& document, const Replacements& replacements, const LibraryModel* model,
-                 const SystemUse& use, ProblemRequest& problem) {
+void read_system(const TomlDocument& document, const Replacements& replacements,
+                 const std::shared_ptr<const LibraryModel>& model, const SystemUse& use,
+                 ProblemRequest& problem) {
   const TomlSection section(document, "system", &replacements);
   problem.model = model;
   if (model == nullptr) return read_friction(document, replacements, section, use, problem);
@@ -318,6 +321,10 @@ void read_system(const TomlDocument& document, const Replacements& replacements,
   for (const char* name : {"element", "excitation", "flutter", "ring"}) {
     if (document.root().contains(name))
       document.fail(document.root().get(name), name, "only for systems with friction");
+  }
+  if (has_model(document)) {
+    problem.settings = read_model_values(document, replacements, *model, use.parameter);
+    return;
   }
   LibrarySettings settings{problems::defaults(*model), use.parameter};
   library_keys(*model).read(settings, section);
@@ -353,7 +360,8 @@ void resolve_files(const SystemParameters& system, ordered_json& file) {
 
 }  // namespace
 
-void resolve_system(const ProblemRequest& problem, ordered_json& file) {
+void resolve_system(const TomlDocument& document, const ProblemRequest& problem, ordered_json& file) {
+  if (has_model(document)) return resolve_model(document, file["model"]);
   ordered_json& section = file["system"];
   if (problem.model != nullptr)
     return fill(section, library_keys(*problem.model).values({problem.settings, ""}));

@@ -44,10 +44,12 @@ std::shared_ptr<const Structures> load_structures(const TomlDocument& document);
 /// Reads the section, with [geometry] where it is given, into the problem's settings or system. Throws
 /// InputError.
 void read_system(const TomlDocument& document, const Replacements& replacements,
-                 const problems::LibraryModel* model, const SystemUse& use, ProblemRequest& problem);
+                 const std::shared_ptr<const problems::LibraryModel>& model, const SystemUse& use,
+                 ProblemRequest& problem);
 
 /// Adds the defaults that were taken to the case file as JSON.
-void resolve_system(const ProblemRequest& problem, nlohmann::ordered_json& file);
+void resolve_system(const TomlDocument& document, const ProblemRequest& problem,
+                    nlohmann::ordered_json& file);
 
 /// What Poisson's ratio may be.
 NumberRule poisson_rule();

@@ -37,9 +37,9 @@ struct CurveRequest {
 class Structures;
 struct StructureKind;
 
-/// The problem that a branch belongs to: one of the library's, or a system with friction.
+/// The problem that a branch belongs to: one of the library's or of formulas, or a system with friction.
 struct ProblemRequest {
-  const problems::LibraryModel* model = nullptr;                ///< null for a system with friction
+  std::shared_ptr<const problems::LibraryModel> model;          ///< null for a system with friction
   problems::LibraryModel::Values settings;                      ///< the library model's
   const StructureKind* structure = nullptr;                     ///< what base and damper are then
   SystemParameters system;                                      ///< unless it is one of the library's

@@ -70,6 +70,16 @@ std::string explained(const KeySection& section, const KeyWords& key) {
   return text;
 }
 
+/// A line for each key.
+std::string told(const KeySection& section) {
+  std::string text = plain(joined(section.heading(), ", ", section.note)) + "\n";
+  for (const KeyWords& key : section.keys) {
+    const std::string choices = key.type.starts_with('"') ? ": " + key.type : "";
+    text += fmt::format("  {:<24} {}{}\n", key.name, plain(key.meaning), choices);
+  }
+  return text;
+}
+
 /// Whether a dotted name ends with these words.
 bool ends_with(const std::string& name, const std::string& words) {
   return name == words || name.ends_with("." + words);
@@ -82,6 +92,9 @@ int help_of(const std::string& asked, const std::vector<KeySection>& sections, c
   }
   std::string text;
   std::vector<std::string> names;
+  for (const KeySection& section : sections) {
+    if (section.name == asked) text += told(section) + "\n";
+  }
   for (const KeySection& section : sections) {
     for (const KeyWords& key : section.keys) {
       names.push_back(key.name.substr(key.name.rfind('.') + 1));
@@ -104,12 +117,7 @@ std::string list_keys(const std::vector<std::string>& names) {
   std::string text;
   for (const KeySection& section : key_catalogue()) {
     if (!names.empty() && std::find(names.begin(), names.end(), section.name) == names.end()) continue;
-    text +=
-        fmt::format("{}{}\n", text.empty() ? "" : "\n", plain(joined(section.heading(), ", ", section.note)));
-    for (const KeyWords& key : section.keys) {
-      const std::string choices = key.type.starts_with('"') ? ": " + key.type : "";
-      text += fmt::format("  {:<24} {}{}\n", key.name, plain(key.meaning), choices);
-    }
+    text += (text.empty() ? "" : "\n") + told(section);
   }
   return text;
 }
@@ -138,7 +146,8 @@ Command::Action add_help(CLI::App& app) {
   const auto options = std::make_shared<HelpOptions>();
   CLI::App* command =
       app.add_subcommand("help", "List the keys of case files, or tell all of one or of a command");
-  command->add_option("KEY", options->key, "As max_step, or continuation.max_step; or a command");
+  command->add_option("KEY", options->key,
+                      "As max_step, or continuation.max_step; a section, as model; or a command");
   command->add_flag("--markdown", options->markdown, "All keys as tables in Markdown");
   command->add_flag("--man", options->man, "The manual page, for man -l");
   command->add_option("--completion", options->shell, "Completion for a shell: bash or zsh")

@@ -317,7 +317,7 @@ Command::Action add_run(CLI::App& app) {
                     "dofs have `coordinates`: DIR/shapes/*.vtu, for ParaView");
   command->footer([] {
     return as_paragraphs(run_notes) +
-           list_keys({"system", "geometry", "element", "excitation", "branch", "continuation"});
+           list_keys({"system", "model", "geometry", "element", "excitation", "branch", "continuation"});
   });
   return [options] { return run(*options); };
 }

@@ -1,7 +1,7 @@
 """Continuation of friction-damped vibrations, and of any F(u, p) = 0.
 
 `run`, `study` and `check` take the case files of the program `arcslip`; `trace`, `trace_all` and `solve_all` take
-problems written in Python. Both give `Branch` objects, whose columns are numpy arrays.
+problems written in Python or as formulas. Both give `Branch` objects, whose columns are numpy arrays.
 
     >>> import arcslip
     >>> result = arcslip.run("problems/figure_8.toml")
@@ -14,6 +14,7 @@ from ._cases import CaseWarning, Check, Run, Study, check, run, study
 from ._core import version as __version__
 from ._cycle import marched
 from ._element import Element
+from ._model import Model
 from ._problem import Problem
 from ._structure import Structure
 from ._trace import solve_all, trace, trace_all
@@ -23,6 +24,7 @@ __all__ = [
     "CaseWarning",
     "Check",
     "Element",
+    "Model",
     "Problem",
     "Run",
     "Sample",

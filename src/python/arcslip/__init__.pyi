@@ -40,8 +40,8 @@ def study(
 def check(case: _Case, set: Sequence[str] = (), *, derivatives: bool = False) -> Check: ...
 def trace(
     problem: _Function | Problem,
-    u0: ArrayLike,
-    p0: _Parameters,
+    u0: ArrayLike | None = None,
+    p0: _Parameters | None = None,
     parameter: str | None = None,
     range: tuple[float, float] = (0.0, 1.0),
     *,
@@ -63,8 +63,8 @@ def trace(
 ) -> Branch: ...
 def trace_all(
     problem: _Function | Problem,
-    u0: ArrayLike,
-    p0: _Parameters,
+    u0: ArrayLike | None = None,
+    p0: _Parameters | None = None,
     parameter: str | None = None,
     range: tuple[float, float] = (0.0, 1.0),
     *,
@@ -78,8 +78,8 @@ def trace_all(
 ) -> list[Branch]: ...
 def solve_all(
     problem: _Function | Problem,
-    u0: ArrayLike | list[ArrayLike],
-    p0: _Parameters,
+    u0: ArrayLike | list[ArrayLike] | None = None,
+    p0: _Parameters | None = None,
     *,
     box: tuple[ArrayLike, ArrayLike] | None = None,
     starts: int = 100,
@@ -104,6 +104,26 @@ class Problem:
     beyond: Any
     def __init__(self, residual: _Function | None = None, **given: Any) -> None: ...
     def residual(self, u: Any, p: Any) -> Any: ...
+
+class Model(Problem):
+    values: dict[str, float]
+    kind: str
+    iterate: int
+    def __init__(
+        self,
+        equations: Mapping[str, str | float],
+        parameters: Mapping[str, float],
+        start: Mapping[str, str | float] | None = None,
+        definitions: Mapping[str, str | float] | None = None,
+        observables: Mapping[str, str | float] | None = None,
+        *,
+        kind: Literal["flow", "map", "algebraic"] = "flow",
+        iterate: int = 1,
+    ) -> None: ...
+    def residual(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
+    def jacobian(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
+    def parameter_jacobian(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
+    def observables(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> dict[str, float]: ...
 
 class Element:
     kind: str

@@ -75,6 +75,13 @@ class Problem:
         """F(u, p), shape (n,)."""
         raise NotImplementedError("residual: a Problem needs it, as a function or a method")
 
+    def _begin(self, u0, p0, parameter, first):
+        """Guess and parameters of the start, where they are given; a Model has its own."""
+        for name, given in (("u0", u0), ("p0", p0)):
+            if given is None:
+                raise TypeError(f"{name}: missing; only a Model has a start of its own")
+        return u0, p0
+
 
 class Prepared:
     """A problem at its start: what the engine traces, and the start as it takes it."""
@@ -129,6 +136,7 @@ class Prepared:
             "parameter_jacobian": self.derivatives["parameter_jacobian"],
             "of_observables": self._source_of_both(self._observe) if self.observed else "central differences",
             "of_borders": "central differences" if problem.borders is None else self._source_of_both(self._borders),
+            "formulas": getattr(problem, "_formulas", None),
         }
 
     def _in_form(self, p):

@@ -11,8 +11,8 @@ _LIMITS = {"max_points", "max_seconds", "interrupted"}
 
 def trace(
     problem,
-    u0,
-    p0,
+    u0=None,
+    p0=None,
     parameter=None,
     range=(0.0, 1.0),
     *,
@@ -39,9 +39,9 @@ def trace(
     problem : callable or Problem
         f(u, p) -> array of shape (n,), or a `Problem`.
     u0 : array of shape (n,), or a number
-        A guess of the unknowns at p0.
+        A guess of the unknowns at p0. Only a `Model` has one of its own.
     p0 : float, dict or array
-        The parameters' values; functions get them in the same form.
+        The parameters' values; functions get them in the same form. Of a `Model` those that are not its own.
     parameter : str
         The one to continue; needed where there are several and none is "lambda".
     range : (float, float)
@@ -98,7 +98,9 @@ def trace(
         "max_seconds": max_seconds,
         "bound": bound,
     }
-    prepared = Prepared(_problem(problem, functions), u0, p0, parameter, regime)
+    problem = _problem(problem, functions)
+    u0, p0 = problem._begin(u0, p0, parameter, range[0])
+    prepared = Prepared(problem, u0, p0, parameter, regime)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
     if checkpoint is not None:
@@ -109,8 +111,8 @@ def trace(
 
 
 def trace_all(
-    problem, u0, p0, parameter=None, range=(0.0, 1.0), *, follow="connected", box=None, regime=0, check=True,
-    progress=None, functions=None, **options
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, follow="connected", box=None, regime=0,
+    check=True, progress=None, functions=None, **options
 ):
     """Trace several branches of F(u, p) = 0.
 
@@ -135,7 +137,9 @@ def trace_all(
     """
     if follow not in ("connected", "deflation"):
         raise ValueError(f'follow: expected "connected" or "deflation", got {follow!r}')
-    prepared = Prepared(_problem(problem, functions or {}), u0, p0, parameter, regime)
+    problem = _problem(problem, functions or {})
+    u0, p0 = problem._begin(u0, p0, parameter, range[0])
+    prepared = Prepared(problem, u0, p0, parameter, regime)
     options["parameter"] = prepared.parameter
     if follow == "connected":
         value = prepared.p0[prepared.names.index(prepared.parameter)]
@@ -148,7 +152,7 @@ def trace_all(
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 
 
-def solve_all(problem, u0, p0, *, box=None, starts=100, regime=0, parameter=None, **functions):
+def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, parameter=None, **functions):
     """All solutions at fixed parameters that deflated Newton iterations find.
 
     Parameters
@@ -169,8 +173,9 @@ def solve_all(problem, u0, p0, *, box=None, starts=100, regime=0, parameter=None
     list of numpy.ndarray
         Each of shape (n,), in the order found.
     """
-    guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
     problem = _problem(problem, functions)
+    u0, p0 = problem._begin(u0, p0, parameter, None)
+    guesses = u0 if isinstance(u0, list) and u0 and not _is_number(u0[0]) else [u0]
     names = list(p0) if isinstance(p0, dict) else list(problem.parameters)
     prepared = Prepared(problem, guesses[0], p0, parameter or (names[0] if names else None), regime)
     lower, upper = box if box is not None else (None, None)

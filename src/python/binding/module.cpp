@@ -2,11 +2,13 @@
 
 #include "python/binding/branch.hpp"
 #include "python/binding/cases.hpp"
+#include "python/binding/formulas.hpp"
 #include "python/binding/trace.hpp"
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ side of arcslip.";
   arcslip::python::bind_branch(module);
   arcslip::python::bind_cases(module);
+  arcslip::python::bind_formulas(module);
   arcslip::python::bind_trace(module);
 }

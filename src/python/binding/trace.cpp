@@ -9,6 +9,7 @@
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
+#include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
 
 namespace arcslip::python {
@@ -21,7 +22,8 @@ using continuation::TraceOptions;
 using Handles = std::vector<std::shared_ptr<BranchHandle>>;
 
 /// What stands for the library's model where a problem is written in Python.
-const problems::LibraryModel written_in_python{"python", "written in Python", {}, {}, {}};
+const auto written_in_python = std::make_shared<const problems::LibraryModel>(
+    problems::LibraryModel{"python", "written in Python", {}, {}, {}});
 
 /// Work of the engine without the lock; `observer` of it is told of each point.
 template <class Work>
@@ -52,7 +54,7 @@ TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem, const Trac
                        Branch branch) {
   auto request = std::make_shared<CaseBranch>();
   request->values = nlohmann::ordered_json::object();
-  request->problem.model = &written_in_python;
+  request->problem.model = written_in_python;
   request->options = options;
   request->options.go_on = {};
   TracedBranch traced;
@@ -308,6 +310,8 @@ std::shared_ptr<PythonProblem> make_problem(const py::dict& functions, const py:
   made.by_unknowns = step_named(traits["jacobian"].cast<std::string>());
   made.by_parameters = step_named(traits["parameter_jacobian"].cast<std::string>());
   made.of_observables = step_named(traits["of_observables"].cast<std::string>());
+  if (const py::object formulas = traits["formulas"]; !formulas.is_none())
+    made.formulas = formulas.cast<const Formulas&>().problem;
   made.of_borders = step_named(traits["of_borders"].cast<std::string>());
   return std::make_shared<PythonProblem>(
       PythonFunctions{function("residual"), function("jacobian"), function("parameter_jacobian"),

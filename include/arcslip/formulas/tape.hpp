@@ -1,0 +1,95 @@
+#pragma once
+
+// Formulas as a list of operations that is gone through from end to end,
+//
+//   v_i = f_i(v_a, v_b),  a, b < i,
+//
+// for values; backwards for gradients, by the adjoints dF/dv_a += dF/dv_i df_i/dv_a of each result; and
+// backwards with dual numbers v + h v' for second derivatives along a direction [Griewank & Walther,
+// Evaluating Derivatives, 2nd ed., SIAM 2008, ch. 3 and 5]. All are exact to rounding.
+
+#include <cstdint>
+#include <vector>
+
+#include "arcslip/types.hpp"
+
+namespace arcslip {
+
+/// What an operation does with its one or two operands.
+enum class Operator : std::uint8_t {
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,          ///< a^b; no value at a < 0
+  fixed_power,    ///< a^b of a constant b
+  integer_power,  ///< a^n, n in place of b
+  function,       ///< of one operand, by its number in `functions()` in place of b
+  atan2,
+  minimum,
+  maximum
+};
+
+/// Whether b is a place, and not part of what an operation does.
+constexpr bool has_two(Operator kind) {
+  return kind != Operator::integer_power && kind != Operator::function;
+}
+
+/// v = f(a, b); a and b are places of variables, constants and earlier operations, in this order.
+struct Operation {
+  Operator kind;
+  int left;
+  int right;
+};
+
+/// Its derivatives.
+struct Slopes {
+  double left = 0, right = 0;                             ///< df/da, df/db
+  double left_left = 0, left_right = 0, right_right = 0;  ///< the second ones
+};
+
+/// The value of one operation, and its derivatives there, of which `second` are not always wanted. At the
+/// corners of abs, sign, min and max they are those of one side, or 0 between two of opposite signs.
+double value_of(const Operation& operation, double a, double b);
+Slopes slopes_of(const Operation& operation, double a, double b, double value, bool second);
+
+/// Results by variables x, as many as `variables()`; may be shared by threads. Up to some hundred operations
+/// nothing is allocated.
+class Tape {
+ public:
+  Tape() = default;
+
+  /// `results` are places of variables, constants or operations. Operations that none of them needs are
+  /// best left out.
+  Tape(Index variables, std::vector<double> constants, std::vector<Operation> operations,
+       std::vector<int> results);
+
+  Index variables() const { return variables_; }
+  Index results() const { return std::ssize(results_); }
+  Index operations() const { return std::ssize(operations_); }
+  bool uses(Index variable) const;  ///< whether any result depends on it
+
+  /// Fills `values`, one for each result. False where one is not finite.
+  [[nodiscard]] bool evaluate(const double* x, double* values) const;
+
+  /// Also their gradients, row by row: results x variables.
+  [[nodiscard]] bool evaluate(const double* x, double* values, double* gradients) const;
+
+  /// w^T d/dh [dF/dx](x + h dx) at h = 0: one entry for each variable. False where one is not finite.
+  [[nodiscard]] bool second(const double* x, const double* w, const double* dx, double* out) const;
+
+ private:
+  std::size_t slots() const { return first_ + operations_.size(); }
+  void go_forward(const double* x, double* slots) const;
+  bool take_values(const double* slots, double* values) const;
+
+  Index variables_ = 0;
+  std::vector<double> constants_;
+  std::vector<Operation> operations_;
+  std::vector<int> results_;
+  std::size_t first_ = 0;               // slot of the first operation
+  std::vector<int> needed_;             // operations, in rising order, for each result
+  std::vector<std::size_t> needed_to_;  // where those of each result end
+};
+
+}  // namespace arcslip

@@ -1,0 +1,92 @@
+#pragma once
+
+// A system of one's own, given by formulas of unknowns u and parameters p:
+//
+//   flow       u' = f(u, p)      equilibria f = 0, stable where all eigenvalues of df/du have Re < 0
+//   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers of the iterate have |mu| <
+//   1 algebraic  f(u, p) = 0       without stability
+//
+// Derivatives, the second ones too, are exact.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "arcslip/formulas/formula.hpp"
+#include "arcslip/problems/library/library.hpp"
+
+namespace arcslip::problems {
+
+/// What the formulas are the right-hand side of.
+enum class FormulaKind { flow, map, algebraic };
+
+/// A number that formulas have by its name.
+struct FormulaParameter {
+  std::string name;
+  double value = 0;
+  std::string place = {};  ///< what messages call it; empty: its name
+};
+
+/// The system as it is written.
+struct FormulaSystem {
+  FormulaKind kind = FormulaKind::flow;
+  int iterate = 1;  ///< k of a map: the points that are fixed after k steps
+  std::vector<FormulaParameter> parameters = {};
+  std::vector<Formula> equations = {};    ///< f by the names of the unknowns, in their order
+  std::vector<Formula> definitions = {};  ///< of names that equations and observables use
+  std::vector<Formula> observables = {};  ///< what is told beside the unknowns
+  std::vector<Formula> start = {};        ///< of unknowns, by parameters; 0 of those that are left out
+};
+
+/// Refuses names that mean two things. Throws FormulaError.
+void check_names(const FormulaSystem& system);
+
+/// The greatest `iterate`.
+inline constexpr int most_iterates = 100;
+
+/// The equations above. The unknowns are observables, then those that are given.
+class FormulaProblem : public continuation::Problem {
+ public:
+  /// Throws FormulaError.
+  explicit FormulaProblem(const FormulaSystem& system);
+
+  Index size() const override { return equations_.results(); }
+  std::vector<std::string> parameter_names() const override { return parameters_; }
+  [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                              const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                            const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
+  bool is_equilibrium() const override { return kind_ == FormulaKind::flow; }
+
+  /// Of a map ln mu or, where mu < 0 is real, ln -mu, for each multiplier mu: zero at mu = 1 and at mu = -1.
+  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,
+                                 ComplexVector& values) const override;
+  continuation::PointType pair_crossing() const override;
+
+  /// Of a map period doublings, where det(1 + df/du) vanishes.
+  std::vector<continuation::PointType> test_types() const override;
+  void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
+            Vector& values) const override;
+
+  std::vector<continuation::Observable> observables() const override;
+  void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
+               Vector& values) const override;
+  double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
+                 continuation::Gradient& gradient) const override;
+
+ private:
+  bool multipliers(const Vector& u, const Vector& p, Matrix& jacobian) const;
+
+  FormulaKind kind_;
+  std::vector<std::string> unknowns_;
+  std::vector<std::string> parameters_;
+  std::vector<std::string> observables_;
+  Tape equations_;              // of u, p
+  std::vector<Tape> observed_;  // of u, p, each by itself: one may have no value where others do
+};
+
+/// The system as a model like those of the library: its parameters are settings, its guess is `start`.
+/// Throws FormulaError.
+LibraryModel model_of(const FormulaSystem& system);
+
+}  // namespace arcslip::problems

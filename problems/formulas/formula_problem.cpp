@@ -1,0 +1,169 @@
+#include "arcslip/problems/formulas/formula_problem.hpp"
+
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <limits>
+
+#include "arcslip/continuation/linear/eigenvalues.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+using continuation::Evaluation;
+using continuation::PointType;
+using continuation::Regime;
+using Numbers = boost::container::small_vector<double, 128>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Unknowns, then parameters, as the tapes have them.
+Numbers joined(const Vector& u, const Vector& p) {
+  Numbers both(u.begin(), u.end());
+  both.insert(both.end(), p.begin(), p.end());
+  return both;
+}
+
+Numbers room(Index count) { return Numbers(static_cast<std::size_t>(count)); }
+
+Eigen::Map<const Vector> vector_of(const Numbers& numbers) { return {numbers.data(), std::ssize(numbers)}; }
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, int iterations) {
+  FormulaSet set{names_of(system.equations),
+                 system.definitions,
+                 results,
+                 {{time_name, "is the time, on which no system may depend here"}},
+                 iterations};
+  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  return compile(set);
+}
+
+}  // namespace
+
+FormulaProblem::FormulaProblem(const FormulaSystem& system)
+    : kind_(system.kind),
+      unknowns_(names_of(system.equations)),
+      parameters_(names_of(system.parameters)),
+      observables_(names_of(system.observables)) {
+  check_names(system);
+  equations_ = tape_of(system, system.equations, kind_ == FormulaKind::map ? system.iterate : 1);
+  for (const Formula& one : system.observables) observed_.push_back(tape_of(system, {one}, 1));
+}
+
+bool FormulaProblem::evaluate(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                              const Evaluation& out) const {
+  const Index n = size();
+  const bool differentiated = out.jacobian != nullptr || out.parameter_jacobian != nullptr;
+  const Numbers at = joined(u, p);
+  Numbers values = room(n);
+  Numbers gradients = room(differentiated ? n * std::ssize(at) : 0);
+  if (!(differentiated ? equations_.evaluate(at.data(), values.data(), gradients.data())
+                       : equations_.evaluate(at.data(), values.data())))
+    return false;
+  const bool returns = kind_ == FormulaKind::map;
+  if (out.residual != nullptr) {
+    *out.residual = vector_of(values);
+    if (returns) *out.residual -= u;
+  }
+  const Eigen::Map<const Rows> rows(gradients.data(), differentiated ? n : 0, std::ssize(at));
+  if (out.jacobian != nullptr) {
+    *out.jacobian = rows.leftCols(n);
+    if (returns) out.jacobian->diagonal().array() -= 1;
+  }
+  if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = rows.rightCols(p.size());
+  return true;
+}
+
+bool FormulaProblem::second(const Vector& u, const Vector& p, const Regime& /*regime*/, const Vector& w,
+                            const Vector& du, const Vector& dp, Vector& out) const {
+  out.resize(u.size() + p.size());
+  return equations_.second(joined(u, p).data(), w.data(), joined(du, dp).data(), out.data());
+}
+
+/// Those of the iterate are the eigenvalues of its Jacobian.
+bool FormulaProblem::multipliers(const Vector& u, const Vector& p, Matrix& jacobian) const {
+  jacobian.resize(size(), size());
+  Evaluation out;
+  out.jacobian = &jacobian;
+  if (!evaluate(u, p, {}, out)) return false;
+  jacobian.diagonal().array() += 1;
+  return true;
+}
+
+bool FormulaProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                 ComplexVector& values) const {
+  if (kind_ != FormulaKind::map) return Problem::eigenvalues(u, p, regime, values);
+  Matrix jacobian;
+  if (!multipliers(u, p, jacobian)) return false;
+  values = continuation::eigenvalues(jacobian);
+  for (Complex& value : values) {
+    const bool flips = value.imag() == 0 && value.real() < 0;
+    const double size = std::max(std::abs(value), std::numeric_limits<double>::min());
+    value = {std::log(size), flips ? 0 : std::arg(value)};
+  }
+  return values.allFinite();
+}
+
+PointType FormulaProblem::pair_crossing() const {
+  return kind_ == FormulaKind::map ? PointType::neimark_sacker : PointType::hopf;
+}
+
+std::vector<PointType> FormulaProblem::test_types() const {
+  if (kind_ == FormulaKind::map) return {PointType::period_doubling};
+  return {};
+}
+
+void FormulaProblem::test(const Vector& u, const Vector& p, const Regime& /*regime*/, Vector& values) const {
+  values.resize(std::ssize(test_types()));
+  Matrix jacobian;
+  if (values.size() == 0) return;
+  values(0) = std::nan("");
+  if (!multipliers(u, p, jacobian)) return;
+  jacobian.diagonal().array() += 1;
+  values(0) = jacobian.determinant();
+}
+
+std::vector<continuation::Observable> FormulaProblem::observables() const {
+  std::vector<continuation::Observable> all;
+  for (const std::vector<std::string>* names : {&unknowns_, &observables_}) {
+    for (const std::string& name : *names) all.push_back({name, true});
+  }
+  return all;
+}
+
+void FormulaProblem::observe(const Vector& u, const Vector& p, const Regime& /*regime*/,
+                             Vector& values) const {
+  values.resize(u.size() + std::ssize(observed_));
+  values.head(u.size()) = u;
+  const Numbers at = joined(u, p);
+  for (std::size_t i = 0; i < observed_.size(); ++i) {
+    double& value = values(u.size() + static_cast<Index>(i));
+    if (!observed_[i].evaluate(at.data(), &value)) value = std::nan("");
+  }
+}
+
+double FormulaProblem::observe(const Vector& u, const Vector& p, const Regime& /*regime*/, Index which,
+                               continuation::Gradient& gradient) const {
+  if (which < u.size()) {
+    gradient.unknowns.setUnit(which);
+    gradient.parameters.setZero();
+    return u(which);
+  }
+  const Numbers at = joined(u, p);
+  double value = 0;
+  Numbers slopes = room(std::ssize(at));
+  if (!observed_[static_cast<std::size_t>(which - u.size())].evaluate(at.data(), &value, slopes.data())) {
+    value = std::nan("");
+    std::fill(slopes.begin(), slopes.end(), value);
+  }
+  gradient.unknowns = vector_of(slopes).head(u.size());
+  gradient.parameters = vector_of(slopes).tail(p.size());
+  return value;
+}
+
+}  // namespace arcslip::problems

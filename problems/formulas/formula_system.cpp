@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "arcslip/problems/formulas/formula_problem.hpp"
+#include "arcslip/problems/library/model.hpp"
+
+namespace arcslip::problems {
+namespace {
+
+/// What tables and summaries of branches have under these names.
+const std::vector<std::string> columns{"branch",     "point",    "type",  "regime", "unstable", "arclength",
+                                       "iterations", "residual", "state", "omega",  "lyapunov"};
+
+/// Keeps the names that were seen.
+class Names {
+ public:
+  template <class Named>
+  void add(const std::vector<Named>& all) {
+    for (const Named& one : all) add(one.name, one.place.empty() ? one.name : one.place);
+  }
+
+ private:
+  void add(const std::string& name, const std::string& place) {
+    std::string why = why_no_name(name);
+    if (why.empty() && std::count(columns.begin(), columns.end(), name) > 0)
+      why = fmt::format("results have {} already; expected another name", name);
+    const auto [known, is_new] = places_.try_emplace(name, place);
+    if (why.empty() && !is_new) why = fmt::format("{} has this name already", known->second);
+    if (!why.empty()) throw FormulaError(place, why);
+  }
+
+  std::map<std::string, std::string> places_;
+};
+
+/// The guess of each unknown, by the parameters.
+Tape start_of(const FormulaSystem& system) {
+  FormulaSet set;
+  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  for (const Formula& equation : system.equations) {
+    const auto given = std::find_if(system.start.begin(), system.start.end(),
+                                    [&](const Formula& one) { return one.name == equation.name; });
+    set.results.push_back(given != system.start.end() ? *given : Formula{equation.name, "0"});
+  }
+  return compile(set);
+}
+
+std::string title_of(const FormulaSystem& system) {
+  std::vector<std::string> unknowns;
+  for (const Formula& equation : system.equations) unknowns.push_back(equation.name);
+  const std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
+  switch (system.kind) {
+    case FormulaKind::flow: return fmt::format("a flow of {}", names);
+    case FormulaKind::algebraic: return fmt::format("equations in {}", names);
+    case FormulaKind::map:
+      return fmt::format("a map of {}{}", names,
+                         system.iterate > 1 ? fmt::format(", {} times", system.iterate) : "");
+  }
+  return names;
+}
+
+}  // namespace
+
+void check_names(const FormulaSystem& system) {
+  Names names;
+  names.add(system.parameters);
+  names.add(system.equations);
+  names.add(system.definitions);
+  names.add(system.observables);
+  for (const Formula& start : system.start) {
+    const bool known = std::any_of(system.equations.begin(), system.equations.end(),
+                                   [&](const Formula& one) { return one.name == start.name; });
+    if (!known)
+      throw FormulaError(start.place.empty() ? start.name : start.place, "there is no equation of this name");
+  }
+}
+
+LibraryModel model_of(const FormulaSystem& system) {
+  LibraryModel model{"model", title_of(system), {}, {}, {}};
+  for (const FormulaParameter& parameter : system.parameters)
+    model.settings.push_back(any_value(parameter.name, parameter.value, ""));
+  model.build = [problem = FormulaProblem(system)](const LibraryModel::Values& /*values*/) {
+    return std::make_unique<FormulaProblem>(problem);
+  };
+  model.guess = guess_at([start = start_of(system)](const continuation::Problem& problem, const Vector& p) {
+    Vector u(problem.size());
+    if (!start.evaluate(p.data(), u.data()))
+      throw std::invalid_argument("the guess of the start has no value at the parameters of the start");
+    return u;
+  });
+  return model;
+}
+
+}  // namespace arcslip::problems

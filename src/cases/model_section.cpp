@@ -1,0 +1,164 @@
+#include "cases/model_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/problems/formulas/formula_problem.hpp"
+
+namespace arcslip {
+namespace {
+
+using problems::FormulaKind;
+using problems::FormulaParameter;
+using problems::FormulaSystem;
+using problems::LibraryModel;
+using ModelKey = Key<FormulaSystem>;
+
+const char* const section_name = "model";
+const char* const parameters_name = "model.parameters";
+
+struct NamedNode {
+  std::string key;
+  const toml::node* node;
+};
+
+/// The entries of a table in the order of the file, then those of --set. Refuses what no formula could name.
+std::vector<NamedNode> in_order(const TomlSection& section) {
+  std::vector<std::pair<toml::source_position, NamedNode>> placed;
+  for (const auto& [key, node] : *section.table()) {
+    const std::string name(key.str());
+    if (const std::string why = why_no_name(name); !why.empty())
+      section.document().fail(&node, section.name(name), why);
+    placed.push_back({key.source().begin, {name, &node}});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) {
+    if (!a.first || !b.first) return static_cast<bool>(a.first) && !b.first;
+    return a.first < b.first;
+  });
+  std::vector<NamedNode> entries;
+  for (auto& [place, entry] : placed) entries.push_back(std::move(entry));
+  return entries;
+}
+
+/// A number is a formula, too.
+std::string text_of(const TomlSection& section, const NamedNode& entry) {
+  if (const auto* text = entry.node->as_string()) return text->get();
+  const std::optional<double> number = exact_number(*entry.node);
+  if (!number || !std::isfinite(*number))
+    section.document().mismatch(*entry.node, section.name(entry.key), "a formula as a string, or a number");
+  return fmt::format("{}", *number);
+}
+
+template <class Member>
+auto formulas(const char* key, Member member) {
+  return [=](FormulaSystem& system, const TomlSection& section) {
+    const TomlSection table = section.inside(key, "a table of formulas by names");
+    for (const NamedNode& entry : in_order(table))
+      (system.*member).push_back({entry.key, text_of(table, entry), table.name(entry.key)});
+  };
+}
+
+void read_parameters_table(FormulaSystem& system, const TomlSection& section) {
+  const char* const expected = "a table with at least one number by its name";
+  section.require("parameters", expected);
+  const TomlSection table = section.inside("parameters", expected);
+  for (const NamedNode& entry : in_order(table))
+    system.parameters.push_back({entry.key, table.number(entry.key, any_number()), table.name(entry.key)});
+  if (system.parameters.empty()) section.mismatch("parameters", expected);
+}
+
+void read_equations(FormulaSystem& system, const TomlSection& section) {
+  const char* const expected = "a table with a formula for each unknown";
+  section.require("equations", expected);
+  formulas("equations", &FormulaSystem::equations)(system, section);
+  if (system.equations.empty()) section.mismatch("equations", expected);
+}
+
+const KeyTable<FormulaSystem>& model_keys() {
+  const auto is_map = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind == FormulaKind::map;
+  };
+  static const KeyTable<FormulaSystem> keys{
+      {ModelKey::choice(
+           "kind", &FormulaSystem::kind,
+           {{"flow", FormulaKind::flow}, {"map", FormulaKind::map}, {"algebraic", FormulaKind::algebraic}},
+           "what the equations are: u' = f and its equilibria, u -> f and its fixed points, or f = 0 without "
+           "stability",
+           ""),
+       ModelKey("iterate", &FormulaSystem::iterate, within(1, problems::most_iterates),
+                "k: the points that are fixed after k steps of the map", only("only of maps", is_map)),
+       ModelKey::special("parameters", "table of numbers",
+                         "by name, in the order of columns; any may be continued, and for_each may list it",
+                         read_parameters_table, required),
+       ModelKey::special("definitions", "table of formulas",
+                         "by names that equations and observables use, in any order",
+                         formulas("definitions", &FormulaSystem::definitions)),
+       ModelKey::special("equations", "table of formulas", "f for each unknown, by its name, in their order",
+                         read_equations, required),
+       ModelKey::special("observables", "table of formulas",
+                         "columns beside the unknowns, whose extrema may be looked for",
+                         formulas("observables", &FormulaSystem::observables)),
+       ModelKey::special("start", "table of formulas or numbers",
+                         "a guess of the unknowns where the branch begins, by parameters",
+                         formulas("start", &FormulaSystem::start), otherwise("0 of each"))}};
+  return keys;
+}
+
+FormulaSystem read_formulas(const TomlDocument& document) {
+  FormulaSystem system;
+  model_keys().read(system, TomlSection(document, section_name));
+  return system;
+}
+
+}  // namespace
+
+bool has_model(const TomlDocument& document) { return document.root().contains(section_name); }
+
+std::vector<KeyWords> model_words() { return model_keys().words(); }
+
+std::shared_ptr<const LibraryModel> read_model_section(const TomlDocument& document) {
+  if (document.root().contains("system"))
+    document.fail(document.root().get("system"), "system", "not beside [model], which is the system");
+  try {
+    return std::make_shared<const LibraryModel>(problems::model_of(read_formulas(document)));
+  } catch (const FormulaError& error) {
+    document.fail(document.root().at_path(error.place()).node(), error.place(), error.why());
+  }
+}
+
+LibraryModel::Values read_model_values(const TomlDocument& document, const Replacements& replacements,
+                                       const LibraryModel& model, const std::string& continued) {
+  const TomlSection section(document, parameters_name, &replacements);
+  LibraryModel::Values values;
+  for (const Setting& setting : model.settings) {
+    if (setting.name == continued && replacements.contains(section.name(continued)))
+      section.fail(continued, "the continuation parameter has its values from [branch]");
+    values.push_back(section.number(setting.name, any_number()));
+  }
+  return values;
+}
+
+std::vector<ListedKey> listed_model_keys(const LibraryModel& model) {
+  std::vector<ListedKey> listed;
+  for (const Setting& setting : model.settings)
+    listed.push_back({setting.name, fmt::format("{}.{}", parameters_name, setting.name), setting.name});
+  return listed;
+}
+
+void resolve_model(const TomlDocument& document, nlohmann::ordered_json& section) {
+  for (auto& [key, value] : section.items()) {
+    if (!value.is_object()) continue;
+    nlohmann::ordered_json ordered = nlohmann::ordered_json::object();
+    for (const NamedNode& entry : in_order(TomlSection(document, fmt::format("{}.{}", section_name, key))))
+      ordered[entry.key] = value[entry.key];
+    value = std::move(ordered);
+  }
+  FormulaSystem defaults = read_formulas(document);
+  nlohmann::ordered_json values = model_keys().values(defaults);
+  if (defaults.kind != FormulaKind::map) values.erase("iterate");
+  fill(section, values);
+}
+
+}  // namespace arcslip

@@ -1,0 +1,164 @@
+#include "arcslip/formulas/tape.hpp"
+
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+
+namespace arcslip {
+namespace {
+
+/// On the stack up to 16 kB.
+class Scratch {
+ public:
+  explicit Scratch(std::size_t size) : numbers_(size, boost::container::default_init) {}
+
+  /// The next ones, of any value or zero.
+  double* take(std::size_t count) {
+    taken_ += count;
+    return numbers_.data() + taken_ - count;
+  }
+  double* zeros(std::size_t count) {
+    double* const first = take(count);
+    std::fill_n(first, count, 0.0);
+    return first;
+  }
+
+ private:
+  boost::container::small_vector<double, 2048> numbers_;
+  std::size_t taken_ = 0;
+};
+
+/// The place of b, or of a where there is none.
+std::size_t right_of(const Operation& one) {
+  return static_cast<std::size_t>(has_two(one.kind) ? one.right : one.left);
+}
+
+bool are_finite(const double* numbers, std::size_t count) {
+  return std::all_of(numbers, numbers + count, [](double one) { return std::isfinite(one); });
+}
+
+}  // namespace
+
+Tape::Tape(Index variables, std::vector<double> constants, std::vector<Operation> operations,
+           std::vector<int> results)
+    : variables_(variables),
+      constants_(std::move(constants)),
+      operations_(std::move(operations)),
+      results_(std::move(results)),
+      first_(static_cast<std::size_t>(variables) + constants_.size()) {
+  for (const int result : results_) {
+    std::vector<bool> is_needed(slots(), false);
+    is_needed[static_cast<std::size_t>(result)] = true;
+    for (std::size_t i = operations_.size(); i-- > 0;) {
+      if (!is_needed[first_ + i]) continue;
+      is_needed[static_cast<std::size_t>(operations_[i].left)] = true;
+      is_needed[right_of(operations_[i])] = true;
+    }
+    for (std::size_t i = 0; i < operations_.size(); ++i) {
+      if (is_needed[first_ + i]) needed_.push_back(static_cast<int>(i));
+    }
+    needed_to_.push_back(needed_.size());
+  }
+}
+
+bool Tape::uses(Index variable) const {
+  const auto place = static_cast<int>(variable);
+  return std::count(results_.begin(), results_.end(), place) > 0 ||
+         std::any_of(operations_.begin(), operations_.end(), [&](const Operation& one) {
+           return one.left == place || static_cast<int>(right_of(one)) == place;
+         });
+}
+
+void Tape::go_forward(const double* x, double* slots) const {
+  std::copy(constants_.begin(), constants_.end(), std::copy_n(x, variables_, slots));
+  double* value = slots + first_;
+  for (const Operation& one : operations_) *value++ = value_of(one, slots[one.left], slots[right_of(one)]);
+}
+
+bool Tape::take_values(const double* slots, double* values) const {
+  for (std::size_t i = 0; i < results_.size(); ++i) values[i] = slots[results_[i]];
+  return are_finite(values, results_.size());
+}
+
+bool Tape::evaluate(const double* x, double* values) const {
+  Scratch scratch(slots());
+  double* const at = scratch.take(slots());
+  go_forward(x, at);
+  return take_values(at, values);
+}
+
+bool Tape::evaluate(const double* x, double* values, double* gradients) const {
+  const std::size_t count = operations_.size();
+  Scratch scratch(2 * slots() + 2 * count);
+  double* const at = scratch.take(slots());
+  go_forward(x, at);
+  if (!take_values(at, values)) return false;
+  double* const left = scratch.take(count);
+  double* const right = scratch.take(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Operation& one = operations_[i];
+    const Slopes slopes = slopes_of(one, at[one.left], at[right_of(one)], at[first_ + i], false);
+    left[i] = slopes.left;
+    right[i] = slopes.right;
+  }
+  double* const adjoint = scratch.zeros(slots());
+  const auto variables = static_cast<std::size_t>(variables_);
+  std::size_t begin = 0;
+  for (std::size_t r = 0; r < results_.size(); ++r) {
+    std::fill_n(adjoint, variables, 0.0);
+    for (std::size_t k = begin; k < needed_to_[r]; ++k)
+      adjoint[first_ + static_cast<std::size_t>(needed_[k])] = 0;
+    adjoint[results_[r]] = 1;
+    for (std::size_t k = needed_to_[r]; k-- > begin;) {
+      const auto i = static_cast<std::size_t>(needed_[k]);
+      const double here = adjoint[first_ + i];
+      adjoint[operations_[i].left] += left[i] * here;
+      if (has_two(operations_[i].kind)) adjoint[operations_[i].right] += right[i] * here;
+    }
+    std::copy_n(adjoint, variables, gradients + r * variables);
+    begin = needed_to_[r];
+  }
+  return are_finite(gradients, results_.size() * variables);
+}
+
+bool Tape::second(const double* x, const double* w, const double* dx, double* out) const {
+  const std::size_t count = operations_.size();
+  Scratch scratch(4 * slots() + 4 * count);
+  double* const at = scratch.take(slots());
+  double* const rate = scratch.zeros(slots());
+  double* const left = scratch.take(count);
+  double* const right = scratch.take(count);
+  double* const left_rate = scratch.take(count);
+  double* const right_rate = scratch.take(count);
+  double* const adjoint = scratch.zeros(slots());
+  double* const adjoint_rate = scratch.zeros(slots());
+  go_forward(x, at);
+  std::copy_n(dx, variables_, rate);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Operation& one = operations_[i];
+    const std::size_t b = right_of(one);
+    const Slopes slopes = slopes_of(one, at[one.left], at[b], at[first_ + i], true);
+    const double da = rate[one.left];
+    const double db = has_two(one.kind) ? rate[b] : 0;
+    left[i] = slopes.left;
+    right[i] = slopes.right;
+    left_rate[i] = slopes.left_left * da + slopes.left_right * db;
+    right_rate[i] = slopes.left_right * da + slopes.right_right * db;
+    rate[first_ + i] = slopes.left * da + slopes.right * db;
+  }
+  for (std::size_t r = 0; r < results_.size(); ++r) adjoint[results_[r]] += w[r];
+  for (std::size_t i = count; i-- > 0;) {
+    const Operation& one = operations_[i];
+    const double here = adjoint[first_ + i];
+    const double here_rate = adjoint_rate[first_ + i];
+    adjoint[one.left] += left[i] * here;
+    adjoint_rate[one.left] += left_rate[i] * here + left[i] * here_rate;
+    if (!has_two(one.kind)) continue;
+    adjoint[one.right] += right[i] * here;
+    adjoint_rate[one.right] += right_rate[i] * here + right[i] * here_rate;
+  }
+  std::copy_n(adjoint_rate, variables_, out);
+  return are_finite(out, static_cast<std::size_t>(variables_));
+}
+
+}  // namespace arcslip

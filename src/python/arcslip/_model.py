@@ -1,0 +1,123 @@
+"""Systems of one's own, given by formulas."""
+
+import numpy as np
+
+from . import _core
+from ._problem import Problem
+
+_KINDS = ("flow", "map", "algebraic")
+
+
+class Model(Problem):
+    """u' = f(u, p), u -> f(u, p) or f(u, p) = 0, with f as formulas, like `[model]` of case files.
+
+    It stands where a `Problem` may. Derivatives, the second ones too, are exact, and nothing is called in Python while
+    a branch is traced. `trace` needs neither u0 nor p0 then: a branch begins at the first value of its range, with the
+    other parameters as they are given here and the unknowns of `start`.
+
+    Parameters
+    ----------
+    equations : dict
+        f as a formula for each unknown, by its name: {"x": "mu*x - x^3"}.
+    parameters : dict
+        A number for each name.
+    start : dict, optional
+        A guess of unknowns, as numbers or formulas of the parameters; 0 of those that are left out.
+    definitions : dict, optional
+        Formulas by names that equations and observables may use, in any order.
+    observables : dict, optional
+        Formulas by names: further columns.
+    kind : {"flow", "map", "algebraic"}
+        A flow has equilibria and Hopf points, a map fixed points and period doublings.
+    iterate : int
+        Of a map: the points that are fixed after so many steps, at most 100.
+
+    Attributes
+    ----------
+    values : dict
+        The numbers of `parameters`, by name.
+
+    Raises
+    ------
+    ValueError
+        A formula cannot be read: which one, where, and what was expected.
+    """
+
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1):
+        if kind not in _KINDS:
+            raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
+        if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
+            raise ValueError(f"iterate: expected an integer from 1 to 100, and more than 1 only of maps, got {iterate!r}")
+        if not equations:
+            raise ValueError("equations: expected a formula for each unknown, got none")
+        self.values = {str(name): _number(name, value) for name, value in parameters.items()}
+        self._formulas = _core.Formulas(
+            kind,
+            int(iterate),
+            list(self.values.items()),
+            _texts("definitions", definitions),
+            _texts("equations", equations),
+            _texts("observables", observables),
+            _texts("start", start),
+        )
+        self.kind = kind
+        self.iterate = int(iterate)
+        self.parameters = tuple(self.values)
+        self.unknowns = tuple(str(name) for name in equations)
+        self.equilibrium = kind == "flow"
+        self._observed = [str(name) for name in observables or {}]
+        if not self._observed:
+            self.observables = None
+
+    def __repr__(self):
+        return f"<arcslip.Model, {self.kind} of {', '.join(self.unknowns)}>"
+
+    def residual(self, u, p):
+        """f(u, p), of maps f(u, p) - u, shape (n,)."""
+        return self._formulas.residual(u, self._in_order(p))
+
+    def jacobian(self, u, p):
+        """Its derivatives by the unknowns, shape (n, n)."""
+        return self._formulas.jacobian(u, self._in_order(p))
+
+    def parameter_jacobian(self, u, p):
+        """Its derivatives by the parameters, shape (n, number of parameters)."""
+        return self._formulas.parameter_jacobian(u, self._in_order(p))
+
+    def observables(self, u, p):
+        """The further columns by name."""
+        return dict(zip(self._observed, self._formulas.observed(u, self._in_order(p)).tolist()))
+
+    def _in_order(self, p):
+        return [p[name] for name in self.values] if isinstance(p, dict) else np.atleast_1d(p)
+
+    def _begin(self, u0, p0, parameter, first):
+        given = dict(p0) if isinstance(p0, dict) else {} if p0 is None else dict(zip(self.values, np.atleast_1d(p0)))
+        unknown = [name for name in given if name not in self.values]
+        if unknown:
+            raise ValueError(f"p0: there is no '{unknown[0]}' among {', '.join(self.values)}")
+        if parameter is None and len(self.values) == 1:
+            parameter = next(iter(self.values))
+        p = {**self.values, **given}
+        if first is not None and parameter in p and parameter not in given:
+            p[parameter] = float(first)
+        return (self._formulas.start([float(value) for value in p.values()]) if u0 is None else u0), p
+
+
+def _number(name, value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"parameters.{name}: expected a number, got {value!r}") from error
+    if not np.isfinite(number):
+        raise ValueError(f"parameters.{name}: expected a finite number, got {value!r}")
+    return number
+
+
+def _texts(name, given):
+    texts = []
+    for key, value in (given or {}).items():
+        if not isinstance(value, (str, int, float, np.integer, np.floating)) or isinstance(value, bool):
+            raise ValueError(f"{name}.{key}: expected a formula as a string, or a number, got {value!r}")
+        texts.append((str(key), value if isinstance(value, str) else repr(float(value))))
+    return texts

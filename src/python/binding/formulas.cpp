@@ -1,0 +1,90 @@
+#include "python/binding/formulas.hpp"
+
+#include <pybind11/stl.h>
+
+#include "python/binding/arrays.hpp"
+
+namespace arcslip::python {
+namespace {
+
+using problems::FormulaKind;
+using problems::FormulaSystem;
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<Formula> formulas_of(const std::string& name, const Texts& texts) {
+  std::vector<Formula> formulas;
+  for (const auto& [key, text] : texts) formulas.push_back({key, text, name + "." + key});
+  return formulas;
+}
+
+FormulaKind kind_named(const std::string& name) {
+  return name == "map" ? FormulaKind::map : name == "flow" ? FormulaKind::flow : FormulaKind::algebraic;
+}
+
+Formulas made(const std::string& kind, int iterate,
+              const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
+              const Texts& equations, const Texts& observables, const Texts& start) {
+  FormulaSystem system{.kind = kind_named(kind), .iterate = iterate};
+  for (const auto& [name, value] : numbers) system.parameters.push_back({name, value, "parameters." + name});
+  system.definitions = formulas_of("definitions", definitions);
+  system.equations = formulas_of("equations", equations);
+  system.observables = formulas_of("observables", observables);
+  system.start = formulas_of("start", start);
+  return {std::make_shared<const problems::FormulaProblem>(system), problems::model_of(system)};
+}
+
+/// What it is called with, as the problem takes it.
+struct Place {
+  Place(const Formulas& formulas, const py::handle& unknowns, const py::handle& parameters)
+      : u(formulas.problem->size()), p(std::ssize(formulas.model.settings)) {
+    take(unknowns, "u", u);
+    take(parameters, "p", p);
+  }
+  Vector u, p;
+};
+
+/// F or one of its derivatives; nan where there is no value.
+template <class Target>
+py::array evaluated(const Formulas& formulas, const Place& at, Target* continuation::Evaluation::*which,
+                    Target values) {
+  continuation::Evaluation out;
+  out.*which = &values;
+  if (!formulas.problem->evaluate(at.u, at.p, {}, out)) values.setConstant(std::nan(""));
+  if constexpr (std::is_same_v<Target, Matrix>) return give(Matrix(values.transpose()));
+  return give(values);
+}
+
+}  // namespace
+
+void bind_formulas(py::module_& module) {
+  using continuation::Evaluation;
+  py::class_<Formulas>(module, "Formulas")
+      .def(py::init(&made))
+      .def("residual",
+           [](const Formulas& self, const py::handle& u, const py::handle& p) {
+             const Place at(self, u, p);
+             return evaluated(self, at, &Evaluation::residual, Vector(at.u.size()));
+           })
+      .def("jacobian",
+           [](const Formulas& self, const py::handle& u, const py::handle& p) {
+             const Place at(self, u, p);
+             return evaluated(self, at, &Evaluation::jacobian, Matrix(at.u.size(), at.u.size()));
+           })
+      .def("parameter_jacobian",
+           [](const Formulas& self, const py::handle& u, const py::handle& p) {
+             const Place at(self, u, p);
+             return evaluated(self, at, &Evaluation::parameter_jacobian, Matrix(at.u.size(), at.p.size()));
+           })
+      .def("observed",
+           [](const Formulas& self, const py::handle& u, const py::handle& p) {
+             const Place at(self, u, p);
+             Vector values;
+             self.problem->observe(at.u, at.p, {}, values);
+             return give(Vector(values.tail(values.size() - at.u.size())));
+           })
+      .def("start", [](const Formulas& self, const std::vector<double>& p) {
+        return give(self.model.guess(*self.problem, p).unknowns);
+      });
+}
+
+}  // namespace arcslip::python

@@ -1,0 +1,23 @@
+#pragma once
+
+// Systems given by formulas: arcslip._core.Formulas, which arcslip.Model is made of.
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "arcslip/problems/formulas/formula_problem.hpp"
+
+namespace arcslip::python {
+
+namespace py = pybind11;
+
+/// A system with its guess of the start.
+struct Formulas {
+  std::shared_ptr<const problems::FormulaProblem> problem;
+  problems::LibraryModel model;
+};
+
+void bind_formulas(py::module_& module);
+
+}  // namespace arcslip::python

@@ -1,0 +1,97 @@
+"""Systems given by formulas: arcslip.Model, wherever the module takes a problem."""
+
+import numpy as np
+import pytest
+
+import arcslip
+
+BRUSSELATOR = {
+    "equations": {"x": "A - (B + 1)*x + rate", "y": "B*x - rate"},
+    "parameters": {"A": 1, "B": 1},
+    "start": {"x": "A", "y": "B/A"},
+    "definitions": {"rate": "x^2*y"},
+    "observables": {"product": "x*y"},
+}
+
+
+def special(branch, kind):
+    return [point for point in branch.special if point["type"] == kind]
+
+
+def test_a_model_begins_by_itself_where_its_range_does():
+    branch = arcslip.trace(arcslip.Model(**BRUSSELATOR), parameter="B", range=(1, 4))
+    (hopf,) = special(branch, "hopf")
+    assert hopf["B"] == pytest.approx(2, rel=1e-11) and branch.complete
+    assert np.abs(branch["product"] - branch["x"] * branch["y"]).max() < 1e-14
+    other = arcslip.trace(arcslip.Model(**BRUSSELATOR), None, {"A": 1.5}, "B", range=(1, 4))
+    assert special(other, "hopf")[0]["B"] == pytest.approx(3.25, rel=1e-11)
+
+
+def test_a_hopf_point_of_a_model_is_followed_in_two_parameters():
+    branch = arcslip.trace(arcslip.Model(**BRUSSELATOR), parameter="B", range=(1, 4))
+    curve = branch.continue_in_two(special(branch, "hopf")[0], "A", (0.5, 2))
+    assert len(curve) > 10 and np.abs(curve["B"] - 1 - curve["A"] ** 2).max() < 1e-9
+
+
+def test_a_model_is_the_same_as_its_case_file_and_as_its_functions():
+    case = {"model": {name: BRUSSELATOR[name] for name in BRUSSELATOR}, "branch": {"parameter": "B", "from": 1, "to": 4}}
+    theirs = arcslip.run(case).branches[0]
+    mine = arcslip.trace(arcslip.Model(**BRUSSELATOR), parameter="B", range=(1, 4))
+    assert len(mine) == len(theirs) and np.abs(mine["B"] - theirs["B"]).max() < 1e-13
+
+    def f(u, p):
+        rate = u[0] ** 2 * u[1]
+        return np.array([p["A"] - (p["B"] + 1) * u[0] + rate, p["B"] * u[0] - rate])
+
+    written = arcslip.trace(f, [1.0, 1.0], {"A": 1.0, "B": 1.0}, "B", range=(1, 4), equilibrium=True)
+    assert special(written, "hopf")[0]["B"] == pytest.approx(special(mine, "hopf")[0]["B"], abs=1e-10)
+
+
+def test_functions_of_a_model_may_be_called():
+    model = arcslip.Model(**BRUSSELATOR)
+    u, p = np.array([1.2, 0.7]), {"A": 1.1, "B": 2.3}
+    assert model.residual(u, p) == pytest.approx([1.1 - 3.3 * 1.2 + 1.44 * 0.7, 2.3 * 1.2 - 1.44 * 0.7])
+    assert model.jacobian(u, p) == pytest.approx(np.array([[-3.3 + 2 * 1.2 * 0.7, 1.44], [2.3 - 2 * 1.2 * 0.7, -1.44]]))
+    assert model.parameter_jacobian(u, p) == pytest.approx(np.array([[1, -1.2], [0, 1.2]]))
+    assert model.observables(u, [1.1, 2.3]) == pytest.approx({"product": 0.84})
+    assert np.isnan(arcslip.Model({"x": "log(x)"}, {"a": 1}).residual([-1.0], {"a": 1.0})).all()
+
+
+def test_a_map_doubles_its_period():
+    logistic = {"equations": {"x": "r*x*(1 - x)"}, "parameters": {"r": 2}, "start": {"x": "1 - 1/r"}, "kind": "map"}
+    once = arcslip.trace(arcslip.Model(**logistic), range=(1.5, 4))
+    assert special(once, "period_doubling")[0]["r"] == pytest.approx(3, abs=1e-10)
+    twice = arcslip.Model(**logistic, iterate=2)
+    branches = arcslip.trace_all(twice, range=(1.5, 4))
+    found = [point["r"] for branch in branches for point in special(branch, "period_doubling")]
+    assert found == pytest.approx([1 + np.sqrt(6)] * 2, abs=1e-10)
+    cycles = sorted(one[0] for one in arcslip.solve_all(twice, p0={"r": 3.2}, box=([0], [1])))
+    half = np.sqrt(4.2 * 0.2) / 6.4
+    assert cycles == pytest.approx([0, 4.2 / 6.4 - half, 1 - 1 / 3.2, 4.2 / 6.4 + half], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"equations": {"y": "x", "x": "A - z"}},
+         r'^equations\.x: unknown name "z" at column 5 of "A - z"; there are y, x, A, B, rate$'),
+        ({"parameters": {"A": "one"}}, r"^parameters\.A: expected a number, got 'one'$"),
+        ({"parameters": {"A": 1, "pi": 3}}, r"^parameters\.pi: pi is a constant"),
+        ({"start": {"z": 1}}, r"^start\.z: there is no equation of this name$"),
+        ({"observables": {"x": "y"}}, r"^observables\.x: equations\.x has this name already$"),
+        ({"definitions": {"rate": "rate"}}, r"^definitions\.rate: is defined by itself: rate -> rate$"),
+        ({"kind": "flux"}, r"^kind: expected one of flow, map, algebraic"),
+        ({"iterate": 2}, r"^iterate: "),
+        ({"equations": {"x": None}}, r"^equations\.x: expected a formula"),
+    ],
+)
+def test_mistakes_are_told_on_one_line(change, message):
+    with pytest.raises(ValueError, match=message):
+        arcslip.Model(**{**BRUSSELATOR, **change})
+
+
+def test_parameters_that_a_model_has_not_are_refused():
+    with pytest.raises(ValueError, match="p0: there is no 'C' among A, B"):
+        arcslip.trace(arcslip.Model(**BRUSSELATOR), None, {"C": 1}, "B")
+    with pytest.raises(TypeError, match="u0: missing"):
+        arcslip.trace(lambda u, p: u - p)
