@@ -214,7 +214,7 @@ CycleBranch on_these_intervals(const CycleStart& start, const TraceOptions& opti
                      return trace_one_way(problem, start.guess, towards_to, watched, watching);
                    });
   };
-  if (start.guess.direction.size() > 0 && !start.both_ways) return {start.problem, part(true)};
+  if (!start.both_ways) return {start.problem, part(true)};
   return {start.problem, trace_parts([&] { return part(true); }, [&] { return part(false); }, start.guess)};
 }
 

@@ -35,6 +35,8 @@ class CycleNetwork {
     follow(start, 0);
   }
 
+  void begin(const CycleStart& start) { follow(start, 0); }
+
   void follow_waiting() {
     while (!waiting_.empty() && may_go_on()) {
       const Waiting next = std::move(waiting_.front());
@@ -129,6 +131,14 @@ class CycleNetwork {
 };
 
 }  // namespace
+
+std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const TraceOptions& options,
+                                                const CycleOptions& cycles, const Observer& observer) {
+  CycleNetwork network(start.problem->shared_field(), options, cycles, observer);
+  network.begin(start);
+  network.follow_waiting();
+  return network.take();
+}
 
 std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
                                               const std::vector<Branch>& equilibria,

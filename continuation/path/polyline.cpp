@@ -36,7 +36,9 @@ class Polyline {
     extent_ = high - low;
     for (std::size_t piece = 0; piece + 1 < all.size(); ++piece) {
       result_.push_back(branch.points[piece]);
-      if (branch.points[piece + 1].arclength > branch.points[piece].arclength)
+      const BranchPoint& next = branch.points[piece + 1];
+      const bool is_one = next.regime == branch.points[piece].regime || next.type == PointType::regime_switch;
+      if (is_one && next.arclength > branch.points[piece].arclength)
         fill({piece, 0, 1, all[piece], all[piece + 1],
               (all[piece + 1] - all[piece]).abs().min(seen * extent_)},
              0);

@@ -29,7 +29,7 @@ class RunData:
     def __init__(self, folder, summary):
         branches = summary["branches"]
         self.case = summary["case"]
-        self.system = self.case["system"]
+        self.system = self.case.get("system") or self.case["model"]["parameters"]
         self.branch = self.case["branch"]
         Table(os.path.join(folder, "branches.csv"), ["branch", "point", "type", "regime"], "points")
         self.table = Table(drawn_table(folder), ["branch", "point", "type", "regime"], "points")
@@ -86,6 +86,7 @@ class RunData:
         names, function = ((quantity,), lambda y: y) if isinstance(quantity, str) else quantity
         (xs,) = self.columns(x)
         columns = self.columns(*names)
+        ends = self.ends_of(names)
         told = self.unstable() if mode == "stability" else self.slips
         marked = [kind for kind in dict.fromkeys(self.types) if kind in style.KINDS and kind not in unmarked]
         all_curves = []
@@ -94,9 +95,19 @@ class RunData:
             special = {kind: rows for kind, rows in special.items() if len(rows)}
             i = min(number, len(self.looks) - 1)
             look = {"linestyle": style.UNTOLD} if mode == "stability" and self.is_untold(part) else {}
-            all_curves.append(Curve(xs[part], function(*[column[part] for column in columns]), told[part], special,
-                                    self.looks[i], self.names[i], style=look))
+            drawn = columns
+            if ends and not np.isfinite(columns[0][part].astype(float)).any():
+                drawn = ends  # cycles: both ends of what the unknown runs through
+            for column in [drawn] if drawn is columns else drawn:
+                values = [one[part] for one in column] if drawn is columns else [column[part]]
+                all_curves.append(Curve(xs[part], function(*values), told[part], special, self.looks[i],
+                                        self.names[i], style=look))
         return all_curves
+
+    def ends_of(self, names):
+        """The columns of the largest and the smallest value of an unknown along cycles, or nothing."""
+        both = [f"{names[0]}_max", f"{names[0]}_min"]
+        return self.columns(*both) if len(names) == 1 and all(map(self.table.has, both)) else []
 
     def is_untold(self, part):
         """Whether nothing tells of the stability of a branch."""

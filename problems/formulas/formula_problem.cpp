@@ -1,10 +1,10 @@
 #include "arcslip/problems/formulas/formula_problem.hpp"
 
-#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <limits>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "numbers.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -12,18 +12,6 @@ namespace {
 using continuation::Evaluation;
 using continuation::PointType;
 using continuation::Regime;
-using Numbers = boost::container::small_vector<double, 128>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Unknowns, then parameters, as the tapes have them.
-Numbers joined(const Vector& u, const Vector& p) {
-  Numbers both(u.begin(), u.end());
-  both.insert(both.end(), p.begin(), p.end());
-  return both;
-}
-
-Numbers room(Index count) { return Numbers(static_cast<std::size_t>(count)); }
-
 Eigen::Map<const Vector> vector_of(const Numbers& numbers) { return {numbers.data(), std::ssize(numbers)}; }
 
 template <class Named>

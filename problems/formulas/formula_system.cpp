@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "arcslip/problems/formulas/formula_problem.hpp"
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/problems/formulas/formula_field.hpp"
 #include "arcslip/problems/library/model.hpp"
 
 namespace arcslip::problems {
@@ -53,12 +54,33 @@ std::string title_of(const FormulaSystem& system) {
   const std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
   switch (system.kind) {
     case FormulaKind::flow: return fmt::format("a flow of {}", names);
+    case FormulaKind::forced: return fmt::format("a forced flow of {}", names);
     case FormulaKind::algebraic: return fmt::format("equations in {}", names);
     case FormulaKind::map:
       return fmt::format("a map of {}{}", names,
                          system.iterate > 1 ? fmt::format(", {} times", system.iterate) : "");
   }
   return names;
+}
+
+/// Problem and guess of cycles: as long as nothing is known of them, of orbits that stay where they start.
+void add_cycles(const std::shared_ptr<const continuation::Field>& field, const Tape& start,
+                LibraryModel& model) {
+  const auto resting = [field, start](const LibraryModel::Values& values) {
+    const continuation::CycleOptions options;
+    const Vector p = parameters_of(values, std::ssize(values));
+    Vector u(field->size());
+    if (!start.evaluate(p.data(), u.data()))
+      throw std::invalid_argument("the guess of the start has no value at the parameters of the start");
+    const continuation::OrbitMesh mesh(continuation::CollocationRule(options.degree), options.intervals);
+    return continuation::cycle_from_orbit(field, mesh, u.replicate(1, mesh.nodes()), 0, p);
+  };
+  model.build = [resting](const LibraryModel::Values& values) {
+    return std::make_unique<continuation::CycleProblem>(*resting(values).problem);
+  };
+  model.guess = [resting](const continuation::Problem& /*problem*/, const LibraryModel::Values& values) {
+    return resting(values).guess;
+  };
 }
 
 }  // namespace
@@ -81,10 +103,16 @@ LibraryModel model_of(const FormulaSystem& system) {
   LibraryModel model{"model", title_of(system), {}, {}, {}};
   for (const FormulaParameter& parameter : system.parameters)
     model.settings.push_back(any_value(parameter.name, parameter.value, ""));
+  const Tape start = start_of(system);
+  if (system.kind == FormulaKind::forced) {
+    model.is_driven = true;
+    add_cycles(std::make_shared<const FormulaField>(system), start, model);
+    return model;
+  }
   model.build = [problem = FormulaProblem(system)](const LibraryModel::Values& /*values*/) {
     return std::make_unique<FormulaProblem>(problem);
   };
-  model.guess = guess_at([start = start_of(system)](const continuation::Problem& problem, const Vector& p) {
+  model.guess = guess_at([start](const continuation::Problem& problem, const Vector& p) {
     Vector u(problem.size());
     if (!start.evaluate(p.data(), u.data()))
       throw std::invalid_argument("the guess of the start has no value at the parameters of the start");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cases/continuation_section.hpp"
+#include "cases/cycles_section.hpp"
 #include "cases/stored_point.hpp"
 #include "cases/system_section.hpp"
 #include "cases/unit_names.hpp"
@@ -46,7 +47,9 @@ std::vector<std::string> names_with(std::vector<std::string> names, const CaseBr
 }
 
 std::vector<std::string> curve_names() {
-  return {"fold", "branch_point", "hopf", "peak", "trough", "switch", "level", "phase_resonance"};
+  return {"fold",       "branch_point",    "hopf",          "peak",
+          "trough",     "switch",          "level",         "phase_resonance",
+          "cycle_fold", "period_doubling", "neimark_sacker"};
 }
 
 bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
@@ -81,6 +84,11 @@ void read_curve(CaseBranch& branch, const TomlSection& section) {
   CurveRequest& curve = branch.curve.emplace();
   curve.name = section.text("curve", names);
   curve.type = continuation::point_type(curve.name).value_or(PointType::event);
+  curve.of_cycles =
+      curve.name == "cycle_fold" || curve.name == "period_doubling" || curve.name == "neimark_sacker";
+  if (curve.name == "cycle_fold") curve.type = PointType::fold;
+  if (curve.of_cycles && branch.problem.model == nullptr)
+    section.fail("curve", "of cycles only of flows by [model] or of the library");
   if (curve.type == PointType::event) curve.level.emplace();
   if (!curve.is_backbone()) return;
   if (branch.problem.model != nullptr || branch.problem.response->has_own_frequency())
@@ -269,6 +277,7 @@ CaseBranch read_branch(const TomlDocument& document,
   branch.problem.model = model;
   branch_keys().read(branch, TomlSection(document, "branch"));
   continuation_keys().read(branch.options, TomlSection(document, "continuation"));
+  cycles_keys().read(branch, TomlSection(document, "cycles"));
   return branch;
 }
 

@@ -13,6 +13,8 @@
 #include "cases/branch_checks.hpp"
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
+#include "cases/cycles.hpp"
+#include "cases/cycles_section.hpp"
 #include "cases/for_each.hpp"
 #include "cases/model_section.hpp"
 #include "cases/system_section.hpp"
@@ -22,8 +24,8 @@
 namespace arcslip {
 
 std::vector<std::string> case_sections() {
-  return {"title",   "system", "model",  "geometry", "element",     "excitation",
-          "flutter", "ring",   "branch", "study",    "continuation"};
+  return {"title",   "system", "model",  "geometry", "element",      "excitation",
+          "flutter", "ring",   "branch", "study",    "continuation", "cycles"};
 }
 
 namespace {
@@ -58,6 +60,9 @@ ordered_json resolve(const TomlDocument& document, const CaseBranch& first,
   resolved.erase("study");
   resolve_system(document, first.problem, resolved);
   resolved["continuation"].update(continuation_keys().values(given));
+  if (resolved.contains("cycles") || asks_for_cycles(first) ||
+      (first.problem.model != nullptr && first.switching))
+    fill(resolved["cycles"], cycles_keys().values(first));
   return resolved;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cases/branch_section.hpp"
 #include "cases/continuation_section.hpp"
+#include "cases/cycles_section.hpp"
 #include "cases/element_section.hpp"
 #include "cases/excitation_section.hpp"
 #include "cases/flutter_section.hpp"
@@ -85,6 +86,7 @@ std::vector<KeySection> key_catalogue() {
   section("ring", "all sectors in place of one", ring_words());
   section("branch", "", branch_keys().words());
   section("continuation", "", continuation_keys().words());
+  section("cycles", "of flows by `[model]` or of the library", cycles_keys().words());
   section("study", "", study_keys().words());
   section("study.uncertain", "", uncertain_keys().words());
   return sections;

@@ -80,13 +80,30 @@ const KeyTable<FormulaSystem>& model_keys() {
   const auto is_map = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind == FormulaKind::map;
   };
+  const auto is_forced = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind == FormulaKind::forced;
+  };
+  const auto is_not_forced = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind != FormulaKind::forced;
+  };
   static const KeyTable<FormulaSystem> keys{
-      {ModelKey::choice(
-           "kind", &FormulaSystem::kind,
-           {{"flow", FormulaKind::flow}, {"map", FormulaKind::map}, {"algebraic", FormulaKind::algebraic}},
-           "what the equations are: u' = f and its equilibria, u -> f and its fixed points, or f = 0 without "
-           "stability",
-           ""),
+      {ModelKey::choice("kind", &FormulaSystem::kind,
+                        {{"flow", FormulaKind::flow},
+                         {"forced", FormulaKind::forced},
+                         {"map", FormulaKind::map},
+                         {"algebraic", FormulaKind::algebraic}},
+                        "what the equations are: u' = f with its equilibria and cycles, u' = f with the time "
+                        "t in f and its "
+                        "cycles, u -> f and its fixed points, or f = 0 without stability",
+                        ""),
+       ModelKey::special(
+           "period", "formula", "of f in t, by parameters",
+           [](FormulaSystem& system, const TomlSection& section) {
+             section.require("period", "a formula as a string, or a number");
+             system.period = {"period", text_of(section, {"period", section.table()->get("period")}),
+                              section.name("period")};
+           },
+           required, only("only of kind = \"forced\"", is_forced)),
        ModelKey("iterate", &FormulaSystem::iterate, within(1, problems::most_iterates),
                 "k: the points that are fixed after k steps of the map", only("only of maps", is_map)),
        ModelKey::special("parameters", "table of numbers",
@@ -99,7 +116,8 @@ const KeyTable<FormulaSystem>& model_keys() {
                          read_equations, required),
        ModelKey::special("observables", "table of formulas",
                          "columns beside the unknowns, whose extrema may be looked for",
-                         formulas("observables", &FormulaSystem::observables)),
+                         formulas("observables", &FormulaSystem::observables),
+                         only("not of kind = \"forced\"", is_not_forced)),
        ModelKey::special("start", "table of formulas or numbers",
                          "a guess of the unknowns where the branch begins, by parameters",
                          formulas("start", &FormulaSystem::start), otherwise("0 of each"))}};

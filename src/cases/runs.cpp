@@ -12,6 +12,8 @@
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
+#include "cases/curves.hpp"
+#include "cases/cycles.hpp"
 #include "cases/departures.hpp"
 #include "cases/ring_amplification.hpp"
 
@@ -36,15 +38,6 @@ Built build_library(const ProblemRequest& request) {
   return {problem, guess};
 }
 
-using Request = std::shared_ptr<const CaseBranch>;
-
-TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
-  TracedBranch none{request, subject.built, nullptr, {}, 0};
-  none.branch.stop = subject.stop;
-  none.branch.explanation = why;
-  return none;
-}
-
 /// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
 std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time) {
   constexpr Index small = 50;
@@ -65,6 +58,7 @@ std::vector<continuation::Guess> solutions_around(const Subject& subject, const 
 std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
                                          const TimeBudget& time, const continuation::Observer& observer) {
   const continuation::Problem& problem = *subject.built.problem;
+  if (asks_for_cycles(*request)) return trace_settled_cycles(request, subject, time, observer);
   std::vector<Branch> branches;
   const auto rest = [&] {
     continuation::TraceOptions options = time.rest();
@@ -83,102 +77,9 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   std::vector<TracedBranch> traced;
   traced.reserve(branches.size());
   for (Branch& branch : branches) traced.push_back({request, subject.built, nullptr, std::move(branch), 0});
+  if (!request->switching || !may_leave_cycles(problem)) return traced;
+  for (TracedBranch& one : cycles_leaving(traced, time, observer)) traced.push_back(std::move(one));
   return traced;
-}
-
-/// Whether a curve passes the special point of its base.
-bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
-  const Index parameter = continuation::index_of(traced.base.problem->parameter_names(), second);
-  const auto same = [](const Vector& a, const Vector& b) {
-    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
-  };
-  return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
-    const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
-    return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
-               1e-12 * std::abs(seed.parameters(parameter)) &&
-           same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
-  });
-}
-
-/// Whether a `user` point is one that was asked for.
-bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
-  const continuation::TraceOptions& options = curve.request->options;
-  const double value =
-      point.parameters(continuation::index_of(curve.curve->parameter_names(), options.parameter));
-  return std::count(options.stop_at.begin(), options.stop_at.end(), value) > 0;
-}
-
-/// Why a branch that was traced whole begins no curve.
-std::string why_none(const continuation::Problem& problem, const Branch& branch, const std::string& second) {
-  std::vector<std::string> met;
-  for (const BranchPoint& point : branch.points) {
-    const std::string name = problem.describe(point.regime);
-    if (std::find(met.begin(), met.end(), name) == met.end()) met.push_back(name);
-  }
-  const std::string regimes =
-      problem.switch_count() > 0
-          ? fmt::format(" in the {} {}", met.size() > 1 ? "regimes" : "regime", fmt::join(met, ", "))
-          : "";
-  return fmt::format(": the branch there, traced from end to end{}, has none; at another {} it may", regimes,
-                     second);
-}
-
-/// Whether a point of the branch is one through which a curve is wanted: of phase resonances one at which the
-/// lag rises with eta, as it falls at antiresonances: by the point before, for none begins a branch.
-bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, const BranchPoint& point) {
-  if (point.type != asked.type) return false;
-  if (!asked.level) return true;
-  const auto above = [&](const BranchPoint& at) {
-    return continuation::above(*asked.level, problem, at.unknowns, at.parameters, at.regime);
-  };
-  if (!continuation::is_at(*asked.level, problem, point)) return false;
-  return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
-}
-
-/// The special points on the branch over the first parameter, then the curve through each, but once.
-std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject, const TimeBudget& time,
-                                       const continuation::Observer& observer) {
-  const CurveRequest& asked = *request->curve;
-  continuation::TraceOptions seeking = seed_branch(*request).options;
-  seeking.max_seconds = time.rest().max_seconds;
-  if (asked.level) seeking.events.push_back(continuation::event_at(*asked.level, *subject.built.problem));
-  const Branch seeds = continuation::trace(*subject.built.problem, subject.guess, seeking);
-
-  continuation::TraceOptions options = request->options;
-  const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
-  const bool ridge = asked.type == PointType::peak || asked.type == PointType::trough;
-  options.extrema_of = {ridge ? observable : asked.active};  // one of the two, or rows would be ambiguous
-  options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
-  std::vector<TracedBranch> curves;
-  for (const BranchPoint& seed : seeds.points) {
-    if (!is_seed(asked, *subject.built.problem, seed)) continue;
-    const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
-    if (std::any_of(curves.begin(), curves.end(), known)) continue;
-    continuation::CurveStart start =
-        asked.level ? continuation::curve_at(*asked.level, *subject.built.problem, asked.active, seed)
-                    : continuation::curve_through(*subject.built.problem, asked.active, seed, observable);
-    const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
-    const Clock::time_point begun = Clock::now();
-    options.max_seconds = time.rest().max_seconds;
-    Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
-    const std::chrono::duration<double> seconds = Clock::now() - begun;
-    const bool is_left = is_unfinished(branch.stop);  // of those behind it nothing is known
-    curves.push_back({request, subject.built, curve, std::move(branch), seconds.count()});
-    if (is_left) break;
-  }
-  for (TracedBranch& curve : curves) {
-    for (BranchPoint& point : curve.branch.points) {
-      if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;
-    }
-  }
-  if (!curves.empty()) return curves;
-  Subject none = subject;
-  if (!seeds.complete()) none.stop = seeds.stop;
-  return {unstarted(request, none,
-                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", asked.name,
-                                asked.active, asked.from, asked.to, options.parameter, asked.seed,
-                                seeds.complete() ? why_none(*subject.built.problem, seeds, options.parameter)
-                                                 : ": " + seeds.explanation))};
 }
 
 }  // namespace
@@ -263,6 +164,18 @@ void begin_from(const CaseBranch& request, Subject& subject) {
   subject.failure.clear();
 }
 
+/// Those on which the first points of curves are looked for, `first` or the cycles that leave it.
+std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseBranch& first,
+                                          const Subject& subject, const TimeBudget& time) {
+  const auto across = std::make_shared<CaseBranch>(first);
+  if (asked.level)
+    across->options.events.push_back(continuation::event_at(*asked.level, *subject.built.problem));
+  across->switching = asked.of_cycles;
+  std::vector<TracedBranch> traced = trace_branches(across, subject, time, {});
+  if (asked.of_cycles) std::erase_if(traced, [](const TracedBranch& one) { return !is_of_cycles(one); });
+  return traced;
+}
+
 std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& time,
                                       const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
@@ -271,7 +184,9 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
       build(first.problem, first.options.parameter, first.start.value_or(first.options.from), time.rest());
   if (first.stored) begin_from(first, subject);
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
-  if (request->curve) return trace_curves(request, subject, time, observer);
+  if (request->curve)
+    return trace_curves(request, subject, branches_across(*request->curve, first, subject, time), time,
+                        observer);
   std::vector<TracedBranch> traced = trace_branches(request, subject, time, observer);
   if (traced.empty()) {
     const CaseBranch& asked = *request;

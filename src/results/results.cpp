@@ -15,6 +15,7 @@
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/nonlinear_mode.hpp"
 #include "arcslip/version.hpp"
+#include "cases/cycles.hpp"
 #include "cases/stored_point.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
@@ -53,10 +54,10 @@ void add_units(const ProblemRequest& problem, ordered_json& summary) {
                       {"energy_J", scale.energy(1)}};
 }
 
-/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, and of so
-/// many that nobody would read them.
+/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, of cycles,
+/// which orbits.csv has, and of so many that nobody would read them.
 ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
-  if (traced.curve || point.unknowns.size() > most_stored_unknowns) return nullptr;
+  if (traced.curve || is_of_cycles(traced) || point.unknowns.size() > most_stored_unknowns) return nullptr;
   ordered_json parameters;
   const std::vector<std::string> names = traced.base.problem->parameter_names();
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -1,5 +1,6 @@
 #include "results/run_files.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "arcslip/version.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
+#include "results/orbit_table.hpp"
 #include "results/output.hpp"
 #include "results/sector_table.hpp"
 
@@ -21,6 +23,8 @@ ordered_json beginning(const CasePlan& plan) {
   return {{"arcslip", release}, {"title", plan.title}, {"case", plan.resolved}};
 }
 
+constexpr const char* sectors_name = "/sectors.csv";
+constexpr const char* orbits_name = "/orbits.csv";
 constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
 
 /// The branch as a polyline that looks like the curve.
@@ -40,10 +44,16 @@ TracedBranch as_drawn(const TracedBranch& traced) {
 
 RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verified)
     : folder_(folder),
+      is_of_ring_(plan.resolved.contains("ring")),
       branches_(folder + "/branches.csv", BranchTable::Detail::full),
       curves_(folder + "/curves.csv", BranchTable::Detail::drawn),
       summary_(folder, beginning(plan)) {
-  if (plan.resolved.contains("ring")) sectors_ = std::make_unique<AtomicFile>(folder + "/sectors.csv");
+  const auto add_table = [&](const char* section, const char* name, auto header_of, auto rows_of) {
+    if (plan.resolved.contains(section))
+      tables_.push_back({header_of, rows_of, std::make_unique<AtomicFile>(folder + name)});
+  };
+  add_table("ring", sectors_name, sectors_header, sector_rows);
+  add_table("cycles", orbits_name, orbits_header, orbit_rows);
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
@@ -66,9 +76,10 @@ void RunFiles::take_over(std::size_t branches, const std::string& header) {
 /// Files that there are beside those of all runs.
 std::vector<AtomicFile*> RunFiles::further() const {
   std::vector<AtomicFile*> all;
-  for (const auto& file : {verification_.get(), offsets_.get(), sectors_.get()}) {
+  for (const auto& file : {verification_.get(), offsets_.get()}) {
     if (file != nullptr) all.push_back(file);
   }
+  for (const PointTable& table : tables_) all.push_back(table.file.get());
   return all;
 }
 
@@ -77,9 +88,10 @@ void RunFiles::take_over_lines(AtomicFile& file, std::size_t branches) {
   std::ifstream before(file.path(), std::ios::binary);
   std::string line;
   std::getline(before, line);
-  if (&file == sectors_.get() && !line.empty()) {
+  for (PointTable& table : tables_) {
+    if (&file != table.file.get() || line.empty()) continue;
     file.write(line + "\n");
-    has_sectors_ = true;
+    table.has_header = true;
   }
   while (std::getline(before, line) && std::strtoul(line.c_str(), nullptr, 10) < branches)
     file.write(line + "\n");
@@ -88,10 +100,11 @@ void RunFiles::take_over_lines(AtomicFile& file, std::size_t branches) {
 void RunFiles::add(const TracedBranch& traced) {
   BranchFile::Rows rows = branches_.rows(count_, traced);
   // Points of whole rings lie close, and what is told of one costs as much as its solution.
-  const bool many = sectors_ != nullptr || curve_rows_ + traced.branch.points.size() > most_curve_rows;
+  const bool many = is_of_ring_ || curve_rows_ + traced.branch.points.size() > most_curve_rows;
   BranchFile::Rows curve = curves_.rows(count_, many ? traced : as_drawn(traced));
   ordered_json summary = summarize(count_, traced);
-  const std::string of_sectors = sectors_ ? sector_rows(count_, traced) : "";
+  std::vector<std::string> special;
+  for (const PointTable& table : tables_) special.push_back(table.rows(count_, traced));
 
   const std::scoped_lock lock(mutex_);
   if (finished_) return;
@@ -99,15 +112,15 @@ void RunFiles::add(const TracedBranch& traced) {
   curve_rows_ += curve.count;
   branches_.add(std::move(rows));
   curves_.add(std::move(curve));
-  if (sectors_) add_sectors(traced, of_sectors);
+  for (std::size_t i = 0; i < tables_.size(); ++i) {
+    PointTable& table = tables_[i];
+    if (special[i].empty()) continue;
+    if (!table.has_header) table.file->write(table.header(traced));
+    table.has_header = true;
+    table.file->write(special[i]);
+  }
   last_ = std::move(summary);
   ++count_;
-}
-
-void RunFiles::add_sectors(const TracedBranch& traced, const std::string& rows) {
-  if (!has_sectors_) sectors_->write(sectors_header(traced));
-  has_sectors_ = true;
-  sectors_->write(rows);
 }
 
 void RunFiles::add_failed(const CaseBranch& request, const std::string& why) {
@@ -162,7 +175,11 @@ void RunFiles::finish(double seconds, bool interrupted) {
   for (const char* name : {"/verify.csv", "/offsets.csv"}) {  // they belong to other branches
     if (!verification_) std::filesystem::remove(folder_ + name, ignored);
   }
-  if (!sectors_) std::filesystem::remove(folder_ + "/sectors.csv", ignored);
+  for (const char* name : {sectors_name, orbits_name}) {
+    const auto is_own = [&](const PointTable& table) { return table.file->path() == folder_ + name; };
+    if (std::none_of(tables_.begin(), tables_.end(), is_own))
+      std::filesystem::remove(folder_ + name, ignored);
+  }
   branches_.commit();
   curves_.commit();
   summary_.file().commit();

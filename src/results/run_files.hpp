@@ -46,11 +46,11 @@ class RunFiles {
 
  private:
   void write_summary();
-  void add_sectors(const TracedBranch& traced, const std::string& rows);
   std::vector<AtomicFile*> further() const;
   void take_over_lines(AtomicFile& file, std::size_t branches);
 
   std::string folder_;
+  bool is_of_ring_;
   std::mutex mutex_;
   bool finished_ = false;
   std::size_t count_ = 0;
@@ -60,10 +60,16 @@ class RunFiles {
   SummaryFile summary_;
   std::unique_ptr<AtomicFile> verification_;
   std::unique_ptr<AtomicFile> offsets_;  ///< beside it
-  std::unique_ptr<AtomicFile> sectors_;  ///< of a whole ring
-  bool has_sectors_ = false;             ///< whether the header of that is written
-  nlohmann::ordered_json last_;          ///< the last branch's summary
-  bool verifying_ = false;               ///< whether a verification is not at its end
+  /// Rows that some kinds of branches have at their special points.
+  struct PointTable {
+    std::string (*header)(const TracedBranch&);
+    std::string (*rows)(std::size_t, const TracedBranch&);
+    std::unique_ptr<AtomicFile> file;
+    bool has_header = false;
+  };
+  std::vector<PointTable> tables_;
+  nlohmann::ordered_json last_;  ///< the last branch's summary
+  bool verifying_ = false;       ///< whether a verification is not at its end
 };
 
 }  // namespace arcslip

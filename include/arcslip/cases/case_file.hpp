@@ -13,6 +13,7 @@
 #include "arcslip/assembly/physical_scale.hpp"
 #include "arcslip/cases/response_kind.hpp"
 #include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/keys/input_error.hpp"
 #include "arcslip/problems/library/library.hpp"
 
@@ -29,6 +30,8 @@ struct CurveRequest {
   double to = 0;                             ///< the other end
   double seed = 0;                           ///< value of the second parameter at which they are looked for
   std::string named = {};  ///< the first parameter as the case file has it, perhaps with a unit
+
+  bool of_cycles = false;  ///< whether the points are looked for on cycles
 
   /// Whether it is a backbone: what the load does work on lags by a quarter of a period, as at a resonance.
   bool is_backbone() const { return name == "phase_resonance"; }
@@ -55,6 +58,13 @@ struct ProblemRequest {
   bool stability = false;  ///< whether its points come with their Floquet exponents
 };
 
+/// How cycles are followed.
+struct CyclesRequest {
+  continuation::CycleOptions options;
+  /// Where the branch is one of cycles: for how long a motion is followed until it is looked for one.
+  std::optional<double> settle;
+};
+
 /// A point that a run has left, which a branch begins from.
 struct StoredPoint {
   Vector unknowns;                           ///< of the problem
@@ -73,6 +83,7 @@ struct CaseBranch {
   bool all_solutions = false;          ///< one for each solution at `start` that deflated Newton finds
   bool switching = false;              ///< follow the branches that branch points and corners lead to
   std::optional<CurveRequest> curve;   ///< none of a branch
+  CyclesRequest cycles;                ///< of flows
 };
 
 /// What a case file asks for, branch by branch.

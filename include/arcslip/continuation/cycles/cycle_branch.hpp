@@ -21,7 +21,7 @@ struct CycleOptions {
 struct CycleStart {
   std::shared_ptr<CycleProblem> problem;
   Guess guess;
-  bool both_ways = false;  ///< whether a direction is gone along and against
+  bool both_ways = false;  ///< along a direction and against it, or to both ends of the range
 };
 
 /// The cycles that leave a Hopf point of the field's equilibria.  Throws std::invalid_argument where no pair
@@ -51,9 +51,15 @@ struct CycleBranch {
   Branch branch;
 };
 
-/// As `trace` does it, from a guess with a direction along it, or along it and against it; else both ways.
+/// As `trace` does it, from a guess with a direction along it, or along it and against it; else from its
+/// parameter towards `to`, or both ways.
 CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options,
                          const CycleOptions& cycles = {}, const Observer& observer = {});
+
+/// A branch and all that can be reached from it through branch points and period doublings, each once.
+std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const TraceOptions& options,
+                                                const CycleOptions& cycles = {},
+                                                const Observer& observer = {});
 
 /// The cycles that leave the Hopf points of branches of equilibria, and all that can be reached from these
 /// through branch points and period doublings, each branch once.

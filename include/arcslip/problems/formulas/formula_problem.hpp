@@ -3,12 +3,14 @@
 // A system of one's own, given by formulas of unknowns u and parameters p:
 //
 //   flow       u' = f(u, p)      equilibria f = 0, stable where all eigenvalues of df/du have Re < 0
-//   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers of the iterate have |mu| <
-//   1 algebraic  f(u, p) = 0       without stability
+//   forced     u' = f(t, u, p)   cycles, see formula_field.hpp
+//   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers have |mu| < 1
+//   algebraic  f(u, p) = 0       without stability
 //
 // Derivatives, the second ones too, are exact.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@
 namespace arcslip::problems {
 
 /// What the formulas are the right-hand side of.
-enum class FormulaKind { flow, map, algebraic };
+enum class FormulaKind { flow, forced, map, algebraic };
 
 /// A number that formulas have by its name.
 struct FormulaParameter {
@@ -35,6 +37,7 @@ struct FormulaSystem {
   std::vector<Formula> equations = {};    ///< f by the names of the unknowns, in their order
   std::vector<Formula> definitions = {};  ///< of names that equations and observables use
   std::vector<Formula> observables = {};  ///< what is told beside the unknowns
+  std::optional<Formula> period = {};     ///< of what is forced, by parameters
   std::vector<Formula> start = {};        ///< of unknowns, by parameters; 0 of those that are left out
 };
 

@@ -26,6 +26,7 @@ struct LibraryModel {
   std::function<std::unique_ptr<continuation::Problem>(const Values&)> build;
   /// A guess of a solution at the values' parameters, good where the case file's branch is meant to start.
   std::function<continuation::Guess(const continuation::Problem&, const Values&)> guess;
+  bool is_driven = false;  ///< whether it depends on time: its solutions are cycles
 };
 
 /// All of them, in alphabetical order.

@@ -1,0 +1,34 @@
+#pragma once
+
+// A system of one's own that depends on time, with a period:
+//
+//   u' = f(t, u, p),   f(t + T(p), u, p) = f(t, u, p)
+
+#include "arcslip/continuation/cycles/field.hpp"
+#include "arcslip/problems/formulas/formula_problem.hpp"
+
+namespace arcslip::problems {
+
+/// The equations above.
+class FormulaField : public continuation::Field {
+ public:
+  /// Of kind `forced`, with a period. Throws FormulaError.
+  explicit FormulaField(const FormulaSystem& system);
+
+  Index size() const override { return equations_.results(); }
+  std::vector<std::string> names() const override { return names_; }
+  std::vector<std::string> parameter_names() const override { return parameters_; }
+  [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
+                              const continuation::FieldValues& out) const override;
+  bool is_periodic() const override { return true; }
+  /// nan where it has no value above 0.
+  double period(const Vector& p, Vector* by_parameters) const override;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::string> parameters_;
+  Tape equations_;  // of u, p, t
+  Tape period_;     // of p
+};
+
+}  // namespace arcslip::problems

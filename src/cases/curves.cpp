@@ -1,0 +1,127 @@
+#include "cases/curves.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace arcslip {
+namespace {
+
+using continuation::BasePoint;
+using continuation::Branch;
+using continuation::BranchPoint;
+using continuation::PointType;
+using continuation::TimeBudget;
+using Clock = std::chrono::steady_clock;
+
+/// Whether a curve passes the special point of its base.
+bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
+  const Index parameter = continuation::index_of(traced.base.problem->parameter_names(), second);
+  const auto same = [](const Vector& a, const Vector& b) {
+    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
+  };
+  if (traced.base.problem->size() != seed.unknowns.size()) return false;
+  return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
+    const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
+    return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
+               1e-12 * std::abs(seed.parameters(parameter)) &&
+           same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
+  });
+}
+
+/// Whether a `user` point is one that was asked for.
+bool is_listed(const BranchPoint& point, const TracedBranch& curve) {
+  const continuation::TraceOptions& options = curve.request->options;
+  const double value =
+      point.parameters(continuation::index_of(curve.curve->parameter_names(), options.parameter));
+  return std::count(options.stop_at.begin(), options.stop_at.end(), value) > 0;
+}
+
+/// Why a branch that was traced whole begins no curve.
+std::string why_none(const continuation::Problem& problem, const Branch& branch, const std::string& second) {
+  std::vector<std::string> met;
+  for (const BranchPoint& point : branch.points) {
+    const std::string name = problem.describe(point.regime);
+    if (std::find(met.begin(), met.end(), name) == met.end()) met.push_back(name);
+  }
+  const std::string regimes =
+      problem.switch_count() > 0
+          ? fmt::format(" in the {} {}", met.size() > 1 ? "regimes" : "regime", fmt::join(met, ", "))
+          : "";
+  return fmt::format(": the branch there, traced from end to end{}, has none; at another {} it may", regimes,
+                     second);
+}
+
+/// Whether a point of the branch is one through which a curve is wanted: of phase resonances one at which the
+/// lag rises with eta, as it falls at antiresonances: by the point before, for none begins a branch.
+bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, const BranchPoint& point) {
+  if (point.type != asked.type) return false;
+  if (!asked.level) return true;
+  const auto above = [&](const BranchPoint& at) {
+    return continuation::above(*asked.level, problem, at.unknowns, at.parameters, at.regime);
+  };
+  if (!continuation::is_at(*asked.level, problem, point)) return false;
+  return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
+}
+
+}  // namespace
+
+TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
+  TracedBranch none{request, subject.built, nullptr, {}, 0};
+  none.branch.stop = subject.stop;
+  none.branch.explanation = why;
+  return none;
+}
+
+std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject,
+                                       const std::vector<TracedBranch>& across, const TimeBudget& time,
+                                       const continuation::Observer& observer) {
+  const CurveRequest& asked = *request->curve;
+  continuation::TraceOptions options = request->options;
+  const std::string observable = options.extrema_of.empty() ? "" : options.extrema_of.front();
+  const bool ridge = asked.type == PointType::peak || asked.type == PointType::trough;
+  options.extrema_of = {ridge ? observable : asked.active};  // one of the two, or rows would be ambiguous
+  options.stop_at.push_back(asked.seed);  // where a curve that comes back to another seed shows itself
+  std::vector<TracedBranch> curves;
+  bool is_left = false;  // of those behind it nothing is known
+  for (const TracedBranch& seeds : across) {
+    const continuation::Problem& problem = *seeds.base.problem;
+    for (const BranchPoint& seed : seeds.branch.points) {
+      if (is_left || !is_seed(asked, problem, seed)) continue;
+      const auto known = [&](const TracedBranch& curve) { return passes(curve, seed, options.parameter); };
+      if (std::any_of(curves.begin(), curves.end(), known)) continue;
+      continuation::CurveStart start =
+          asked.level ? continuation::curve_at(*asked.level, problem, asked.active, seed)
+                      : continuation::curve_through(problem, asked.active, seed, observable);
+      const std::shared_ptr<continuation::ExtendedProblem> curve = std::move(start.problem);
+      const Clock::time_point begun = Clock::now();
+      options.max_seconds = time.rest().max_seconds;
+      Branch branch = continuation::trace_curve(*curve, start.point, options, asked.window, observer);
+      const std::chrono::duration<double> seconds = Clock::now() - begun;
+      is_left = is_unfinished(branch.stop);
+      curves.push_back({request, seeds.base, curve, std::move(branch), seconds.count()});
+    }
+  }
+  for (TracedBranch& curve : curves) {
+    for (BranchPoint& point : curve.branch.points) {
+      if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;
+    }
+  }
+  if (!curves.empty()) return curves;
+  Subject none = subject;
+  const auto unfinished = std::find_if(across.begin(), across.end(),
+                                       [](const TracedBranch& one) { return !one.branch.complete(); });
+  const bool is_whole = unfinished == across.end();
+  if (!is_whole) none.stop = unfinished->branch.stop;
+  std::string why = is_whole ? "" : ": " + unfinished->branch.explanation;
+  if (is_whole && !across.empty())
+    why = why_none(*subject.built.problem, across.front().branch, options.parameter);
+  return {unstarted(request, none,
+                    fmt::format("no {} was found for {} = {:g} to {:g} at {} = {:g}{}", asked.name,
+                                asked.active, asked.from, asked.to, options.parameter, asked.seed, why))};
+}
+
+}  // namespace arcslip

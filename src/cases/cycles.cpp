@@ -1,0 +1,98 @@
+#include "cases/cycles.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "arcslip/continuation/cycles/settled_cycle.hpp"
+#include "cases/curves.hpp"
+
+namespace arcslip {
+namespace {
+
+using continuation::Branch;
+using continuation::CycleBranch;
+using continuation::CycleProblem;
+using continuation::CycleStart;
+using continuation::EquilibriumField;
+using continuation::Field;
+using continuation::TimeBudget;
+using Clock = std::chrono::steady_clock;
+
+std::shared_ptr<const CycleProblem> cycles_of(const std::shared_ptr<const continuation::Problem>& problem) {
+  return std::dynamic_pointer_cast<const CycleProblem>(problem);
+}
+
+std::shared_ptr<const Field> field_of(const std::shared_ptr<const continuation::Problem>& problem) {
+  if (const auto cycles = cycles_of(problem)) return cycles->shared_field();
+  return std::make_shared<EquilibriumField>(problem);
+}
+
+/// As results have them; the time that they took is shared.
+std::vector<TracedBranch> told(const Request& request, std::vector<CycleBranch> branches,
+                               Clock::time_point begun) {
+  const std::chrono::duration<double> seconds = Clock::now() - begun;
+  std::vector<TracedBranch> traced;
+  for (CycleBranch& one : branches) {
+    Built built;
+    built.problem = one.problem;
+    traced.push_back({request, std::move(built), nullptr, std::move(one.branch),
+                      seconds.count() / static_cast<double>(branches.size())});
+  }
+  return traced;
+}
+
+}  // namespace
+
+bool is_of_cycles(const TracedBranch& traced) { return cycles_of(traced.base.problem) != nullptr; }
+
+bool asks_for_cycles(const CaseBranch& request) {
+  return request.cycles.settle || (request.problem.model != nullptr && request.problem.model->is_driven);
+}
+
+bool may_leave_cycles(const continuation::Problem& problem) {
+  return problem.is_equilibrium() && !problem.sparse() && problem.switch_count() == 0 && problem.size() > 1;
+}
+
+std::vector<TracedBranch> cycles_leaving(const std::vector<TracedBranch>& traced, const TimeBudget& time,
+                                         const continuation::Observer& observer) {
+  if (traced.empty() || is_unfinished(traced.back().branch.stop)) return {};
+  const Clock::time_point begun = Clock::now();
+  const CaseBranch& request = *traced.front().request;
+  std::vector<Branch> equilibria;
+  for (const TracedBranch& one : traced) equilibria.push_back(one.branch);
+  return told(traced.front().request,
+              trace_cycles_leaving(field_of(traced.front().base.problem), equilibria, time.rest(),
+                                   request.cycles.options, observer),
+              begun);
+}
+
+std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Subject& subject,
+                                               const TimeBudget& time,
+                                               const continuation::Observer& observer) {
+  const Clock::time_point begun = Clock::now();
+  const std::shared_ptr<const Field> field = field_of(subject.built.problem);
+  const Vector& p = subject.guess.parameters;
+  constexpr double rounds = 50;  // of a driven system
+  const double settle = request->cycles.settle.value_or(rounds * field->period(p, nullptr));
+  std::vector<CycleBranch> branches;
+  try {
+    CycleStart start = settled_cycle(field, subject.guess.unknowns.head(field->size()), p, settle,
+                                     request->cycles.options, [&] { return time.goes_on(); });
+    start.both_ways = request->start.has_value();
+    const continuation::TraceOptions options = time.rest();
+    if (request->switching) {
+      branches = trace_connected_cycles(start, options, request->cycles.options, observer);
+    } else {
+      branches.push_back(trace_cycles(start, options, request->cycles.options, observer));
+    }
+  } catch (const std::invalid_argument& error) {
+    return {unstarted(request, subject, error.what())};
+  } catch (const continuation::Unfinished& error) {
+    Subject ended = subject;
+    ended.stop = error.stop;
+    return {unstarted(request, ended, error.what())};
+  }
+  return told(request, std::move(branches), begun);
+}
+
+}  // namespace arcslip

@@ -1,0 +1,29 @@
+#pragma once
+
+// Cycles of flows, in what a case asks for.
+
+#include "arcslip/cases/runs.hpp"
+
+namespace arcslip {
+
+/// Whether its solutions are cycles, as the problem says.
+bool is_of_cycles(const TracedBranch& traced);
+
+/// Whether the branch is one of cycles from its start on: by `settle`, or of a system that depends on time.
+bool asks_for_cycles(const CaseBranch& request);
+
+/// Whether Hopf points of this problem's solutions lead to cycles that are followed.
+bool may_leave_cycles(const continuation::Problem& problem);
+
+/// The cycles that can be reached from the Hopf points of branches.
+std::vector<TracedBranch> cycles_leaving(const std::vector<TracedBranch>& traced,
+                                         const continuation::TimeBudget& time,
+                                         const continuation::Observer& observer);
+
+/// The branch of a cycle on which the motion from the subject's guess settles; with `switching` all that can
+/// be reached from it.
+std::vector<TracedBranch> trace_settled_cycles(const std::shared_ptr<const CaseBranch>& request,
+                                               const Subject& subject, const continuation::TimeBudget& time,
+                                               const continuation::Observer& observer);
+
+}  // namespace arcslip
