@@ -14,8 +14,12 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double border_weight = 1e-6;  // of a border row's largest entry where that of others is 1 to 2
-constexpr double worst_growth = 1e-3;   // of the pivots' growth when they were chosen
-constexpr double exact_enough = 1e-8;   // of a correction: its square is below rounding
+// Of a diagonal entry over the largest of its column, where it is taken as a pivot: a hundredth of that, as
+// is the rule, lets entries grow so much that solutions along orbits with multipliers of 1e-30 lose all
+// digits.
+constexpr double least_pivot = 0.1;
+constexpr double worst_growth = 1e-3;  // of the pivots' growth when they were chosen
+constexpr double exact_enough = 1e-8;  // of a correction: its square is below rounding
 constexpr int most_refinements = 4;
 constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
 
@@ -36,6 +40,7 @@ struct SparseBorderedSolver::Factors {
     klu_defaults(&common);
     common.btf = 0;  // the borders couple everything to one block
     common.scale = -1;
+    common.tol = least_pivot;
   }
   ~Factors() { clear(); }
   Factors(const Factors&) = delete;

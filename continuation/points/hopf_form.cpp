@@ -145,7 +145,8 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
   const ComplexVector still = mean.cast<Complex>();
   const Complex by_mean = product(along_real, still) + Complex(0, 1) * product(along_imaginary, still);
   const Complex by_second = product(along_real, second) - Complex(0, 1) * product(along_imaginary, second);
-  return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega};
+  const double terms = std::abs(cubic) + 2 * std::abs(by_mean) + std::abs(by_second);
+  return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega};
 }
 
 }  // namespace arcslip::continuation

@@ -125,8 +125,8 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   values.resize(2);
   values << kappa, std::nan("");
   if (!(kappa > 0)) return;
-  if (const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa)))
-    values(1) = form->lyapunov;
+  const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa));
+  if (form && form->terms > 0) values(1) = form->lyapunov / form->terms;  // jumps where terms have poles
 }
 
 }  // namespace arcslip::continuation

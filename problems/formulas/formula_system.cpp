@@ -103,6 +103,7 @@ LibraryModel model_of(const FormulaSystem& system) {
   LibraryModel model{"model", title_of(system), {}, {}, {}};
   for (const FormulaParameter& parameter : system.parameters)
     model.settings.push_back(any_value(parameter.name, parameter.value, ""));
+  check_names(system);
   const Tape start = start_of(system);
   if (system.kind == FormulaKind::forced) {
     model.is_driven = true;

@@ -171,7 +171,8 @@ std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseB
   if (asked.level)
     across->options.events.push_back(continuation::event_at(*asked.level, *subject.built.problem));
   across->switching = asked.of_cycles;
-  std::vector<TracedBranch> traced = trace_branches(across, subject, time, {});
+  across->options.max_seconds = time.rest().max_seconds;
+  std::vector<TracedBranch> traced = trace_branches(across, subject, TimeBudget(across->options), {});
   if (asked.of_cycles) std::erase_if(traced, [](const TracedBranch& one) { return !is_of_cycles(one); });
   return traced;
 }

@@ -6,6 +6,7 @@
 
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/points/fold_problem.hpp"
+#include "arcslip/continuation/points/hopf_form.hpp"
 #include "arcslip/continuation/points/hopf_problem.hpp"
 #include "arcslip/problems/library/ab.hpp"
 #include "catch.hpp"
@@ -172,6 +173,17 @@ TEST_CASE("All zero-Hopf points of the discretised Brusselator are found on its 
   std::vector<double> found;
   for (const BranchPoint& point : curve.points) {
     const BasePoint at = hopf.split(point.unknowns, point.parameters, 0);
+    if (point.type == PointType::generalized_hopf) {  // between the poles of l_1 at zero-Hopf points
+      const auto l_1 = [&](double moved) {
+        const double across = at.parameters(0) + moved, on = problem.hopf(across);
+        Vector u(problem.size());
+        u << Vector::Constant(30, Brusselator::A), Vector::Constant(30, on / Brusselator::A);
+        return hopf_form(problem, {u, vector_of({across, on})}).value().lyapunov;
+      };
+      CHECK(l_1(-1e-6) * l_1(1e-6) < 0);
+      CHECK(std::abs(l_1(0)) < 0.1 * std::abs(l_1(1e-6)));
+      continue;
+    }
     CHECK((at.unknowns.head(30).array() - Brusselator::A).abs().maxCoeff() < 1e-10);
     CHECK_THAT(at.parameters(1), WithinRel(problem.hopf(at.parameters(0)), 1e-10));
     if (point.type == PointType::regular || point.type == PointType::start || point.type == PointType::end)

@@ -20,6 +20,7 @@ namespace arcslip::continuation {
 struct HopfForm {
   double omega = 0;     ///< > 0
   double lyapunov = 0;  ///< l_1
+  double terms = 0;     ///< the sum of the sizes of its three terms
 };
 
 /// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
