@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/problem/linearization.hpp"
@@ -11,7 +12,7 @@
 namespace arcslip::continuation {
 namespace {
 
-/// Derivatives of F at a point along real directions.
+/// Of a dense problem's Jacobian at a point along real directions, by differences.
 class Derivatives {
  public:
   Derivatives(const Problem& problem, const Guess& at) : at_(at), linearization_(problem), second_(problem) {
@@ -19,51 +20,47 @@ class Derivatives {
   }
 
   bool linear(Matrix& a) {
-    if (!linearization_.evaluate(at_.unknowns, at_.parameters, at_.regime)) return false;
-    a = linearization_.jacobian();
+    if (!jacobian(none_, 0, here_)) return false;
+    a = here_.reshaped(at_.unknowns.size(), at_.unknowns.size());
     return true;
   }
 
-  /// B(v, w) for two w: [B(v, first), B(v, second)].
-  bool second(const Vector& v, const Vector& first, const Vector& second, std::array<Vector, 2>& products) {
-    const Index n = v.size();
-    Vector both;
-    Vector one;
-    const auto moved = [&](double h, Vector& out) {
-      if (!linearization_.evaluate(at_.unknowns + h * v, at_.parameters, at_.regime)) return false;
-      out.resize(2 * n);
-      linearization_.multiply(first, one);
-      out.head(n) = one;
-      linearization_.multiply(second, one);
-      out.tail(n) = one;
+  /// B(v, .) and C(v, v, .), n x n, after `linear`.
+  bool along(const Vector& v, Matrix& first, Matrix& second) {
+    constexpr int most = 5;  // of second derivatives finer differences are rounding
+    std::map<double, Vector> known;
+    const auto once = [&](double h, Vector& out) {
+      const auto [place, is_new] = known.try_emplace(h);
+      if (is_new && !jacobian(v, h, place->second)) place->second.resize(0);
+      out = place->second;
+      return out.size() > 0;
+    };
+    const auto twice = [&](double h,
+                           Vector& out) {  // odd in h; its derivative at 0 is the second one of `once`
+      Vector behind;
+      if (!once(h, out) || !once(-h, behind)) return false;
+      out = (out + behind - 2 * here_) / h;
       return true;
     };
-    one.resize(n);
-    if (!std::isfinite(differentiate(moved, step(v), both).error)) return false;
-    products = {both.head(n), both.tail(n)};
+    Vector of_first;
+    Vector of_second;
+    const double begin = step(v);
+    if (!std::isfinite(differentiate(once, begin, of_first).error) ||
+        !std::isfinite(differentiate(twice, begin, of_second, 0, most).error))
+      return false;
+    first = of_first.reshaped(v.size(), v.size());
+    second = of_second.reshaped(v.size(), v.size());
     return true;
-  }
-
-  /// w^T B(v, .), n x 2 for the two columns w.
-  bool contracted(const Vector& v, const Matrix& weights, Matrix& rows) {
-    if (!second_.contract(at_.unknowns, at_.parameters, at_.regime, weights, v, none_, rows)) return false;
-    rows.conservativeResize(v.size(), Eigen::NoChange);
-    return true;
-  }
-
-  /// w^T C(v, v, v) for the two columns w.
-  bool third(const Vector& v, const Matrix& weights, Vector& products) {
-    const auto moved = [&](double h, Vector& out) {
-      Matrix rows;
-      if (!second_.contract(at_.unknowns + h * v, at_.parameters, at_.regime, weights, v, none_, rows))
-        return false;
-      out = rows.topRows(v.size()).transpose() * v;
-      return true;
-    };
-    return std::isfinite(differentiate(moved, step(v), products).error);
   }
 
  private:
+  bool jacobian(const Vector& v, double h, Vector& out) {
+    const Vector u = h == 0 ? at_.unknowns : Vector(at_.unknowns + h * v);
+    if (!linearization_.evaluate(u, at_.parameters, at_.regime)) return false;
+    out = linearization_.jacobian().reshaped();
+    return out.allFinite();
+  }
+
   double step(const Vector& v) {
     constexpr double first = 0.02;  // of the scale
     const double length = second_.length(at_.unknowns, at_.parameters, v, none_);
@@ -74,6 +71,7 @@ class Derivatives {
   Linearization linearization_;
   SecondDerivative second_;
   Vector none_;
+  Vector here_;
 };
 
 /// The vector of the eigenvalue nearest to j omega, of length 1; omega becomes its imaginary part.
@@ -108,43 +106,34 @@ std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, dou
 
   const Vector real = q.real();
   const Vector imaginary = q.imag();
-  std::array<Vector, 2> by_real;
-  std::array<Vector, 2> by_imaginary;
-  if (!derivatives.second(real, real, imaginary, by_real) ||
-      !derivatives.second(imaginary, real, imaginary, by_imaginary))
-    return std::nullopt;
-  const Vector steady = by_real[0] + by_imaginary[1];  // B(q, q*)
-  ComplexVector turning(q.size());                     // B(q, q)
-  turning.real() = by_real[0] - by_imaginary[1];
-  turning.imag() = by_real[1] + by_imaginary[0];
+  const std::array<Vector, 4> directions{real, imaginary, real + imaginary, real - imaginary};
+  std::array<Matrix, 4> second;
+  std::array<Vector, 4> cubes;  // C(v, v, v)
+  for (std::size_t i = 0; i < 4; ++i) {
+    Matrix third;
+    if (!derivatives.along(directions[i], second[i], third)) return std::nullopt;
+    cubes[i] = third * directions[i];
+  }
+  const Vector steady = second[0] * real + second[1] * imaginary;  // B(q, q*)
+  ComplexVector turning(q.size());                                 // B(q, q)
+  turning.real() = second[0] * real - second[1] * imaginary;
+  turning.imag() = second[0] * imaginary + second[1] * real;
   const Vector mean = a.partialPivLu().solve(steady);
   ComplexMatrix twice = -a.cast<Complex>();
   twice.diagonal().array() += Complex(0, 2 * omega);
-  const ComplexVector second = twice.partialPivLu().solve(turning);
+  const ComplexVector higher = twice.partialPivLu().solve(turning);
 
-  Matrix weights(q.size(), 2);
-  weights << p.real(), p.imag();
-  Matrix along_real;
-  Matrix along_imaginary;
-  if (!derivatives.contracted(real, weights, along_real) ||
-      !derivatives.contracted(imaginary, weights, along_imaginary))
-    return std::nullopt;
-  const auto times_p = [](const auto& products) { return Complex(products(0), -products(1)); };  // p^H
-  const auto product = [&](const Matrix& along, const ComplexVector& y) {
-    return times_p(Vector(along.transpose() * y.real())) +
-           Complex(0, 1) * times_p(Vector(along.transpose() * y.imag()));
-  };
-  std::array<Vector, 4> cubes;  // of C(v, v, v) along Re q, Im q, their sum and their difference
-  const std::array<Vector, 4> directions{real, imaginary, real + imaginary, real - imaginary};
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!derivatives.third(directions[i], weights, cubes[i])) return std::nullopt;
-  }
   const Vector mixed = (cubes[2] + cubes[3] - 2 * cubes[0]) / 6;  // C(Re, Im, Im)
   const Vector other = (cubes[2] - cubes[3] - 2 * cubes[1]) / 6;  // C(Re, Re, Im)
-  const Complex cubic = times_p(Vector(cubes[0] + mixed)) + Complex(0, 1) * times_p(Vector(cubes[1] + other));
-  const ComplexVector still = mean.cast<Complex>();
-  const Complex by_mean = product(along_real, still) + Complex(0, 1) * product(along_imaginary, still);
-  const Complex by_second = product(along_real, second) - Complex(0, 1) * product(along_imaginary, second);
+  ComplexVector cube(q.size());                                   // C(q, q, q*)
+  cube.real() = cubes[0] + mixed;
+  cube.imag() = cubes[1] + other;
+  ComplexMatrix turn(q.size(), q.size());  // B(q, .)
+  turn.real() = second[0];
+  turn.imag() = second[1];
+  const Complex cubic = p.dot(cube);
+  const Complex by_mean = p.dot(turn * mean.cast<Complex>());
+  const Complex by_second = p.dot(turn.conjugate() * higher);
   const double terms = std::abs(cubic) + 2 * std::abs(by_mean) + std::abs(by_second);
   return HopfForm{omega, 0.5 * (cubic - 2.0 * by_mean + by_second).real() / omega, 0.5 * terms / omega};
 }

@@ -38,14 +38,14 @@ Estimate& best_of(std::vector<Estimate>& estimates) {
 }  // namespace
 
 Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
-                         int level) {
+                         int level, int most) {
   std::array<Vector, order> row;
   std::array<Vector, order> previous;
   std::vector<Estimate> estimates;
   Vector forward;
   Vector backward;
   std::size_t begun = 0;
-  for (step *= std::pow(0.25, level); level < levels; ++level, step *= 0.25) {
+  for (step *= std::pow(0.25, level); level < std::min(most, levels); ++level, step *= 0.25) {
     if (!f(step, forward) || !f(-step, backward)) {
       begun = 0;
       continue;

@@ -83,7 +83,9 @@ TEST_CASE("A curve in two parameters goes on where it was left", "[resume]") {
 }
 
 TEST_CASE("A curve of Hopf points does not remember the step in which it was interrupted", "[resume]") {
-  // Its derivatives are differences, whose steps depend on those before.
+  // Its derivatives are differences, whose steps depend on those before. In the step across the zero-Hopf point the
+  // first Lyapunov coefficient has a pole, which is told from a zero by a search of its own.
+  constexpr long of_that_step = 600;
   const Instance lorenz("lorenz84", {{"T", 0.04}});
   const auto found = of_type(lorenz.trace(over("F", 3, 1)), PointType::hopf);
   REQUIRE(!found.empty());
@@ -92,7 +94,7 @@ TEST_CASE("A curve of Hopf points does not remember the step in which it was int
         CurveStart start = curve_through(*lorenz.problem, "F", found.back());
         return Branches{trace_curve(*start.problem, start.point, o, {1, 3})};
       },
-      over("T", 1e-4, 0.1), 10000);
+      over("T", 1e-4, 0.1), 10000, of_that_step);
 }
 
 TEST_CASE("Branches that had no time to be whole are gone on with", "[resume]") {

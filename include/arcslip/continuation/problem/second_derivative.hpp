@@ -22,9 +22,9 @@ struct Difference {
 };
 
 /// d f/dh at h = 0 of a function that fills a vector, or returns false where it has no value. Steps begin at
-/// `step` times 4^-`level`.
+/// `step` times 4^-`level`, and end at `step` times 4^-`most` at the latest.
 Difference differentiate(const std::function<bool(double h, Vector& out)>& f, double step, Vector& derivative,
-                         int level = 0);
+                         int level = 0, int most = 100);
 
 /// Serves one thread. The problem is kept by reference.
 class SecondDerivative {
