@@ -12,7 +12,7 @@ namespace {
 using continuation::Evaluation;
 using continuation::PointType;
 using continuation::Regime;
-using Numbers = boost::container::small_vector<double, 128>;
+using Numbers = boost::container::small_vector<double, 1024>;  // on the stack up to 8 kB
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Unknowns, then parameters, as the tapes have them.

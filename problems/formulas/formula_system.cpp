@@ -78,7 +78,7 @@ void check_names(const FormulaSystem& system) {
 }
 
 LibraryModel model_of(const FormulaSystem& system) {
-  LibraryModel model{"model", title_of(system), {}, {}, {}};
+  LibraryModel model{"[model]", title_of(system), {}, {}, {}};
   for (const FormulaParameter& parameter : system.parameters)
     model.settings.push_back(any_value(parameter.name, parameter.value, ""));
   model.build = [problem = FormulaProblem(system)](const LibraryModel::Values& /*values*/) {
