@@ -33,6 +33,7 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   return names;
 }
 
+/// Of unknowns and parameters.
 Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, int iterations) {
   FormulaSet set{names_of(system.equations),
                  system.definitions,
@@ -44,6 +45,14 @@ Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, i
 }
 
 }  // namespace
+
+Tape right_hand_side(const FormulaSystem& system) {
+  check_names(system);
+  FormulaSet set{{time_name}, system.definitions, system.equations};
+  for (const Formula& equation : system.equations) set.variables.push_back(equation.name);
+  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  return compile(set);
+}
 
 FormulaProblem::FormulaProblem(const FormulaSystem& system)
     : kind_(system.kind),

@@ -41,6 +41,10 @@ struct FormulaSystem {
 /// Refuses names that mean two things. Throws FormulaError.
 void check_names(const FormulaSystem& system);
 
+/// f alone, of the time t, the unknowns and the parameters, in this order: here formulas may have t. Throws
+/// FormulaError.
+Tape right_hand_side(const FormulaSystem& system);
+
 /// The greatest `iterate`.
 inline constexpr int most_iterates = 100;
 
