@@ -219,7 +219,7 @@ class Neuron(Report):
         self.check_nothing_outside()
 
     def test_curves_of_its_observables_hold_all_points(self):
-        table = self.table("branches.csv")
+        table = self.table("curves.csv")
         self.assertEqual(self.assertHolds("branch", table, "I", "I_Ca"), set(range(len(table))))
         self.assertHolds("second", table, "I", "V")
 
