@@ -29,6 +29,7 @@ Eigen::Map<const Vector> vector_of(const Numbers& numbers) { return {numbers.dat
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Named& one : all) names.push_back(one.name);
   return names;
 }

@@ -50,7 +50,7 @@ Tape start_of(const FormulaSystem& system) {
 std::string title_of(const FormulaSystem& system) {
   std::vector<std::string> unknowns;
   for (const Formula& equation : system.equations) unknowns.push_back(equation.name);
-  const std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
+  std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
   switch (system.kind) {
     case FormulaKind::flow: return fmt::format("a flow of {}", names);
     case FormulaKind::algebraic: return fmt::format("equations in {}", names);

@@ -1,8 +1,9 @@
+#include "formulas/operation.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include "arcslip/formulas/functions.hpp"
-#include "arcslip/formulas/tape.hpp"
 
 namespace arcslip {
 namespace {

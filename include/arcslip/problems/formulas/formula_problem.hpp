@@ -22,20 +22,20 @@ enum class FormulaKind { flow, map, algebraic };
 
 /// A number that formulas have by its name.
 struct FormulaParameter {
-  std::string name;
-  double value = 0;
+  std::string name;        ///< a word
+  double value = 0;        ///< finite
   std::string place = {};  ///< what messages call it; empty: its name
 };
 
 /// The system as it is written.
 struct FormulaSystem {
-  FormulaKind kind = FormulaKind::flow;
-  int iterate = 1;  ///< k of a map: the points that are fixed after k steps
-  std::vector<FormulaParameter> parameters = {};
-  std::vector<Formula> equations = {};    ///< f by the names of the unknowns, in their order
-  std::vector<Formula> definitions = {};  ///< of names that equations and observables use
-  std::vector<Formula> observables = {};  ///< what is told beside the unknowns
-  std::vector<Formula> start = {};        ///< of unknowns, by parameters; 0 of those that are left out
+  FormulaKind kind = FormulaKind::flow;           ///< of the equations
+  int iterate = 1;                                ///< k of a map: the points that are fixed after k steps
+  std::vector<FormulaParameter> parameters = {};  ///< in their order
+  std::vector<Formula> equations = {};            ///< f by the names of the unknowns, in their order
+  std::vector<Formula> definitions = {};          ///< of names that equations and observables use
+  std::vector<Formula> observables = {};          ///< what is told beside the unknowns
+  std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
 };
 
 /// Refuses names that mean two things. Throws FormulaError.
