@@ -20,6 +20,9 @@ function namedBranches(run) {
   return branches;
 }
 
+// What its problem is given by.
+const settingsOf = (input) => input.system ?? input.model.parameters;
+
 function runModel(run) {
   const table = run.points;
   const input = run.summary.case;
@@ -29,9 +32,9 @@ function runModel(run) {
   const part = regime.map((name) => (slips && !name.startsWith("slip") ? "stick" : "slip"));
   const branches = namedBranches(run);
   const ring = run.sectors && { sectors: run.sectors, ring: sectorRows(run.sectors, table, branches) };
-  return { table, input, system: input.system, ...ring, branches, part, hasStick: slips && part.includes("stick"),
+  return { table, input, system: settingsOf(input), ...ring, branches, part, hasStick: slips && part.includes("stick"),
     stability: unstable ? unstable.map((count) => (count > 0 ? "unstable" : count < 0 ? "untold" : "stable")) : null,
-    isFriction: input.system.model in frictionModels };
+    isFriction: input.system?.model in frictionModels };
 }
 
 // ---- Branches that stick alike ----

@@ -62,7 +62,7 @@ function branchTable({ summary: { branches, case: input } }) {
     return { branch: branch.branch, ...Object.fromEntries(values), points: branch.points, eta, Y, R_over_S, frequency_Hz, Y_m,
       power_error: rounded(branch.power_error), motion_error: rounded(branch.motion_error), ended: stops[branch.stop] || branch.explanation };
   });
-  return tableOf("branches", filled(Object.keys(rows[0]), rows), rows, { system: input.system, long: ["ended"] });
+  return tableOf("branches", filled(Object.keys(rows[0]), rows), rows, { system: settingsOf(input), long: ["ended"] });
 }
 
 function specialTable(run, model) {

@@ -26,7 +26,7 @@ function stateAt(R, S, phase) {
 // Whether the columns tell all of the motion: one contact at each node, in one harmonic, of whole rings in sectors.csv.
 function hasWave({ isFriction, sectors, table: { columns }, input: { branch, system, ring } }) {
   const response = branch.response || "forced";
-  const isTold = ring ? Boolean(sectors) && Math.max(...sectors.columns.contact) === 1 : system.elements > 2;
+  const isTold = ring ? Boolean(sectors) && Math.max(...sectors.columns.contact) === 1 : system?.elements > 2;
   return isFriction && isTold && !branch.curve && response === "forced" && (system.harmonics ?? 1) === 1 &&
     ["Y", "U", "R", "S", "beta", "alpha", "psi", "type"].every((name) => columns[name]) &&
     !Object.keys(columns).some((name) => /_h\d+$|^[UR]_(contact_)?\d/.test(name));

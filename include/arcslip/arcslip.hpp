@@ -20,6 +20,7 @@
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/problems/formulas/formula_problem.hpp"
 #include "arcslip/problems/library/ab.hpp"
 #include "arcslip/problems/library/bratu.hpp"
 #include "arcslip/problems/library/bratu_2d.hpp"

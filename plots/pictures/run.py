@@ -29,12 +29,13 @@ class RunData:
     def __init__(self, folder, summary):
         branches = summary["branches"]
         self.case = summary["case"]
-        self.system = self.case.get("system") or self.case["model"]["parameters"]
+        formulas = "model" in self.case
+        self.system = self.case["model"]["parameters"] if formulas else self.case["system"]
         self.branch = self.case["branch"]
         Table(os.path.join(folder, "branches.csv"), ["branch", "point", "type", "regime"], "points")
         self.table = Table(drawn_table(folder), ["branch", "point", "type", "regime"], "points")
         self.table.require(self.branch.get("parameters") or [self.branch["parameter"]])
-        self.is_friction = self.table.has("R_over_S") or "wave_number" in self.system
+        self.is_friction = not formulas and (self.table.has("R_over_S") or "wave_number" in self.system)
         self.is_requested = bool(self.case["continuation"]["stop_at"])
         self._values = [branch["values"] for branch in branches]
         self._columns = {}

@@ -4,23 +4,18 @@
 
 namespace arcslip::problems {
 
-FormulaField::FormulaField(const FormulaSystem& system) {
-  check_names(system);
-  FormulaSet set{{}, system.definitions, system.equations};
+FormulaField::FormulaField(const FormulaSystem& system) : equations_(right_hand_side(system)) {
   for (const Formula& equation : system.equations) names_.push_back(equation.name);
   for (const FormulaParameter& parameter : system.parameters) parameters_.push_back(parameter.name);
-  set.variables = names_;
-  set.variables.insert(set.variables.end(), parameters_.begin(), parameters_.end());
-  set.variables.emplace_back(time_name);
-  equations_ = compile(set);
   period_ = compile({parameters_, {}, {*system.period}});
 }
 
 bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
                             const continuation::FieldValues& out) const {
   const Index n = size();
-  Numbers at = joined(u, p);
-  at.push_back(t);
+  Numbers at{t};
+  at.insert(at.end(), u.begin(), u.end());
+  at.insert(at.end(), p.begin(), p.end());
   const bool differentiated =
       out.by_unknowns != nullptr || out.by_parameters != nullptr || out.by_time != nullptr;
   Numbers values = room(n);
@@ -30,9 +25,9 @@ bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
     return false;
   if (out.velocity != nullptr) *out.velocity = Eigen::Map<const Vector>(values.data(), n);
   const Eigen::Map<const Rows> rows(gradients.data(), differentiated ? n : 0, std::ssize(at));
-  if (out.by_unknowns != nullptr) *out.by_unknowns = rows.leftCols(n);
-  if (out.by_parameters != nullptr) *out.by_parameters = rows.middleCols(n, p.size());
-  if (out.by_time != nullptr) *out.by_time = rows.rightCols(1);
+  if (out.by_unknowns != nullptr) *out.by_unknowns = rows.middleCols(1, n);
+  if (out.by_parameters != nullptr) *out.by_parameters = rows.rightCols(p.size());
+  if (out.by_time != nullptr) *out.by_time = rows.leftCols(1);
   return true;
 }
 

@@ -12,26 +12,37 @@ namespace {
 using continuation::Evaluation;
 using continuation::PointType;
 using continuation::Regime;
+
 Eigen::Map<const Vector> vector_of(const Numbers& numbers) { return {numbers.data(), std::ssize(numbers)}; }
 
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Named& one : all) names.push_back(one.name);
   return names;
 }
 
+/// Of unknowns and parameters.
 Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, int iterations) {
   FormulaSet set{names_of(system.equations),
                  system.definitions,
                  results,
-                 {{time_name, "is the time, on which no system may depend here"}},
+                 {{time_name, "is the time, on which systems of kind \"forced\" alone may depend"}},
                  iterations};
   for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
   return compile(set);
 }
 
 }  // namespace
+
+Tape right_hand_side(const FormulaSystem& system) {
+  check_names(system);
+  FormulaSet set{{time_name}, system.definitions, system.equations};
+  for (const Formula& equation : system.equations) set.variables.push_back(equation.name);
+  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  return compile(set);
+}
 
 FormulaProblem::FormulaProblem(const FormulaSystem& system)
     : kind_(system.kind),

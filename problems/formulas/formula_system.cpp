@@ -51,7 +51,7 @@ Tape start_of(const FormulaSystem& system) {
 std::string title_of(const FormulaSystem& system) {
   std::vector<std::string> unknowns;
   for (const Formula& equation : system.equations) unknowns.push_back(equation.name);
-  const std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
+  std::string names = fmt::format("{}", fmt::join(unknowns, ", "));
   switch (system.kind) {
     case FormulaKind::flow: return fmt::format("a flow of {}", names);
     case FormulaKind::forced: return fmt::format("a forced flow of {}", names);
@@ -100,7 +100,7 @@ void check_names(const FormulaSystem& system) {
 }
 
 LibraryModel model_of(const FormulaSystem& system) {
-  LibraryModel model{"model", title_of(system), {}, {}, {}};
+  LibraryModel model{"[model]", title_of(system), {}, {}, {}};
   for (const FormulaParameter& parameter : system.parameters)
     model.settings.push_back(any_value(parameter.name, parameter.value, ""));
   check_names(system);

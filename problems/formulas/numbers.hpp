@@ -8,7 +8,7 @@
 
 namespace arcslip::problems {
 
-using Numbers = boost::container::small_vector<double, 128>;
+using Numbers = boost::container::small_vector<double, 1024>;  // on the stack up to 8 kB
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 inline Numbers room(Index count) { return Numbers(static_cast<std::size_t>(count)); }

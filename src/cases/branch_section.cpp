@@ -46,6 +46,11 @@ std::vector<std::string> names_with(std::vector<std::string> names, const CaseBr
   return names;
 }
 
+/// What a parameter is called without its unit; one of a model's own may be called as it likes.
+std::string parameter_of(const CaseBranch& branch, const std::string& name, const TomlSection& section) {
+  return branch.problem.model != nullptr ? name : parameter_named(name, section.document());
+}
+
 std::vector<std::string> curve_names() {
   return {"fold",       "branch_point",    "hopf",          "peak",
           "trough",     "switch",          "level",         "phase_resonance",
@@ -66,7 +71,7 @@ void read_parameters(CaseBranch& branch, const TomlSection& section) {
   const std::vector<std::string> given = section.texts("parameters", allowed, expected);
   std::vector<std::string> pair;
   std::transform(given.begin(), given.end(), std::back_inserter(pair),
-                 [&](const std::string& name) { return parameter_named(name, section.document()); });
+                 [&](const std::string& name) { return parameter_of(branch, name, section); });
   if (pair.size() != 2 || pair[0] == pair[1]) section.mismatch("parameters", expected);
   const auto is_own = [&](const std::string& name) { return name == names[0] || name == names[1]; };
   if (branch.problem.model == nullptr && !is_own(pair[0]) && !is_own(pair[1]))
@@ -208,7 +213,7 @@ std::vector<BranchKey> keys_of_request() {
             const toml::node& node = section.require("parameter", one_of(names));
             const std::string given = node.value<std::string>().value_or("");
             branch.named = section.text("parameter", names_with(names, branch, {given}));
-            branch.options.parameter = parameter_named(branch.named, section.document());
+            branch.options.parameter = parameter_of(branch, branch.named, section);
           },
           needed("required", lacks("parameters")), not_beside_curve),
       BranchKey::special(

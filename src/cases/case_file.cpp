@@ -129,6 +129,7 @@ std::pair<std::string, double> given_frequency(const TomlDocument& document,
 /// Brings ranges that are given in SI units, or as the speed beside an engine order, to the model's.
 void take_units(const TomlSection& section, CaseBranch& branch) {
   const auto size = [&](const std::string& name, const char* key) {
+    if (branch.problem.model != nullptr) return 1.0;
     const double per_eta = branch.problem.system.rotation.per_eta;
     if (name == speed_name && per_eta != 0) return per_eta;
     return size_of_unit(name, branch.problem.physical, section, branch.curve ? "parameters" : key);

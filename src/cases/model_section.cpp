@@ -38,6 +38,7 @@ std::vector<NamedNode> in_order(const TomlSection& section) {
     return a.first < b.first;
   });
   std::vector<NamedNode> entries;
+  entries.reserve(placed.size());
   for (auto& [place, entry] : placed) entries.push_back(std::move(entry));
   return entries;
 }

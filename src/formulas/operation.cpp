@@ -1,8 +1,9 @@
+#include "formulas/operation.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include "arcslip/formulas/functions.hpp"
-#include "arcslip/formulas/tape.hpp"
 
 namespace arcslip {
 namespace {
@@ -10,9 +11,13 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double integer_power(double a, int n) {
-  if (n == 2) return a * a;
-  if (n == 3) return a * a * a;
-  return std::pow(a, n);
+  switch (n) {
+    case 0: return 1;
+    case 1: return a;
+    case 2: return a * a;
+    case 3: return a * a * a;
+    default: return std::pow(a, n);
+  }
 }
 
 /// Of a^b by both; at a = 0 the limits, where there are any.
@@ -29,17 +34,17 @@ Slopes slopes_of_power(double a, double b, double value, bool second) {
   return slopes;
 }
 
-Slopes slopes_of_fixed(double a, double b) {
+Slopes slopes_of_fixed(double a, double b, bool second) {
   Slopes slopes;
   slopes.left = b * std::pow(a, b - 1);
-  slopes.left_left = b * (b - 1) * std::pow(a, b - 2);
+  if (second) slopes.left_left = b * (b - 1) * std::pow(a, b - 2);
   return slopes;
 }
 
-Slopes slopes_of_integer(double a, int n) {
+Slopes slopes_of_integer(double a, int n, bool second) {
   Slopes slopes;
   slopes.left = n * integer_power(a, n - 1);
-  slopes.left_left = static_cast<double>(n) * (n - 1) * integer_power(a, n - 2);
+  if (second) slopes.left_left = static_cast<double>(n) * (n - 1) * integer_power(a, n - 2);
   return slopes;
 }
 
@@ -94,8 +99,8 @@ Slopes slopes_of(const Operation& operation, double a, double b, double value, b
     case Operator::multiply: return {b, a, 0, 1, 0};
     case Operator::divide: return slopes_of_quotient(a, b, value);
     case Operator::power: return slopes_of_power(a, b, value, second);
-    case Operator::fixed_power: return slopes_of_fixed(a, b);
-    case Operator::integer_power: return slopes_of_integer(a, operation.right);
+    case Operator::fixed_power: return slopes_of_fixed(a, b, second);
+    case Operator::integer_power: return slopes_of_integer(a, operation.right, second);
     case Operator::atan2: return slopes_of_angle(a, b);
     case Operator::function: {
       const FormulaFunction& one = functions()[static_cast<std::size_t>(operation.right)];

@@ -4,6 +4,8 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 
+#include "formulas/operation.hpp"
+
 namespace arcslip {
 namespace {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formulas/operation.hpp"
+
 namespace arcslip {
 namespace {
 
@@ -78,6 +80,7 @@ Tape TapeBuilder::finish(const std::vector<int>& results) const {
     }
   }
   std::vector<int> places;
+  places.reserve(results.size());
   for (const int result : results) places.push_back(place[static_cast<std::size_t>(result)]);
   return {variables, std::move(constants), std::move(operations), std::move(places)};
 }

@@ -50,7 +50,7 @@ std::string why_no_shapes(const SystemParameters& system) {
 
 std::string why_no_shapes(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
-  if (problem.model != nullptr) return "models of the library have none";
+  if (problem.model != nullptr) return "models of equations have none";
   if (branch.curve) return "curves have none";
   if (!problem.response->in_time) return "those of a " + problem.response->title + " are not written";
   return why_no_shapes(problem.system);

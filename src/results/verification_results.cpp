@@ -61,7 +61,7 @@ std::string by_offsets(const VerifiedBranch& branch) {
 
 std::string why_not_verifiable(const CaseBranch& branch) {
   const ProblemRequest& problem = branch.problem;
-  if (problem.model != nullptr) return "a model of the library";
+  if (problem.model != nullptr) return "a model of equations";
   if (!problem.response->in_time) return problem.response->title;
   if (!structures_of(problem.system).has_equations()) return "structures by their responses alone";
   return branch.curve ? "curves" : "";

@@ -208,6 +208,22 @@ class ManyNodes(Report):
         self.assertIn("One in 3 of the 450 nodes is drawn.", self.page.evaluate("document.querySelector('#figure-wave').textContent"))
 
 
+class Neuron(Report):
+    """A run of a system that is given by formulas."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.make(("run", "morris_lecar"))
+
+    def test_nothing_comes_from_elsewhere(self):
+        self.check_nothing_outside()
+
+    def test_curves_of_its_observables_hold_all_points(self):
+        table = self.table("curves.csv")
+        self.assertEqual(self.assertHolds("branch", table, "I", "I_Ca"), set(range(len(table))))
+        self.assertHolds("second", table, "I", "V")
+
+
 class WholeRing(Report):
     """A split ring whose contacts slip one by one."""
 

@@ -83,8 +83,8 @@ TEST_CASE("A curve in two parameters goes on where it was left", "[resume]") {
 }
 
 TEST_CASE("A curve of Hopf points does not remember the step in which it was interrupted", "[resume]") {
-  // Its derivatives are differences, whose steps depend on those before. In the step across the zero-Hopf point the
-  // first Lyapunov coefficient has a pole, which is told from a zero by a search of its own.
+  // Its derivatives are differences, whose steps depend on those before. In the step across the zero-Hopf
+  // point the first Lyapunov coefficient has a pole, which is told from a zero by a search of its own.
   constexpr long of_that_step = 600;
   const Instance lorenz("lorenz84", {{"T", 0.04}});
   const auto found = of_type(lorenz.trace(over("F", 3, 1)), PointType::hopf);

@@ -212,6 +212,20 @@ TEST_CASE("A branch shortens its steps where a formula has no value", "[formulas
   CHECK(std::abs(branch.points.back().parameters(0)) < 1e-3);
 }
 
+TEST_CASE("A right-hand side may depend on the time, with its derivative", "[formulas]") {
+  const FormulaSystem forced{.parameters = {{"w", 2}, {"a", 3}},
+                             .equations = {{"x", "v"}, {"v", "-x + a*phase"}},
+                             .definitions = {{"phase", "cos(w*t)"}}};
+  const Tape tape = problems::right_hand_side(forced);
+  const std::vector<double> at{0.7, 0.1, 0.2, 2, 3};  // t, x, v, w, a
+  std::vector<double> f(2), gradients(10);
+  REQUIRE(tape.evaluate(at.data(), f.data(), gradients.data()));
+  CHECK(f == std::vector<double>{0.2, -0.1 + 3 * std::cos(1.4)});
+  CHECK(gradients[5] == Approx(-6 * std::sin(1.4)).epsilon(1e-15));
+  CHECK(gradients[8] == Approx(-2.1 * std::sin(1.4)).epsilon(1e-15));
+  CHECK(tape.uses(0));
+}
+
 TEST_CASE("Names that mean two things are refused with both places", "[formulas]") {
   const auto message = [](const FormulaSystem& system) -> std::string {
     try {
@@ -228,7 +242,7 @@ TEST_CASE("Names that mean two things are refused with both places", "[formulas]
   CHECK(message({.equations = {{"x", "-x"}}, .start = {{"y", "1"}}}) ==
         "y: there is no equation of this name");
   CHECK(message({.equations = {{"x", "-x + t"}}}) ==
-        "x: \"t\" at column 6 of \"-x + t\" is the time, on which no system may depend here");
+        "x: \"t\" at column 6 of \"-x + t\" is the time, on which systems of kind \"forced\" alone may depend");
   CHECK(message({.parameters = {{"a", 1}}, .equations = {{"x", "-x"}}, .start = {{"x", "x"}}}) ==
         "x: unknown name \"x\" at column 1 of \"x\"; there are a");
 }

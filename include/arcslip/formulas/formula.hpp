@@ -20,14 +20,15 @@ namespace arcslip {
 
 /// What a name stands for.
 struct Formula {
-  std::string name;
-  std::string text;
+  std::string name;        ///< a word
+  std::string text;        ///< the formula itself
   std::string place = {};  ///< what messages call it, as "model.equations.x"; empty: its name
 };
 
 /// A formula that cannot be read; says what was expected, and where.
 class FormulaError : public std::invalid_argument {
  public:
+  /// Both, as below.
   FormulaError(std::string place, std::string why);
   const std::string& place() const { return place_; }  ///< of the formula
   const std::string& why() const { return why_; }      ///< without it

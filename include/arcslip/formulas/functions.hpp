@@ -9,10 +9,10 @@ namespace arcslip {
 
 /// y = f(x), y' and y''.
 struct FormulaFunction {
-  std::string name;
-  double (*value)(double x);
-  double (*first)(double x, double y);
-  double (*second)(double x, double y);
+  std::string name;                      ///< in formulas
+  double (*value)(double x);             ///< y
+  double (*first)(double x, double y);   ///< y'
+  double (*second)(double x, double y);  ///< y''
 };
 
 /// All of them; operations have their numbers.

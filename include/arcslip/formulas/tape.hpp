@@ -35,23 +35,13 @@ constexpr bool has_two(Operator kind) {
   return kind != Operator::integer_power && kind != Operator::function;
 }
 
-/// v = f(a, b); a and b are places of variables, constants and earlier operations, in this order.
+/// v = f(a, b); a and b are places of variables, constants and earlier operations, in this order. At the
+/// corners of abs, sign, min and max derivatives are those of one side, or 0 between two of opposite signs.
 struct Operation {
-  Operator kind;
-  int left;
-  int right;
+  Operator kind;  ///< f
+  int left;       ///< place of a
+  int right;      ///< place of b, or what stands there
 };
-
-/// Its derivatives.
-struct Slopes {
-  double left = 0, right = 0;                             ///< df/da, df/db
-  double left_left = 0, left_right = 0, right_right = 0;  ///< the second ones
-};
-
-/// The value of one operation, and its derivatives there, of which `second` are not always wanted. At the
-/// corners of abs, sign, min and max they are those of one side, or 0 between two of opposite signs.
-double value_of(const Operation& operation, double a, double b);
-Slopes slopes_of(const Operation& operation, double a, double b, double value, bool second);
 
 /// Results by variables x, as many as `variables()`; may be shared by threads. Up to some hundred operations
 /// nothing is allocated.
@@ -64,10 +54,10 @@ class Tape {
   Tape(Index variables, std::vector<double> constants, std::vector<Operation> operations,
        std::vector<int> results);
 
-  Index variables() const { return variables_; }
-  Index results() const { return std::ssize(results_); }
-  Index operations() const { return std::ssize(operations_); }
-  bool uses(Index variable) const;  ///< whether any result depends on it
+  Index variables() const { return variables_; }                ///< how many
+  Index results() const { return std::ssize(results_); }        ///< how many
+  Index operations() const { return std::ssize(operations_); }  ///< how many are done for all results
+  bool uses(Index variable) const;                              ///< whether any result depends on it
 
   /// Fills `values`, one for each result. False where one is not finite.
   [[nodiscard]] bool evaluate(const double* x, double* values) const;

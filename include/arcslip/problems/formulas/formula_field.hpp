@@ -27,7 +27,7 @@ class FormulaField : public continuation::Field {
  private:
   std::vector<std::string> names_;
   std::vector<std::string> parameters_;
-  Tape equations_;  // of u, p, t
+  Tape equations_;  // of t, u, p
   Tape period_;     // of p
 };
 

@@ -24,25 +24,29 @@ enum class FormulaKind { flow, forced, map, algebraic };
 
 /// A number that formulas have by its name.
 struct FormulaParameter {
-  std::string name;
-  double value = 0;
+  std::string name;        ///< a word
+  double value = 0;        ///< finite
   std::string place = {};  ///< what messages call it; empty: its name
 };
 
 /// The system as it is written.
 struct FormulaSystem {
-  FormulaKind kind = FormulaKind::flow;
-  int iterate = 1;  ///< k of a map: the points that are fixed after k steps
-  std::vector<FormulaParameter> parameters = {};
-  std::vector<Formula> equations = {};    ///< f by the names of the unknowns, in their order
-  std::vector<Formula> definitions = {};  ///< of names that equations and observables use
-  std::vector<Formula> observables = {};  ///< what is told beside the unknowns
-  std::optional<Formula> period = {};     ///< of what is forced, by parameters
-  std::vector<Formula> start = {};        ///< of unknowns, by parameters; 0 of those that are left out
+  FormulaKind kind = FormulaKind::flow;           ///< of the equations
+  int iterate = 1;                                ///< k of a map: the points that are fixed after k steps
+  std::vector<FormulaParameter> parameters = {};  ///< in their order
+  std::vector<Formula> equations = {};            ///< f by the names of the unknowns, in their order
+  std::vector<Formula> definitions = {};          ///< of names that equations and observables use
+  std::vector<Formula> observables = {};          ///< what is told beside the unknowns
+  std::optional<Formula> period = {};             ///< of what is forced, by parameters
+  std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
 };
 
 /// Refuses names that mean two things. Throws FormulaError.
 void check_names(const FormulaSystem& system);
+
+/// f alone, of the time t, the unknowns and the parameters, in this order: here formulas may have t. Throws
+/// FormulaError.
+Tape right_hand_side(const FormulaSystem& system);
 
 /// The greatest `iterate`.
 inline constexpr int most_iterates = 100;
