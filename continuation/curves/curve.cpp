@@ -33,18 +33,6 @@ int nearest_border(const Problem& base, const BranchPoint& point) {
   return nearest;
 }
 
-/// omega^2 of the pair that is nearest to the imaginary axis.
-double kappa_of(const ComplexVector& eigenvalues) {
-  double kappa = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Complex& value : eigenvalues) {
-    if (value.imag() == 0 || !(std::abs(value.real()) < least)) continue;
-    least = std::abs(value.real());
-    kappa = value.imag() * value.imag();
-  }
-  return kappa;
-}
-
 /// With the events that end a curve.
 TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
   TraceOptions all = within_window(options, window, problem.base().size());
@@ -94,6 +82,17 @@ Branch told(Branch curve, const CurveWindow& window) {
 }
 
 }  // namespace
+
+double kappa_of(const ComplexVector& eigenvalues) {
+  double kappa = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Complex& value : eigenvalues) {
+    if (value.imag() == 0 || !(std::abs(value.real()) < least)) continue;
+    least = std::abs(value.real());
+    kappa = value.imag() * value.imag();
+  }
+  return kappa;
+}
 
 CurveStart curve_through(const Problem& base, const std::string& active, const BranchPoint& point,
                          const std::string& observable) {

@@ -124,7 +124,10 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   const double kappa = point.extras(0);
   values.resize(2);
   values << kappa, std::nan("");
-  if (!(kappa > 0)) return;
+  ComplexVector all;
+  if (!base().eigenvalues(point.unknowns, point.parameters, regime, all)) return;
+  constexpr double surely = 1e-6;  // so near to where the pair meets at 0 its vectors are rounding
+  if (!(kappa > surely * all.cwiseAbs2().maxCoeff())) return;
   const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa));
   if (form && form->terms > 0) values(1) = form->lyapunov / form->terms;  // jumps where terms have poles
 }

@@ -170,6 +170,10 @@ using BranchKey = Key<CaseBranch>;
 
 const auto not_beside_curve =
     only("not beside curve, which has parameters and a window", is_branch, "not beside curve");
+const auto beside_curves_that_meet =
+    only("beside curve only of \"fold\" or \"hopf\"", [](const CaseBranch& branch, const TomlSection&) {
+      return !branch.curve || branch.curve->name == "fold" || branch.curve->name == "hopf";
+    });
 const auto beside_curve = only("only beside curve", is_curve);
 const auto with_friction = only("only for systems with friction", of_friction);
 const auto beside_level = only("only beside curve = \"level\"", is_level);
@@ -248,9 +252,11 @@ std::vector<BranchKey> keys_of_range() {
 /// From where and how branches are traced, and what is looked for on them.
 std::vector<BranchKey> keys_of_ways() {
   return {
-      BranchKey::flag("switching", &CaseBranch::switching,
-                      "follow all branches that meet this one, at branch points and corners",
-                      not_beside_curve),
+      BranchKey::flag(
+          "switching", &CaseBranch::switching,
+          "follow all branches that meet this one, at branch points and corners, and the cycles of "
+          "flows; of curves of folds or Hopf points those that they meet",
+          beside_curves_that_meet),
       BranchKey("start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
                 "trace both ways from this value; not beside switching", not_beside_curve, then(check_start)),
       BranchKey::special(

@@ -7,12 +7,18 @@
 #include <chrono>
 #include <cmath>
 
+#include "arcslip/continuation/curves/meeting_curves.hpp"
+#include "arcslip/continuation/points/fold_problem.hpp"
+#include "arcslip/continuation/points/hopf_problem.hpp"
+
 namespace arcslip {
 namespace {
 
 using continuation::BasePoint;
 using continuation::Branch;
 using continuation::BranchPoint;
+using continuation::ExtendedProblem;
+using continuation::FoldProblem;
 using continuation::PointType;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
@@ -67,6 +73,34 @@ bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, co
   return !asked.is_backbone() || (above(*(&point - 1)) < 0) == (asked.from < asked.to);
 }
 
+/// Whether a curve is of folds or of Hopf points like another, and passes a point of the base.
+bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
+  const bool same_kind = (dynamic_cast<const FoldProblem*>(curve.curve.get()) != nullptr) ==
+                         (dynamic_cast<const FoldProblem*>(&kind) != nullptr);
+  const auto same = [](const Vector& a, const Vector& b) {
+    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
+  };
+  return same_kind &&
+         std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
+           const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);
+           const bool same_pair =
+               kind.size() - kind.base().size() < 2 ||
+               std::abs(here.extras(0) - at.extras(0)) <= 1e-5 * (1 + std::abs(at.extras(0)));
+           return same_pair && same(here.parameters, at.parameters) && same(here.unknowns, at.unknowns);
+         });
+}
+
+/// Of a curve of Hopf points the part that is one: from a Bogdanov-Takens point on the other way are neutral
+/// saddles.
+void keep_hopf_points(TracedBranch& curve) {
+  const auto* hopf = dynamic_cast<const continuation::HopfProblem*>(curve.curve.get());
+  if (hopf == nullptr) return;
+  constexpr double rounding = 1e-6;
+  std::erase_if(curve.branch.points, [&](const BranchPoint& point) {
+    return hopf->split(point.unknowns, point.parameters, point.regime).extras(0) < -rounding;
+  });
+}
+
 }  // namespace
 
 TracedBranch unstarted(const Request& request, const Subject& subject, const std::string& why) {
@@ -75,6 +109,42 @@ TracedBranch unstarted(const Request& request, const Subject& subject, const std
   none.branch.explanation = why;
   return none;
 }
+
+namespace {
+
+/// Adds the curves that these meet, and so on.
+void follow_meeting(const Request& request, continuation::TraceOptions options, const TimeBudget& time,
+                    const continuation::Observer& observer, std::vector<TracedBranch>& curves) {
+  constexpr std::size_t most = 50;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::vector<BranchPoint> points = curves[i].branch.points;
+    for (const BranchPoint& point : points) {
+      if (curves.size() >= most || !time.goes_on()) return;
+      continuation::CurveStart start = continuation::curve_meeting(*curves[i].curve, point);
+      if (start.problem == nullptr) continue;
+      const std::shared_ptr<ExtendedProblem> problem = std::move(start.problem);
+      const auto known = [&](const TracedBranch& curve) { return is_known(curve, *problem, start.point); };
+      if (std::any_of(curves.begin(), curves.end(), known)) continue;
+      if (point.type != PointType::bogdanov_takens) {  // beside the point, which is then passed as others are
+        constexpr double beside = 1e-3;
+        const double middle = 0.5 * (options.from + options.to);
+        double& value = start.point.parameters(
+            continuation::index_of(curves[i].base.problem->parameter_names(), options.parameter));
+        value += beside * (value < middle ? 1 : -1) * std::abs(options.to - options.from);
+      }
+      const Clock::time_point begun = Clock::now();
+      options.max_seconds = time.rest().max_seconds;
+      TracedBranch met{
+          request, curves[i].base, problem,
+          continuation::trace_curve(*problem, start.point, options, request->curve->window, observer), 0};
+      keep_hopf_points(met);
+      met.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+      curves.push_back(std::move(met));
+    }
+  }
+}
+
+}  // namespace
 
 std::vector<TracedBranch> trace_curves(const Request& request, const Subject& subject,
                                        const std::vector<TracedBranch>& across, const TimeBudget& time,
@@ -105,6 +175,7 @@ std::vector<TracedBranch> trace_curves(const Request& request, const Subject& su
       curves.push_back({request, seeds.base, curve, std::move(branch), seconds.count()});
     }
   }
+  if (request->switching) follow_meeting(request, options, time, observer, curves);
   for (TracedBranch& curve : curves) {
     for (BranchPoint& point : curve.branch.points) {
       if (point.type == PointType::user && !is_listed(point, curve)) point.type = PointType::regular;

@@ -22,6 +22,9 @@ struct CurveStart {
 CurveStart curve_through(const Problem& base, const std::string& active, const BranchPoint& point,
                          const std::string& observable = {});
 
+/// omega^2 of the pair among these that is nearest to the imaginary axis; 0 without one.
+double kappa_of(const ComplexVector& eigenvalues);
+
 /// A value of an observable.
 struct Level {
   std::string observable;  ///< by name, one with a gradient

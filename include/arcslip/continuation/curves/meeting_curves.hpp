@@ -1,0 +1,16 @@
+#pragma once
+
+// Curves of folds and of Hopf points from where they meet: at Bogdanov-Takens and zero-Hopf points each
+// other, at double Hopf points two of the latter [Yu. A. Kuznetsov, Elements of Applied Bifurcation Theory,
+// 3rd ed., Springer 2004, chapter 8].
+
+#include "arcslip/continuation/curves/curve.hpp"
+
+namespace arcslip::continuation {
+
+/// The other curve through a special point of a curve of folds or Hopf points, of the same base; no problem
+/// where there is none. A curve of Hopf points begins at a Bogdanov-Takens point: its part with kappa < 0 is
+/// one of neutral saddles.
+CurveStart curve_meeting(const ExtendedProblem& curve, const BranchPoint& point);
+
+}  // namespace arcslip::continuation
