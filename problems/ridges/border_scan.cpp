@@ -1,6 +1,7 @@
 #include "arcslip/problems/ridges/border_scan.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "arcslip/problems/ridges/response_slopes.hpp"
 #include "arcslip/problems/ridges/slope_scan.hpp"
@@ -13,12 +14,15 @@ std::vector<BorderPlace> scan_border(const FrictionSystem& system, std::vector<d
   etas.insert(etas.end(), marks.begin(), marks.end());
   std::sort(etas.begin(), etas.end());
   etas.erase(std::unique(etas.begin(), etas.end()), etas.end());
-  const auto slopes_at = [&](double eta) {
+  const auto at = [&](double eta) {
     const ResponseSlopes border = ResponseSlopes::on_border(system, eta);
     const AmplitudeSlopes stick = border.by_eta();
-    return std::array{stick.log_Y, border.slipping().by_eta().log_Y, stick.log_ratio};
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return std::array<ValueAndSlope, 3>{{{border.log_Y(), stick.log_Y},
+                                         {unknown, border.slipping().by_eta().log_Y},
+                                         {unknown, stick.log_ratio}}};
   };
-  const SlopeScan<3, decltype(slopes_at)> scan(etas, slopes_at);
+  const SlopeScan<3, decltype(at)> scan(etas, at);
   std::vector<BorderPlace> places;
   for (std::size_t i = 0; i < scan.samples().size(); ++i) {
     places.push_back({scan.samples()[i].eta});

@@ -65,12 +65,12 @@ Peak highest_free_peak(const MotionAt& motion_at, std::vector<double> resonances
   };
   compare(range.eta_low, PeakSite::edge);
   compare(range.eta_high, PeakSite::edge);
-  const auto slopes_at = [&](double eta) {
+  const auto log_at = [&](double eta) {
     const FreeMotion at = motion_at(eta);
-    return std::array{std::real(at.by_eta / at.value)};
+    return std::array<ValueAndSlope, 1>{{{std::log(std::abs(at.value)), std::real(at.by_eta / at.value)}}};
   };
-  const SlopeScan<1, decltype(slopes_at)> scan(between(std::move(resonances), range.eta_low, range.eta_high),
-                                               slopes_at);
+  const SlopeScan<1, decltype(log_at)> scan(between(std::move(resonances), range.eta_low, range.eta_high),
+                                            log_at);
   for (std::size_t i = 0; i < scan.samples().size(); ++i) {
     const auto zero = scan.zero_behind(i, 0);
     if (zero && zero->falls) compare(zero->eta, PeakSite::stick);

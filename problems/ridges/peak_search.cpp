@@ -46,11 +46,29 @@ PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNod
   return node;
 }
 
+/// Beside each place where one of the structures or both together may resonate, at half the width that the
+/// damping of either gives a resonance: at the place itself the slope may tell nothing.
+std::vector<double> resonance_flanks(const ForcedResponse& problem, double low, double high) {
+  const FrictionSystem& system = problem.system();
+  std::vector<double> places;
+  for (const double eta : problem.landmarks(ContactProblem::eta, low, high)) {
+    for (const Loss& loss : {system.base.loss(), system.damper.loss()}) {
+      const double half = 0.5 * loss.part(eta, eta) / eta;
+      places.insert(places.end(), {eta - half, eta + half});
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 PeakSearch::PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
                        const continuation::TraceOptions& options)
-    : problem_(problem), range_(range), options_(options), ends_({range.from, range.to}) {
+    : problem_(problem),
+      range_(range),
+      options_(options),
+      flanks_(resonance_flanks(problem, range.eta_low, range.eta_high)),
+      ends_({range.from, range.to}) {
   search_border();
   search_edge(range.eta_low);
   search_edge(range.eta_high);
@@ -113,7 +131,7 @@ void PeakSearch::add(PeakPiece piece) {
 void PeakSearch::search_border() {
   const double low = range_.eta_low * (1 - beyond_window);
   const double high = range_.eta_high * (1 + beyond_window);
-  const std::vector<double> etas = between(problem_.landmarks(ContactProblem::eta, low, high), low, high);
+  const std::vector<double> etas = between(flanks_, low, high);
   std::vector<PeakNode> stretch;
   for (const BorderPlace& place : scan_border(problem_.system(), etas, {range_.eta_low, range_.eta_high})) {
     if (!in_window(place.eta, sharp)) continue;
@@ -222,20 +240,28 @@ std::vector<std::pair<double, double>> PeakSearch::slipping_at(double preload) c
 
 bool PeakSearch::look_at(double preload) {
   bool found = false;
-  double log_ratio = 0;  // where the response was looked at last
-  const auto slopes_at = [&](double eta) {
-    const ResponseSlopes at = ResponseSlopes::in_slip(problem_.system(), eta, preload, log_ratio);
-    log_ratio = at.log_ratio();
+  struct Place {
+    double eta;
+    double log_ratio;
+    double slope;
+  } last{};  // where the response was looked at last
+  const auto response_at = [&](double eta) {
+    const double course = std::clamp(last.slope * (eta - last.eta), -1.0, 1.0);
+    const double near = std::max(0.0, last.log_ratio + course);
+    return ResponseSlopes::in_slip(problem_.system(), eta, preload, near);
+  };
+  const auto logs_at = [&](double eta) {
+    const ResponseSlopes at = response_at(eta);
     const AmplitudeSlopes slopes = at.by_eta();
-    return std::array{slopes.log_Y, slopes.log_ratio};
+    last = {eta, at.log_ratio(), slopes.log_ratio};
+    return std::array<ValueAndSlope, 2>{{{at.log_Y(), slopes.log_Y}, {at.log_ratio(), slopes.log_ratio}}};
   };
   for (const auto& [low, high] : slipping_at(preload)) {
-    const SlopeScan<2, decltype(slopes_at)> scan(
-        between(problem_.landmarks(ContactProblem::eta, low, high), low, high), slopes_at);
+    const SlopeScan<2, decltype(logs_at)> scan(between(flanks_, low, high), logs_at);
     for (std::size_t i = 0; i < scan.samples().size(); ++i) {
       const auto zero = scan.zero_behind(i, 0);
       if (!zero || !zero->falls) continue;
-      const ResponseSlopes at = ResponseSlopes::in_slip(problem_.system(), zero->eta, preload, log_ratio);
+      const ResponseSlopes at = response_at(zero->eta);
       PeakNode node{preload, zero->eta, at.log_R()};
       node.w = std::sqrt(std::max(0.0, at.log_ratio()));
       found = (!is_known(node) && follow(node)) || found;

@@ -91,6 +91,7 @@ class PeakSearch {
   const ForcedResponse& problem_;
   const PreloadRange& range_;
   const continuation::TraceOptions& options_;
+  std::vector<double> flanks_;  // of resonances, where scans begin
   std::vector<PeakPiece> pieces_;
   std::vector<Meeting> meetings_;
   std::vector<PeakNode> border_;  // along it over the window, eta rising
