@@ -79,8 +79,10 @@ ResponseSlopes ResponseSlopes::slipping() const {
 
 AmplitudeSlopes ResponseSlopes::slopes(const Change& change) const {
   const Complex c = base_.compliance + damper_.compliance;
-  const Complex gain = k_ / (1.0 + k_ * phi_ * c);
-  const Complex damper_gain = k_ / (1.0 + k_ * phi_ * damper_.compliance);
+  const Complex q = 1.0 + k_ * phi_ * c;
+  const Complex q_damper = 1.0 + k_ * phi_ * damper_.compliance;
+  const Complex gain = k_ * std::conj(q) / std::norm(q);
+  const Complex damper_gain = k_ * std::conj(q_damper) / std::norm(q_damper);
   const double by_ratio = std::real(gain * phi_log_ * c);
   AmplitudeSlopes slopes{};
   slopes.log_R = (change.log_free - std::real(gain * phi_ * (change.base + change.damper)) +
