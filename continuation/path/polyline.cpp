@@ -10,7 +10,7 @@ namespace {
 
 constexpr double straight = 1.8e-3;  // of a piece's width and height, or of what is seen of it enlarged
 constexpr double seen = 0.004;       // of the branch: half of what pictures enlarge
-constexpr double invisible = 1e-5;   // of the branch: a four-hundredth of the narrowest part that is enlarged
+constexpr double least = 8e-4;       // of the branch: what smaller pieces count as, however enlarged
 constexpr int most_halvings = 6;
 
 bool is_singular(const BranchPoint& point) {
@@ -38,10 +38,9 @@ class Polyline {
       result_.push_back(branch.points[piece]);
       const BranchPoint& next = branch.points[piece + 1];
       const bool is_one = next.regime == branch.points[piece].regime || next.type == PointType::regime_switch;
+      const Coordinates size = (all[piece + 1] - all[piece]).abs().max(least * extent_).min(seen * extent_);
       if (is_one && next.arclength > branch.points[piece].arclength)
-        fill({piece, 0, 1, all[piece], all[piece + 1],
-              (all[piece + 1] - all[piece]).abs().min(seen * extent_)},
-             0);
+        fill({piece, 0, 1, all[piece], all[piece + 1], size}, 0);
     }
     result_.push_back(branch.points.back());
   }
@@ -52,8 +51,9 @@ class Polyline {
   struct Segment {
     std::size_t piece;
     double from, to;  ///< parts of the piece
-    Coordinates begin, end;
-    Coordinates size;  ///< of the whole piece, as far as it is seen at once
+    const Coordinates& begin;
+    const Coordinates& end;
+    const Coordinates& size;  ///< of the whole piece, as far as it is seen at once
   };
 
   Coordinates coordinates(const BranchPoint& point) {
@@ -71,15 +71,9 @@ class Polyline {
     BranchPoint point = point_between(segment.piece, middle);
     const Coordinates here = coordinates(point);
     if (halvings >= most_halvings || is_straight(segment, here)) return;
-    Segment first = segment;
-    first.to = middle;
-    first.end = here;
-    fill(first, halvings + 1);
+    fill({segment.piece, segment.from, middle, segment.begin, here, segment.size}, halvings + 1);
     result_.push_back(std::move(point));
-    Segment second = segment;
-    second.from = middle;
-    second.begin = here;
-    fill(second, halvings + 1);
+    fill({segment.piece, middle, segment.to, here, segment.end, segment.size}, halvings + 1);
   }
 
   /// Whether the middle lies on the line from end to end, for each observable over the parameter and for both
@@ -88,7 +82,7 @@ class Polyline {
     const Index count = here.size() / 2;
     for (const Index x : {Index{0}, count}) {
       for (Index i = 1; i < 2 * count; ++i) {
-        if (i == count || !is_visible(segment, x, i)) continue;
+        if (i == count) continue;
         const auto place = [&](const Coordinates& c, Index k) {
           return segment.size(k) > 0 ? (c(k) - segment.begin(k)) / segment.size(k) : 0;
         };
@@ -98,10 +92,6 @@ class Polyline {
       }
     }
     return true;
-  }
-
-  bool is_visible(const Segment& segment, Index x, Index i) const {
-    return segment.size(x) > invisible * extent_(x) && segment.size(i) > invisible * extent_(i);
   }
 
   BranchPoint point_between(std::size_t piece, double x) const {

@@ -1,12 +1,14 @@
 #include "arcslip/problems/ridges/free_response.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "arcslip/problems/response/cubic_response.hpp"
-#include "arcslip/problems/response/forced_response.hpp"
 #include "arcslip/problems/ridges/peak_search.hpp"
+#include "arcslip/problems/ridges/slope_scan.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -16,7 +18,7 @@ using continuation::BranchPoint;
 using continuation::Gradient;
 using continuation::PointType;
 
-/// The highest point of a response over eta.
+/// The highest point of a response over eta that is traced.
 Peak highest_peak(const continuation::Problem& problem, const continuation::Guess& start,
                   const PreloadRange& range, const continuation::TraceOptions& options) {
   continuation::TraceOptions over_eta = options;
@@ -44,76 +46,80 @@ Peak highest_peak(const continuation::Problem& problem, const continuation::Gues
   return highest;
 }
 
-}  // namespace
+/// y_0 with its derivative in eta.
+struct FreeMotion {
+  Complex value;
+  Complex by_eta;
+};
 
-bool FreeResponse::evaluate(const Vector& u, const Vector& p, const continuation::Regime& /*regime*/,
-                            const continuation::Evaluation& out) const {
-  if (!(p(0) > 0)) return false;
-  const ContactReceptance at = base_.at(p(0));
-  const double square = std::norm(at.free(0));
-  if (!(square > 0)) return false;
-  if (out.residual != nullptr) (*out.residual)(0) = u(0) - 0.5 * std::log(square);
-  if (out.jacobian != nullptr) (*out.jacobian)(0, 0) = 1;
-  if (out.parameter_jacobian != nullptr)
-    (*out.parameter_jacobian)(0, 0) = -std::real(at.free_eta(0) * std::conj(at.free(0))) / square;
-  return true;
-}
-
-void FreeResponse::scale(const Vector& /*u*/, const Vector& p, Vector& unknowns, Vector& parameters) const {
-  unknowns.setOnes();
-  parameters = p;
-}
-
-void FreeResponse::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
-                           Vector& values) const {
-  values.setConstant(1, std::exp(u(0)));
-}
-
-double FreeResponse::observe(const Vector& u, const Vector& /*p*/, const continuation::Regime& /*regime*/,
-                             Index /*which*/, Gradient& gradient) const {
-  gradient.parameters.setZero();
-  gradient.unknowns(0) = std::exp(u(0));
-  return std::exp(u(0));
-}
-
-std::vector<double> FreeResponse::landmarks(Index /*parameter*/, double from, double to) const {
-  std::vector<double> values;
-  for (const ContactMode& mode : base_.modes()) {
-    if (mode.frequency > from && mode.frequency < to) values.push_back(mode.frequency);
+/// The highest |y_0(eta)|, sought from what may be its resonances on.
+template <class MotionAt>
+Peak highest_free_peak(const MotionAt& motion_at, std::vector<double> resonances, const PreloadRange& range) {
+  Peak highest;
+  const auto compare = [&](double eta, PeakSite site) {
+    const double height = std::abs(motion_at(eta).value);
+    if (!(height > highest.Y)) return;
+    highest.Y = height;
+    highest.eta = eta;
+    highest.site = site;
+  };
+  compare(range.eta_low, PeakSite::edge);
+  compare(range.eta_high, PeakSite::edge);
+  const auto log_at = [&](double eta) {
+    const FreeMotion at = motion_at(eta);
+    return std::array<ValueAndSlope, 1>{{{std::log(std::abs(at.value)), std::real(at.by_eta / at.value)}}};
+  };
+  const SlopeScan<1, decltype(log_at)> scan(between(std::move(resonances), range.eta_low, range.eta_high),
+                                            log_at);
+  for (std::size_t i = 0; i < scan.samples().size(); ++i) {
+    const auto zero = scan.zero_behind(i, 0);
+    if (zero && zero->falls) compare(zero->eta, PeakSite::stick);
   }
+  if (!(highest.Y > 0)) throw std::runtime_error("the load does not move the base without damper");
+  return highest;
+}
+
+template <class Modes>
+std::vector<double> frequencies_of(const Modes& modes) {
+  std::vector<double> values;
+  for (const auto& mode : modes) values.push_back(mode.frequency);
   return values;
 }
 
-continuation::Guess FreeResponse::guess(double eta) const {
-  return {Vector::Constant(1, std::log(std::abs(base_.at(eta).free(0)))), Vector::Constant(1, eta), 0, {}};
+}  // namespace
+
+Peak free_peak(const ContactModes& base, const PreloadRange& range) {
+  const auto motion_at = [&](double eta) {
+    const ContactReceptance at = base.at(eta);
+    return FreeMotion{at.free(0), at.free_eta(0)};
+  };
+  return highest_free_peak(motion_at, frequencies_of(base.modes()), range);
 }
 
-Peak free_peak(const ContactModes& base, const PreloadRange& range,
-               const continuation::TraceOptions& options) {
-  const FreeResponse problem(base);
-  return highest_peak(problem, problem.guess(range.eta_low), range, options);
+Peak free_peak(const ModalModel& base, const PreloadRange& range) {
+  const auto motion_at = [&](double eta) {
+    const ContactResponse at = base.at(eta);
+    return FreeMotion{at.free, at.free_eta};
+  };
+  return highest_free_peak(motion_at, frequencies_of(base.modes()), range);
 }
 
 Peak free_peak(FrictionSystem system, const PreloadRange& range, const continuation::TraceOptions& options) {
+  if (system.cubic_stiffness == 0) return free_peak(system.base, range);
   system.contact_stiffness = 0;
-  if (system.cubic_stiffness != 0) {
-    const CubicResponse problem(std::move(system));
-    return highest_peak(problem, problem.guess(range.eta_low, out_of_reach), range, options);
-  }
-  const ForcedResponse problem(std::move(system));
+  const CubicResponse problem(std::move(system));
   return highest_peak(problem, problem.guess(range.eta_low, out_of_reach), range, options);
 }
 
 /// By the secant method: the peak is about inverse to the damping.
 double equivalent_damping(const FrictionSystem& system, double zeta, const PreloadRange& range,
-                          const Peak& free, double Y, const continuation::TraceOptions& options) {
+                          const Peak& free, double Y) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (free.site == PeakSite::edge) return none;
-  FrictionSystem damped = system;
   const auto excess = [&](double log_zeta) {
     if (!(log_zeta < 0)) return none;
-    damped.base = system.base.damped(system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta);
-    const Peak peak = free_peak(damped, range, options);
+    const Loss loss = system.base_loss_fixed + std::exp(log_zeta) * system.base_loss_per_zeta;
+    const Peak peak = free_peak(system.base.damped(loss), range);
     return peak.site == PeakSite::edge ? none : std::log(peak.Y / Y);
   };
   double last = std::log(zeta);

@@ -60,8 +60,9 @@ class Ridge {
   Ridge(double k, const Terms& at) : at_(at), k_(k) {
     q_ = 1.0 + k * at.phi * at.c;
     q_damper_ = 1.0 + k * at.phi * at.damper;
-    gain_ = k / q_;
-    damper_gain_ = k / q_damper_;
+    inverse_ = std::conj(q_) / std::norm(q_);
+    gain_ = k * inverse_;
+    damper_gain_ = k * std::conj(q_damper_) / std::norm(q_damper_);
     by_ratio_ = std::real(gain_ * at.phi_t * at.c);
     log_R_eta_ = (at.log_free_eta - std::real(gain_ * at.phi * at.c_eta) + by_ratio_ * at.threshold_eta) /
                  (1 + by_ratio_);
@@ -78,7 +79,8 @@ class Ridge {
 
   Eigen::Vector2d along(const Terms& d) const {
     const Complex d_q = k_ * (d.phi * at_.c + at_.phi * d.c);
-    const Complex d_gain = -gain_ * d_q / q_;
+    const Complex d_log_q = d_q * inverse_;
+    const Complex d_gain = -gain_ * d_log_q;
     const double d_by_ratio =
         std::real(d_gain * at_.phi_t * at_.c + gain_ * (d.phi_t * at_.c + at_.phi_t * d.c));
     const double d_sum =
@@ -87,11 +89,11 @@ class Ridge {
         d_by_ratio * at_.threshold_eta + by_ratio_ * d.threshold_eta;
     const double d_log_R_eta = (d_sum - log_R_eta_ * d_by_ratio) / (1 + by_ratio_);
     const double d_log_ratio_eta = d_log_R_eta - d.threshold_eta;
-    const Complex d_damper_gain = -damper_gain_ * k_ * (d.phi * at_.damper + at_.phi * d.damper) / q_damper_;
+    const Complex d_damper_gain = -damper_gain_ * damper_gain_ * (d.phi * at_.damper + at_.phi * d.damper);
     const Complex d_own = d.phi * at_.damper_eta + at_.phi * d.damper_eta +
                           d_log_ratio_eta * at_.phi_t * at_.damper +
                           log_ratio_eta_ * (d.phi_t * at_.damper + at_.phi_t * d.damper);
-    return {d.log_R + std::real(d_q / q_) - d.log_free,
+    return {d.log_R + d_log_q.real() - d.log_free,
             d_log_R_eta + std::real(d_damper_gain * own_ + damper_gain_ * d_own)};
   }
 
@@ -99,7 +101,8 @@ class Ridge {
   const Terms& at_;
   double k_;
   Complex q_, q_damper_;        // 1 + k phi c, 1 + k phi c_D
-  Complex gain_, damper_gain_;  // k over these
+  Complex inverse_;             // 1/q
+  Complex gain_, damper_gain_;  // k over both
   double by_ratio_;             // dg/dt through phi
   double log_R_eta_, log_ratio_eta_;
   Complex own_;
@@ -114,7 +117,8 @@ RidgePoint ridge_point(const FrictionSystem& system, double w, double eta, doubl
   const ContactCurvature damper_bend = system.damper.curvature(eta);
   const LogThreshold threshold = system.log_threshold(eta, preload);
   const LawInRoot law = law_in_root(w);
-  const Complex free_eta = base.free_eta / base.free;
+  const Complex per_free = std::conj(base.free) / std::norm(base.free);
+  const Complex free_eta = base.free_eta * per_free;
 
   Terms at;
   at.log_R = threshold.value + w * w;
@@ -140,7 +144,7 @@ RidgePoint ridge_point(const FrictionSystem& system, double w, double eta, doubl
   by_eta.damper = at.damper_eta;
   by_eta.damper_eta = damper_bend.compliance;
   by_eta.log_free = at.log_free_eta;
-  by_eta.log_free_eta = std::real(base_bend.free / base.free - free_eta * free_eta);
+  by_eta.log_free_eta = std::real(base_bend.free * per_free - free_eta * free_eta);
   by_eta.threshold_eta =
       2 * system.preload_growth * threshold.by_preload - threshold.by_eta * threshold.by_eta;
 

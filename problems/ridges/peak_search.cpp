@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "arcslip/problems/ridges/border_scan.hpp"
 #include "arcslip/problems/ridges/peak_ridge.hpp"
 #include "arcslip/problems/ridges/response_slopes.hpp"
+#include "arcslip/problems/ridges/slope_scan.hpp"
 #include "arcslip/zero_between.hpp"
 
 namespace arcslip::problems {
@@ -46,11 +46,29 @@ PeakNode cut(const FrictionSystem& system, const PeakNode& inside, const PeakNod
   return node;
 }
 
+/// Beside each place where one of the structures or both together may resonate, at half the width that the
+/// damping of either gives a resonance: at the place itself the slope may tell nothing.
+std::vector<double> resonance_flanks(const ForcedResponse& problem, double low, double high) {
+  const FrictionSystem& system = problem.system();
+  std::vector<double> places;
+  for (const double eta : problem.landmarks(ContactProblem::eta, low, high)) {
+    for (const Loss& loss : {system.base.loss(), system.damper.loss()}) {
+      const double half = 0.5 * loss.part(eta, eta) / eta;
+      places.insert(places.end(), {eta - half, eta + half});
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 PeakSearch::PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
                        const continuation::TraceOptions& options)
-    : problem_(problem), range_(range), options_(options), ends_({range.from, range.to}) {
+    : problem_(problem),
+      range_(range),
+      options_(options),
+      flanks_(resonance_flanks(problem, range.eta_low, range.eta_high)),
+      ends_({range.from, range.to}) {
   search_border();
   search_edge(range.eta_low);
   search_edge(range.eta_high);
@@ -111,18 +129,14 @@ void PeakSearch::add(PeakPiece piece) {
 }
 
 void PeakSearch::search_border() {
-  const FrictionSystem& system = problem_.system();
-  continuation::TraceOptions options = over("eta");
-  options.from *= 1 - beyond_window;
-  options.to *= 1 + beyond_window;
-  const Branch stuck = continuation::trace(problem_, problem_.guess(options.from, out_of_reach), options);
-  if (!stuck.complete()) return fail("the stuck response could not be traced: " + stuck.explanation);
-  std::vector<double> etas = hidden_;
-  for (const BranchPoint& point : stuck.points) etas.push_back(point.parameters(ContactProblem::eta));
+  const double low = range_.eta_low * (1 - beyond_window);
+  const double high = range_.eta_high * (1 + beyond_window);
+  const std::vector<double> etas = between(flanks_, low, high);
   std::vector<PeakNode> stretch;
-  for (const BorderPlace& place : scan_border(system, etas, {range_.eta_low, range_.eta_high})) {
+  for (const BorderPlace& place : scan_border(problem_.system(), etas, {range_.eta_low, range_.eta_high})) {
     if (!in_window(place.eta, sharp)) continue;
-    const PeakNode node = border_node(system, place.eta);
+    const PeakNode node = border_node(problem_.system(), place.eta);
+    if (in_window(place.eta, 0)) border_.push_back(node);
     stretch.push_back(node);
     if (!place.is_mark) continue;
     add_corner_piece(stretch);
@@ -199,63 +213,60 @@ void PeakSearch::search_edge(double eta) {
 
 /// On the border what is slip, stick or the corner between them is decided by rounding, and on an end of the
 /// window whether the peak is that end.
-bool PeakSearch::is_known(double eta, double preload, PeakSite site) const {
-  const double log_R = problem_.guess(eta, preload).unknowns(0);
-  const bool any_site = !in_window(eta, -sharp) ||
-                        std::abs(log_R - problem_.system().log_threshold(eta, preload).value) <= on_border;
+bool PeakSearch::is_known(const PeakNode& peak) const {
+  const bool any_site = !in_window(peak.eta, -sharp) || std::abs(log_ratio(peak)) <= on_border;
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const PeakPiece& piece) {
-    const double covered = std::clamp(preload, piece.from(), piece.to());
-    return piece.holds(site, eta, preload) || (any_site && std::abs(covered / preload - 1) <= on_border &&
-                                               piece.holds(piece.site(), eta, covered));
+    const double covered = std::clamp(peak.preload, piece.from(), piece.to());
+    return piece.holds(PeakSite::slip, peak.eta, peak.preload) ||
+           (any_site && std::abs(covered / peak.preload - 1) <= on_border &&
+            piece.holds(piece.site(), peak.eta, covered));
   });
+}
+
+/// P_border(eta) is monotonic from each place of the border to the next.
+std::vector<std::pair<double, double>> PeakSearch::slipping_at(double preload) const {
+  std::vector<std::pair<double, double>> ranges;
+  bool slips = false;
+  for (std::size_t i = 0; i < border_.size(); ++i) {
+    if ((border_[i].preload > preload) == slips) continue;
+    const double eta =
+        i == 0 ? border_[i].eta : cut(problem_.system(), border_[i - 1], border_[i], preload).eta;
+    if (!slips) ranges.emplace_back(eta, border_.back().eta);
+    if (slips) ranges.back().second = eta;
+    slips = !slips;
+  }
+  return ranges;
 }
 
 bool PeakSearch::look_at(double preload) {
-  const Branch branch = continuation::trace(problem_, problem_.guess(range_.eta_low, preload), over("eta"));
-  if (!branch.complete()) {
-    fail(fmt::format("the response at P = {} could not be traced: {}", preload, branch.explanation));
-    return false;
-  }
   bool found = false;
-  for (std::size_t i = 1; i < branch.points.size(); ++i) {
-    const BranchPoint& point = branch.points[i];
-    if (point.type != PointType::peak) continue;
-    const BranchPoint& before = branch.points[i - 1];
-    const bool corner = before.type == PointType::regime_switch && before.parameters == point.parameters;
-    found = look_at_peak(point, corner                                 ? PeakSite::corner
-                                : point.regime == ContactProblem::slip ? PeakSite::slip
-                                                                       : PeakSite::stick) ||
-            found;
+  struct Place {
+    double eta;
+    double log_ratio;
+    double slope;
+  } last{};  // where the response was looked at last
+  const auto response_at = [&](double eta) {
+    const double course = std::clamp(last.slope * (eta - last.eta), -1.0, 1.0);
+    const double near = std::max(0.0, last.log_ratio + course);
+    return ResponseSlopes::in_slip(problem_.system(), eta, preload, near);
+  };
+  const auto logs_at = [&](double eta) {
+    const ResponseSlopes at = response_at(eta);
+    const AmplitudeSlopes slopes = at.by_eta();
+    last = {eta, at.log_ratio(), slopes.log_ratio};
+    return std::array<ValueAndSlope, 2>{{{at.log_Y(), slopes.log_Y}, {at.log_ratio(), slopes.log_ratio}}};
+  };
+  for (const auto& [low, high] : slipping_at(preload)) {
+    const SlopeScan<2, decltype(logs_at)> scan(between(flanks_, low, high), logs_at);
+    for (std::size_t i = 0; i < scan.samples().size(); ++i) {
+      const auto zero = scan.zero_behind(i, 0);
+      if (!zero || !zero->falls) continue;
+      const ResponseSlopes at = response_at(zero->eta);
+      PeakNode node{preload, zero->eta, at.log_R()};
+      node.w = std::sqrt(std::max(0.0, at.log_ratio()));
+      found = (!is_known(node) && follow(node)) || found;
+    }
   }
-  return found;
-}
-
-/// Follows a peak that is not known, or finds what the stuck response has beside it.
-bool PeakSearch::look_at_peak(const BranchPoint& point, PeakSite site) {
-  PeakNode node{point.parameters(ContactProblem::preload), point.parameters(ContactProblem::eta),
-                point.unknowns(0)};
-  if (is_known(node.eta, node.preload, site)) return false;
-  const double above_border = log_ratio(node);
-  if (site == PeakSite::slip) {
-    node.w = std::sqrt(std::max(0.0, above_border));
-    return follow(node);
-  }
-  std::erase_if(pieces_, [](const PeakPiece& piece) {
-    return piece.site() == PeakSite::stick || piece.site() == PeakSite::corner;
-  });
-  const std::vector<Meeting> before = meetings_;
-  std::erase_if(meetings_, [](const Meeting& meeting) { return meeting.inwards == 0; });
-  hidden_.push_back(node.eta);
-  search_border();
-  for (Meeting& meeting : meetings_) {
-    meeting.met = std::any_of(before.begin(), before.end(), [&](const Meeting& old) {
-      return old.met && std::abs(old.node.eta / meeting.node.eta - 1) <= on_edge;
-    });
-  }
-  const bool found = is_known(node.eta, node.preload, site);
-  if (!found && above_border < -on_border)
-    fail(fmt::format("the stuck response lacks the peak at eta = {:.10g}, P = {:.10g}", node.eta,
-                     node.preload));
   return found;
 }
 

@@ -276,7 +276,7 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
   PreloadStudy study;
   try {
     const FrictionSystem system = build_system(parameters);
-    const Peak free = free_peak(system, range, options);
+    const Peak free = free_peak(system.base, range);
     study.free_eta = free.eta;
     study.free_Y = free.Y;
     const ForcedResponse problem(system);
@@ -287,8 +287,7 @@ PreloadStudy study_preload(const SystemParameters& parameters, const PreloadRang
     Optimum optimum = assembly.optimum();
     const double S = system.slip_threshold(optimum.peak.eta, optimum.peak.preload);
     optimum.energy = parameters.interface_stiffness * S * S * optimum.peak.dissipated;
-    optimum.damping =
-        equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y, options);
+    optimum.damping = equivalent_damping(system, parameters.base_damping, range, free, optimum.peak.Y);
     study.branches = assembly.branches(optimum.peak.preload);
     study.optimum = optimum;
   } catch (const std::bad_alloc&) {

@@ -1,6 +1,11 @@
 #include "arcslip/problems/ridges/response_slopes.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "arcslip/problems/response/contact_problem.hpp"
 
@@ -36,6 +41,36 @@ ResponseSlopes ResponseSlopes::on_border(const FrictionSystem& system, double et
   return at;
 }
 
+/// g grows with R, so that its zero lies between any two places of opposite signs.
+ResponseSlopes ResponseSlopes::in_slip(const FrictionSystem& system, double eta, double preload,
+                                       double near) {
+  constexpr double settled = 1e-9;  // of a step, behind which far less is left
+  constexpr double on_border = 1e-15;
+  ResponseSlopes at(system, eta);
+  const LogThreshold threshold = system.log_threshold(eta, preload);
+  const Complex kc = at.k_ * (at.base_.compliance + at.damper_.compliance);
+  const double log_free = 0.5 * std::log(std::norm(at.base_.free));
+  double low = 0;
+  double high = std::numeric_limits<double>::infinity();
+  double log_ratio = near;
+  constexpr int most = 200;
+  for (int i = 0; i < most; ++i) {
+    const HarmonicCoefficient law = slip_coefficient(log_ratio);
+    const Complex q = 1.0 + law.phi * kc;
+    const double g = threshold.value + log_ratio + 0.5 * std::log(std::norm(q)) - log_free;
+    (g > 0 ? high : low) = log_ratio;
+    const double step = -g / (1 + std::real(law.phi_log * std::conj(q) * kc) / std::norm(q));
+    double next = log_ratio + step;
+    if (std::abs(step) <= settled * (1 + log_ratio) || high <= on_border) {
+      at.set(preload, threshold, threshold.value + std::max(0.0, next), true);
+      return at;
+    }
+    if (!(next > low && next < high)) next = std::isfinite(high) ? 0.5 * (low + high) : log_ratio + 1;
+    log_ratio = next;
+  }
+  throw std::runtime_error(fmt::format("no slipping response at eta = {}, P = {}", eta, preload));
+}
+
 ResponseSlopes ResponseSlopes::slipping() const {
   ResponseSlopes at = *this;
   at.set(preload_, threshold_, log_R_, true);
@@ -44,8 +79,10 @@ ResponseSlopes ResponseSlopes::slipping() const {
 
 AmplitudeSlopes ResponseSlopes::slopes(const Change& change) const {
   const Complex c = base_.compliance + damper_.compliance;
-  const Complex gain = k_ / (1.0 + k_ * phi_ * c);
-  const Complex damper_gain = k_ / (1.0 + k_ * phi_ * damper_.compliance);
+  const Complex q = 1.0 + k_ * phi_ * c;
+  const Complex q_damper = 1.0 + k_ * phi_ * damper_.compliance;
+  const Complex gain = k_ * std::conj(q) / std::norm(q);
+  const Complex damper_gain = k_ * std::conj(q_damper) / std::norm(q_damper);
   const double by_ratio = std::real(gain * phi_log_ * c);
   AmplitudeSlopes slopes{};
   slopes.log_R = (change.log_free - std::real(gain * phi_ * (change.base + change.damper)) +

@@ -17,6 +17,8 @@ bool Crew::leads() const { return true; }
 
 std::size_t Crew::default_jobs() const { return std::max(1U, std::thread::hardware_concurrency()); }
 
+std::size_t Crew::threads(std::size_t jobs) const { return jobs; }
+
 bool Crew::agree(const std::string& error) const {
   if (!error.empty()) complain(error);
   return error.empty();

@@ -25,6 +25,8 @@ class Crew {
   bool leads() const;
   /// Threads of a process that is not told how many: all cores for one alone, one among several.
   std::size_t default_jobs() const;
+  /// Threads that compute in all processes, so many in each.
+  std::size_t threads(std::size_t jobs) const;
   /// Whether none has an error, "" being none; the first one's is printed on stderr before anyone goes on.
   bool agree(const std::string& error) const;
 

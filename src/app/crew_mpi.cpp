@@ -139,6 +139,10 @@ std::size_t Crew::default_jobs() const {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
+std::size_t Crew::threads(std::size_t jobs) const {
+  return processes_ && processes_->working > 0 ? processes_->working * jobs : jobs;
+}
+
 bool Crew::agree(const std::string& error) const {
   const int self = processes_ ? processes_->world.rank() : 0;
   const int none = processes_ ? processes_->world.size() : 1;

@@ -43,6 +43,12 @@ class ProgressLine {
     std::fputs(("\r\033[K" + std::string(text())).c_str(), stderr);
   }
 
+  /// A line of its own, whether or not there is a terminal.
+  void say(const std::string& text) {
+    std::fputs(((drawn_ ? "\r\033[K" : "") + text + "\n").c_str(), stderr);
+    drawn_ = false;
+  }
+
  private:
   bool shown_;
   bool drawn_ = false;

@@ -79,13 +79,13 @@ void compare_to_free(const StudyCase& study, const StudyDesign& design, PreloadS
   if (study.objective != "Y" || !system.others.empty()) return;
   problems::Peak free;
   if (!structures_of(system).is_one_contact(system)) {
-    free = problems::free_peak(build_order(system, system.periods()).base, design.range, study.options);
+    free = problems::free_peak(build_order(system, system.periods()).base, design.range);
   } else {
     const FrictionSystem pair = build_system(system);
     free = problems::free_peak(pair, design.range, study.options);
     if (result.optimum && system.cubic_stiffness == 0 && system.base_damping > 0) {
-      result.optimum->damping = problems::equivalent_damping(pair, system.base_damping, design.range, free,
-                                                             result.optimum->peak.Y, study.options);
+      result.optimum->damping =
+          problems::equivalent_damping(pair, system.base_damping, design.range, free, result.optimum->peak.Y);
     }
   }
   result.free_eta = free.eta;

@@ -62,6 +62,7 @@ int AtomicFile::open_named() {
 }
 
 void AtomicFile::write(std::string_view text) {
+  is_synced_ = false;
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
 }
 
@@ -81,7 +82,9 @@ void AtomicFile::for_each_line(const std::function<void(std::string_view)>& use)
 }
 
 void AtomicFile::sync() {
+  if (is_synced_) return;
   if (std::fflush(file_.get()) != 0 || fsync(descriptor()) != 0) fail();
+  is_synced_ = true;
 }
 
 void AtomicFile::commit() {

@@ -48,7 +48,8 @@ class AtomicFile {
 
   std::string path_;
   std::string temporary_;
-  bool named_ = false;  ///< whether it stands under the temporary name
+  bool named_ = false;      ///< whether it stands under the temporary name
+  bool is_synced_ = false;  ///< whether all that was written is
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 

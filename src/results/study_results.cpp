@@ -76,6 +76,7 @@ ordered_json summarize(const StudyCase& study, const StudyStore& store, const St
           {"more_harmonics", to_json(work.checks)},
           {"remarks", remarks(study, store, work.checks)},
           {"computed", work.computed},
+          {"threads", work.threads},
           {"seconds", work.seconds},
           {"designs_per_second", work.rate()}};
 }
@@ -88,6 +89,24 @@ std::string shown(const ordered_json& value) {
 }
 
 }  // namespace
+
+std::string in_words(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string plan_of(std::size_t designs, const StudyWork& work) {
+  constexpr double settled = 3;  // seconds
+  constexpr double short_study = 60;
+  if (work.computed < 2 * work.threads || work.seconds < settled) return "";
+  const double total = static_cast<double>(designs) / work.rate();
+  if (total < short_study) return "";
+  const double each = static_cast<double>(work.threads) / work.rate();
+  return fmt::format("{} designs on {} thread{}, {:.2g} {} each: about {}", designs, work.threads,
+                     work.threads == 1 ? "" : "s", each < 1 ? 1e3 * each : each, each < 1 ? "ms" : "s",
+                     in_words(total));
+}
 
 void write_results(const std::string& folder, const StudyCase& study, const StudyStore& store,
                    const StudyWork& work) {

@@ -139,6 +139,14 @@ StudyStore::StudyStore(const std::string& folder, const StudyCase& study, bool r
   open();
 }
 
+StudyStore::~StudyStore() {
+  try {
+    end_batch();
+  } catch (const OutputError&) {
+    // What is not stored is computed again.
+  }
+}
+
 void StudyStore::begin(const StudyCase& study) {
   const std::string temporary = fmt::format("{}.{}.tmp", path_, getpid());
   try {
@@ -218,7 +226,31 @@ std::vector<bool> StudyStore::finished() const {
 
 void StudyStore::add(std::size_t curve, const ordered_json& values, const problems::PreloadStudy& result,
                      const problems::UncertainPeaks* uncertain) {
-  database_->execute("BEGIN IMMEDIATE");
+  if (!batch_begun_) {
+    database_->execute("BEGIN IMMEDIATE");
+    batch_begun_ = Clock::now();
+  }
+  database_->execute("SAVEPOINT design");
+  try {
+    insert(curve, values, result, uncertain);
+  } catch (...) {
+    abandon_design();
+    throw;
+  }
+  database_->execute("RELEASE design");
+}
+
+/// Where the database has not given up the whole transaction by itself.
+void StudyStore::abandon_design() {
+  try {
+    database_->execute("ROLLBACK TO design; RELEASE design");
+  } catch (const OutputError&) {
+    batch_begun_.reset();
+  }
+}
+
+void StudyStore::insert(std::size_t curve, const ordered_json& values, const problems::PreloadStudy& result,
+                        const problems::UncertainPeaks* uncertain) {
   Statement& row = *insert_design_;
   row.bind(static_cast<std::int64_t>(curve));
   for (const std::string& key : keys_) bind(row, values.at(key));
@@ -235,6 +267,16 @@ void StudyStore::add(std::size_t curve, const ordered_json& values, const proble
   if (sweep_) add_sweep(curve, result);
   extras_.add(curve, result, failed ? nullptr : uncertain);
   checksums_->store(static_cast<std::int64_t>(curve));
+}
+
+void StudyStore::keep() {
+  constexpr std::chrono::milliseconds moment(5);
+  if (batch_begun_ && Clock::now() - *batch_begun_ >= moment) end_batch();
+}
+
+void StudyStore::end_batch() {
+  if (!batch_begun_) return;
+  batch_begun_.reset();
   database_->execute("COMMIT");
 }
 
@@ -271,6 +313,7 @@ void StudyStore::visit(Which which, const std::function<bool(const StoredDesign&
 }
 
 void StudyStore::tidy() {
+  end_batch();
   insert_design_.reset();
   insert_peak_.reset();
   extras_.close();

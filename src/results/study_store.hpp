@@ -1,10 +1,11 @@
 #pragma once
 
-// The results of a study on the disk, DIR/study.sqlite: each finished design in a transaction of its own, so
-// that a study that was killed at any moment goes on where it was. Tables: `study` (the input), `runs` (when
-// it was worked on), `designs` (one row each: what for_each sets, the optimum, the free peak, why it failed),
-// `sweep` (the peaks at each preload) and those of study_extras.hpp.
+// The results of a study on the disk, DIR/study.sqlite: finished designs in transactions of as many as come
+// within a moment, so that a study that was killed at any moment goes on where it was then. Tables: `study`
+// (the input), `runs` (when it was worked on), `designs` (one row each: what for_each sets, the optimum, the
+// free peak, why it failed), `sweep` (the peaks at each preload) and those of study_extras.hpp.
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,13 +40,22 @@ class StudyStore {
   /// Goes on with the study in the folder, if there is one and `resume` is true; otherwise begins a new one
   /// in its place. Throws InputError where the study there is another one or damaged, OutputError.
   StudyStore(const std::string& folder, const StudyCase& study, bool resume);
+  /// Ends the transaction.
+  ~StudyStore();
+  StudyStore(const StudyStore&) = delete;
+  StudyStore& operator=(const StudyStore&) = delete;
+  StudyStore(StudyStore&&) = delete;
+  StudyStore& operator=(StudyStore&&) = delete;
 
   /// Which designs are stored.
   std::vector<bool> finished() const;
 
-  /// Stores a design whole, `uncertain` if the study asks for it.
+  /// Stores a design whole, `uncertain` if the study asks for it, in a transaction that goes on.
   void add(std::size_t curve, const nlohmann::ordered_json& values, const problems::PreloadStudy& result,
            const problems::UncertainPeaks* uncertain = nullptr);
+
+  /// Ends the transaction, if it began a moment ago: to be called while there is nothing to store, too.
+  void keep();
 
   bool has_robust() const { return extras_.has_robust(); }
   bool has_quantiles() const { return extras_.has_quantiles(); }
@@ -66,13 +76,19 @@ class StudyStore {
   void write_robust(const Sink& sink) const;
   void write_quantiles(const Sink& sink) const;
 
-  /// Leaves the database as one file that is read without others beside it.
+  /// Ends the transaction and leaves the database as one file that is read without others beside it.
   void tidy();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void begin(const StudyCase& study);
   void check_same(const StudyCase& study) const;
   void open();
+  void insert(std::size_t curve, const nlohmann::ordered_json& values, const problems::PreloadStudy& result,
+              const problems::UncertainPeaks* uncertain);
+  void abandon_design();
+  void end_batch();
   void add_sweep(std::size_t curve, const problems::PreloadStudy& result);
 
   std::string folder_;
@@ -87,6 +103,7 @@ class StudyStore {
   std::optional<Statement> insert_design_;
   std::optional<Statement> insert_peak_;
   std::optional<DesignChecksums> checksums_;
+  std::optional<Clock::time_point> batch_begun_;
 };
 
 }  // namespace arcslip

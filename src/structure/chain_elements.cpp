@@ -1,11 +1,11 @@
 #include "arcslip/structure/chain_elements.hpp"
 
+#include <array>
 #include <boost/math/constants/constants.hpp>
+#include <limits>
 
 namespace arcslip {
 namespace {
-
-const PreciseComplex j{0, 1};
 
 PreciseReal precise_pi() { return boost::math::constants::pi<PreciseReal>(); }
 
@@ -17,15 +17,16 @@ PreciseReal propagation_constant(Index wave_number, Index elements) {
 
 PreciseComplex travelling_moment(int power, const PreciseReal& a) {
   const PreciseReal smallest = std::numeric_limits<PreciseReal>::epsilon();
-  PreciseComplex sum = 0;
-  PreciseComplex term = 1;  // (-ja)^k/k!
-  PreciseReal size = 1;
+  std::array<PreciseReal, 2> parts{0, 0};  // real and imaginary
+  PreciseReal size = 1;                    // a^k/k!
   for (int k = 0; size > smallest || k < a; ++k) {
-    sum += term / PreciseReal(k + power + 1);
-    term *= -j * a / PreciseReal(k + 1);
-    size *= a / (k + 1);
+    const bool is_positive = k % 4 == 0 || k % 4 == 3;  // (-j)^k = 1, -j, -1, j
+    PreciseReal& part = parts.at(static_cast<std::size_t>(k % 2));
+    part += (is_positive ? size : PreciseReal(-size)) / (k + power + 1);
+    size *= a;
+    size /= k + 1;
   }
-  return sum;
+  return {parts[0], parts[1]};
 }
 
 ChainElement rod_element(double mass_ratio, double stiffness_ratio, Index wave_number, Index elements) {

@@ -173,7 +173,7 @@ ContactCurvature ModalModel::curvature(double eta) const {
   ContactCurvature curvature{};
   for (const Mode& mode : modes_) {
     const ModalDenominator d(eta, mode.frequency, loss_, mode.influence);
-    const Complex inverse = 1.0 / d.value;
+    const Complex inverse = std::conj(d.value) / std::norm(d.value);
     const Complex bend = 2.0 * inverse * inverse * (inverse * d.by_eta * d.by_eta + 1.0);  // d2d/deta2 = -2
     curvature.compliance += mode.residue * bend;
     curvature.free += mode.load_residue * bend;

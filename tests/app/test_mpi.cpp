@@ -36,7 +36,7 @@ TEST_CASE("Several processes give the same tables as one, to the last byte", "[m
   const std::string path = folder.write("case.toml", chart_text);
   REQUIRE(arcslip_program("study " + path + " --quiet -o " + folder.path("one")).status == 0);
   for (const auto& [count, more] :
-       std::vector<std::pair<int, std::string>>{{1, ""}, {2, ""}, {4, " --jobs 2"}}) {
+       std::vector<std::pair<int, std::string>>{{1, ""}, {2, ""}, {3, ""}, {4, " --jobs 2"}}) {
     const std::string results = folder.path(std::to_string(count));
     const Outcome outcome = in_processes(count, "study " + path + " -o " + results + more);
     CHECK(outcome.status == 0);

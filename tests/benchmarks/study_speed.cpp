@@ -2,7 +2,9 @@
 // The designs are beams like the paper's, combinations of mass ratio and frequency ratio; each is computed,
 // stored and at the end exported, as `arcslip study` does. Where other programs use the cores as well the
 // times say little; the processor time of a design does not depend on them, and is the same on two threads
-// where these neither wait for one another nor take turns in the memory.
+// where these neither wait for one another nor take turns in the memory. Last what one design costs as a
+// ratio to what noise hits alike, measured by turns in the same run: a point of one traced response, and an
+// evaluation of its residual and derivatives (goal: 2500 points).
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -18,7 +21,9 @@
 
 #include "../../src/results/study_results.hpp"
 #include "../../src/results/study_run.hpp"
+#include "../support/least_seconds.hpp"
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/problems/response/forced_response.hpp"
 
 namespace {
 
@@ -79,6 +84,48 @@ Times least(const std::vector<Times>& times) {
   return best;
 }
 
+/// What one design costs, in points of the response at the middle of its preloads and in evaluations.
+void print_ratios(const StudyCase& study) {
+  const StudyDesign design = study.design(0);
+  const problems::ForcedResponse problem(build_system(design.system));
+  continuation::TraceOptions options = study.options;
+  options.parameter = "eta";
+  options.from = design.range.eta_low;
+  options.to = design.range.eta_high;
+  options.extrema_of = {"Y"};
+  const double preload = std::sqrt(design.range.from * design.range.to);
+  const auto traced = [&] {
+    return continuation::trace(problem, problem.guess(design.range.eta_low, preload), options);
+  };
+  const continuation::Branch branch = traced();
+  Vector residual(1);
+  Matrix jacobian(1, 1);
+  Matrix parameter_jacobian(1, 2);
+  double sum = 0;
+  double design_seconds = HUGE_VAL;
+  double trace_seconds = HUGE_VAL;
+  double evaluations_seconds = HUGE_VAL;
+  for (int turn = 0; turn < 40; ++turn) {
+    design_seconds =
+        std::min(design_seconds, testing::least_seconds(1, [&] {
+                   sum += problems::study_preload(design.system, design.range, study.options).free_Y;
+                 }));
+    trace_seconds =
+        std::min(trace_seconds, testing::least_seconds(4, [&] { sum += traced().points[0].arclength; }));
+    evaluations_seconds = std::min(evaluations_seconds, testing::least_seconds(4, [&] {
+                                     for (const continuation::BranchPoint& point : branch.points) {
+                                       problem.evaluate(point.unknowns, point.parameters, point.regime,
+                                                        {&residual, &jacobian, &parameter_jacobian});
+                                       sum += residual(0);
+                                     }
+                                   }));
+  }
+  const auto points = static_cast<double>(branch.points.size());
+  fmt::print("\none design, of {:.2f} ms: {:.0f} points of a traced response, {:.0f} evaluations{}\n",
+             1e3 * design_seconds, design_seconds / trace_seconds * points,
+             design_seconds / evaluations_seconds * points, sum == 1 ? " " : "");  // which keeps the work
+}
+
 }  // namespace
 
 int main() {
@@ -100,5 +147,6 @@ int main() {
   fmt::print("{:<10} {:>12.1f} {:>16.2f} {:>10.2f}\n", 2, count / two.wall, 1e3 * two.processor / count,
              one.wall / two.wall);
   if (std::thread::hardware_concurrency() < 2) fmt::print("this machine has one core\n");
+  print_ratios(study);
   return 0;
 }

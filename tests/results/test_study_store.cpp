@@ -1,16 +1,21 @@
 // What a study stores and exports, and how its designs are handed to threads.
 
 #include <fmt/format.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "catch.hpp"
 #include "mistakes.hpp"
+#include "results/database.hpp"
 #include "results/study_results.hpp"
 #include "results/study_run.hpp"
 #include "results/study_store.hpp"
@@ -117,6 +122,64 @@ TEST_CASE("A design is never stored twice, and what is stored outlives the progr
   }
   CHECK(StudyStore(folder.path(""), study, true).finished() == std::vector<bool>{false, true, false});
   CHECK(StudyStore(folder.path(""), study, false).finished() == std::vector<bool>(3));
+}
+
+TEST_CASE("Designs are seen by others once a batch has ended, and none is stored in part", "[study]") {
+  const TemporaryFolder folder;
+  const StudyCase study = study_of(folder, "for_each = { mass_ratio = [1, 2, 3] }\n");
+  StudyStore store(folder.path(""), study, false);
+  const auto seen = [&] {
+    const Database other(folder.path("study.sqlite"));
+    Statement row = other.prepare("SELECT (SELECT count(*) FROM designs), (SELECT count(*) FROM sweep)");
+    row.step();
+    return std::pair{row.integer(0), row.integer(1)};
+  };
+  store.add(0, study.design(0).values, made_up(OptimumKind::smooth));
+  store.add(2, study.design(2).values, made_up(OptimumKind::smooth));
+  CHECK_THROWS_AS(store.add(2, study.design(2).values, made_up(OptimumKind::flat)), OutputError);
+  CHECK(seen() == std::pair<std::int64_t, std::int64_t>{0, 0});
+  std::this_thread::sleep_for(std::chrono::milliseconds(6));
+  store.keep();
+  CHECK(seen() == std::pair<std::int64_t, std::int64_t>{2, 4});
+}
+
+TEST_CASE("The memory that a study takes does not grow with the number of its designs", "[study]") {
+  const TemporaryFolder folder;
+  const auto in_use = [] {
+    const auto heap = mallinfo2();
+    return heap.uordblks + heap.hblkhd;
+  };
+  const auto most_for = [&](std::size_t count) {
+    const StudyCase study = study_of(
+        folder, fmt::format("for_each.mass_ratio = {{ from = 1.0, to = 2.0, count = {} }}\n", count));
+    StudyStore store(folder.path(""), study, false);
+    const std::size_t before = in_use();
+    std::size_t most = before;
+    const auto look = [&] { most = std::max(most, in_use()); };
+    PendingDesigns pending(store.finished());
+    while (pending.left() > 0) {
+      const std::size_t curve = pending.next();
+      store.add(curve, study.design(curve).values, made_up(OptimumKind::smooth));
+      store.keep();
+      if (curve % 64 == 0) look();
+    }
+    store.write_optimum([&](std::string_view) { look(); });
+    store.write_sweep([&](std::string_view) { look(); });
+    study_table(study, store, {count, 1});
+    return most - before;
+  };
+  const std::size_t some = most_for(12000);  // more than the database holds in memory
+  CHECK(most_for(36000) < some + 24000);     // less than a byte a design
+}
+
+TEST_CASE("A study tells what it costs once it knows, if that is long", "[study]") {
+  CHECK(plan_of(20000, {.computed = 1, .seconds = 100, .threads = 2}).empty());
+  CHECK(plan_of(20000, {.computed = 100, .seconds = 1, .threads = 2}).empty());
+  CHECK(plan_of(100, {.computed = 10, .seconds = 4, .threads = 2}).empty());
+  CHECK(plan_of(20000, {.computed = 8, .seconds = 4.4, .threads = 2}) ==
+        "20000 designs on 2 threads, 1.1 s each: about 3.1 h");
+  CHECK(plan_of(1000000, {.computed = 1000, .seconds = 4, .threads = 1}) ==
+        "1000000 designs on 1 thread, 4 ms each: about 67 min");
 }
 
 TEST_CASE("Another study is refused by --resume, in one line that says what differs", "[study]") {

@@ -30,19 +30,13 @@ struct StudyOptions {
   bool quiet = false;
 };
 
-std::string duration(double seconds) {
-  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 /// How far the study is: designs done before and now, of how many.
 std::string progress(std::size_t before, const StudyWork& work, std::size_t count) {
   const std::size_t done = before + work.computed;
   std::string text = fmt::format("{} of {} designs", done, count);
   if (work.computed == 0) return text;
   return text + fmt::format(", {:.3g} a second, {} left", work.rate(),
-                            duration(static_cast<double>(count - done) / work.rate()));
+                            in_words(static_cast<double>(count - done) / work.rate()));
 }
 
 std::string designs_in_words(const StudyCase& study) {
@@ -105,7 +99,8 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
   StudyStore store(folder, study, options.resume);
   PendingDesigns pending(store.finished());
   const std::size_t before = study.items() - pending.left();
-  StudyWork work;
+  StudyWork work{.threads = crew.threads(jobs)};
+  bool is_planned = options.quiet;
   const auto say_how_far = [&] {
     complain(fmt::format("arcslip: interrupted: {} of {} designs are done; go on with --resume -o {}",
                          before + work.computed, study.items(), folder));
@@ -125,8 +120,17 @@ int lead(const StudyOptions& options, const StudyCase& study, std::size_t jobs, 
           ++work.computed;
         },
         [&] {
+          {
+            const Undisturbed storing;
+            store.keep();
+          }
           work.seconds = seconds_since(start);
           line.show([&] { return progress(before, work, study.items()); });
+          if (const std::string plan = is_planned ? "" : plan_of(study.items() - before, work);
+              !plan.empty()) {
+            line.say("arcslip: " + plan);
+            is_planned = true;
+          }
           return !interrupted();
         });
   }
@@ -172,7 +176,7 @@ int study(const StudyOptions& options) {
 
 constexpr const char* study_notes = R"(
 Follows every peak of the base's amplitude over a window of eta as the preload varies, and finds the preload at which
-the highest peak is lowest, for each design. Writes DIR/study.sqlite (each design as soon as it is done) and at the end
+the highest peak is lowest, for each design. Writes DIR/study.sqlite (designs as they are done) and at the end
 DIR/optimum.csv (one row for each design), DIR/sweep.csv (one row for each peak and preload) and DIR/summary.json. A
 study that was interrupted or killed goes on with --resume; without it a study in DIR is begun anew.
 

@@ -104,7 +104,8 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
   StudyWork work;
   {
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-    StudyWorkers workers(study, options.jobs > 0 ? options.jobs : cores);
+    work.threads = options.jobs > 0 ? options.jobs : cores;
+    StudyWorkers workers(study, work.threads);
     compute(
         workers, pending,
         [&](const FinishedDesign& design) {
@@ -112,6 +113,7 @@ StudyOutcome study_case(const CaseFile& file, const StudyOptions& options, Inter
           ++work.computed;
         },
         [&] {
+          store.keep();
           return interruption.go_on([&] { return py::make_tuple(before + work.computed, study.items()); });
         });
   }

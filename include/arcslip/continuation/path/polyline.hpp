@@ -14,8 +14,8 @@ using Drawn = std::function<const std::vector<double>&(const BranchPoint&)>;
 
 /// The points of a branch and, between these, regular points of the interpolated branch, so many that
 /// straight lines are nowhere further from it than two thousandths of the width and height between
-/// neighbouring points. That holds for every quantity that is drawn over the parameter, on linear and on
-/// logarithmic axes, but between points that are nearer than 1e-5 of the branch's width or height.
+/// neighbouring points, or of 8e-4 of the branch's width and height where these are nearer to each other.
+/// That holds for every quantity that is drawn over the parameter, on linear and on logarithmic axes.
 /// `parameter` is the position of the continuation parameter among the problem's.
 std::vector<BranchPoint> polyline(const Branch& branch, Index parameter, const Drawn& drawn);
 

@@ -4,11 +4,13 @@
 // followed in P.
 //
 // The stuck response does not depend on P: its peaks are those in stick, and P_border(eta), where R = S on
-// it, is the border on which peaks may sit. Peaks in slip are curves dY/deta = 0, traced by the engine from
-// peaks of the response at a few preloads and from the points where they meet the border.
+// it, is the border on which peaks may sit. The response slips where P_border(eta) > P. Peaks in slip are
+// curves dY/deta = 0, traced by the engine from peaks of the response at a few preloads and from the points
+// where they meet the border.
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arcslip/continuation/path/branch.hpp"
@@ -26,8 +28,8 @@ class PeakSearch {
   PeakSearch(const ForcedResponse& problem, const PreloadRange& range,
              const continuation::TraceOptions& options);
 
-  /// Traces the response at this preload and follows those of its peaks that are not known yet: whether there
-  /// were any.
+  /// Scans the response at this preload where it slips, and follows those of its peaks that are not known
+  /// yet: whether there were any.
   bool look_at(double preload);
 
   /// Follows the peaks in slip that meet the border or an end of the window and were not found otherwise.
@@ -67,8 +69,9 @@ class PeakSearch {
   bool in_window(double eta, double tolerance) const {
     return eta >= range_.eta_low * (1 - tolerance) && eta <= range_.eta_high * (1 + tolerance);
   }
-  bool is_known(double eta, double preload, PeakSite site) const;
-  bool look_at_peak(const continuation::BranchPoint& point, PeakSite site);
+  bool is_known(const PeakNode& peak) const;  ///< of one in slip
+  /// Ranges of eta in the window in which the response slips.
+  std::vector<std::pair<double, double>> slipping_at(double preload) const;
   bool follow(const PeakNode& start);
   void add_sections(const continuation::Branch& curve);
   void add_section(std::vector<PeakNode> nodes);
@@ -88,10 +91,11 @@ class PeakSearch {
   const ForcedResponse& problem_;
   const PreloadRange& range_;
   const continuation::TraceOptions& options_;
+  std::vector<double> flanks_;  // of resonances, where scans begin
   std::vector<PeakPiece> pieces_;
   std::vector<Meeting> meetings_;
-  std::vector<double> hidden_;  // peaks in stick that the response alone did not show, in eta
-  std::vector<double> ends_;    // preloads at which pieces end
+  std::vector<PeakNode> border_;  // along it over the window, eta rising
+  std::vector<double> ends_;      // preloads at which pieces end
   std::string failure_;
 };
 

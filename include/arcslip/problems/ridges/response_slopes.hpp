@@ -27,6 +27,10 @@ class ResponseSlopes {
   /// Stuck, with that preload at which R = S: below 0 where P_2 eta^2 alone would hold the contact.
   static ResponseSlopes on_border(const FrictionSystem& system, double eta);
 
+  /// The slipping response of a passive system, by Newton's method from ln(R/S) = `near` >= 0: on the border
+  /// where it would not slip.
+  static ResponseSlopes in_slip(const FrictionSystem& system, double eta, double preload, double near);
+
   /// On the border the same place on the side of slip.
   ResponseSlopes slipping() const;
 
