@@ -105,9 +105,12 @@ double time_of_return(Motion motion, double longest) {
 }  // namespace
 
 CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector& u, const Vector& p,
-                         double time, const CycleOptions& options, const std::function<bool()>& go_on) {
+                         std::optional<double> given, const CycleOptions& options,
+                         const std::function<bool()>& go_on) {
+  constexpr double rounds = 50;
   Motion motion(*field, u, p, go_on);
   double period = field->is_periodic() ? field->period(p, nullptr) : 0;
+  const double time = given.value_or(rounds * period);
   const double settled = field->is_periodic() ? period * std::ceil(time / period) : time;
   motion.go_to(settled);
   if (!field->is_periodic()) {

@@ -30,6 +30,10 @@ Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, i
                  results,
                  {{time_name, "is the time, on which systems of kind \"forced\" alone may depend"}},
                  iterations};
+  if (system.kind == FormulaKind::forced) {
+    set.refused.clear();
+    set.definitions.push_back({time_name, "0"});
+  }
   for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
   return compile(set);
 }

@@ -36,18 +36,6 @@ class Names {
   std::map<std::string, std::string> places_;
 };
 
-/// The guess of each unknown, by the parameters.
-Tape start_of(const FormulaSystem& system) {
-  FormulaSet set;
-  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
-  for (const Formula& equation : system.equations) {
-    const auto given = std::find_if(system.start.begin(), system.start.end(),
-                                    [&](const Formula& one) { return one.name == equation.name; });
-    set.results.push_back(given != system.start.end() ? *given : Formula{equation.name, "0"});
-  }
-  return compile(set);
-}
-
 std::string title_of(const FormulaSystem& system) {
   std::vector<std::string> unknowns;
   for (const Formula& equation : system.equations) unknowns.push_back(equation.name);
@@ -97,6 +85,17 @@ void check_names(const FormulaSystem& system) {
     if (!known)
       throw FormulaError(start.place.empty() ? start.name : start.place, "there is no equation of this name");
   }
+}
+
+Tape start_of(const FormulaSystem& system) {
+  FormulaSet set;
+  for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  for (const Formula& equation : system.equations) {
+    const auto given = std::find_if(system.start.begin(), system.start.end(),
+                                    [&](const Formula& one) { return one.name == equation.name; });
+    set.results.push_back(given != system.start.end() ? *given : Formula{equation.name, "0"});
+  }
+  return compile(set);
 }
 
 LibraryModel model_of(const FormulaSystem& system) {

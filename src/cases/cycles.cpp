@@ -72,12 +72,11 @@ std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Sub
   const Clock::time_point begun = Clock::now();
   const std::shared_ptr<const Field> field = field_of(subject.built.problem);
   const Vector& p = subject.guess.parameters;
-  constexpr double rounds = 50;  // of a driven system
-  const double settle = request->cycles.settle.value_or(rounds * field->period(p, nullptr));
   std::vector<CycleBranch> branches;
   try {
-    CycleStart start = settled_cycle(field, subject.guess.unknowns.head(field->size()), p, settle,
-                                     request->cycles.options, [&] { return time.goes_on(); });
+    CycleStart start =
+        settled_cycle(field, subject.guess.unknowns.head(field->size()), p, request->cycles.settle,
+                      request->cycles.options, [&] { return time.goes_on(); });
     start.both_ways = request->start.has_value();
     const continuation::TraceOptions options = time.rest();
     if (request->switching) {

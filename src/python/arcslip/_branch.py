@@ -188,6 +188,27 @@ class Branch(_Columns):
         """
         return Sample(self._core.where(value))
 
+    def orbit(self, point):
+        """Of a branch of cycles one of them, a dict of arrays: the time "t" over one period, and each unknown by name.
+
+        Parameters
+        ----------
+        point : int
+            Its row.
+        """
+        times, values, names = _core.orbit_of(self._core, point)
+        return {"t": times, **{name: values[:, i] for i, name in enumerate(names)}}
+
+    def multipliers(self, point):
+        """The Floquet multipliers of a cycle, without that of its own velocity, complex, shape (n - 1,) or (n,).
+
+        Parameters
+        ----------
+        point : int
+            Its row.
+        """
+        return np.exp(_core.log_multipliers_of(self._core, point))
+
     def curve(self):
         """The columns as they are drawn, dense where the branch bends: those of curves.csv, a dict of arrays."""
         return self._core.drawn()

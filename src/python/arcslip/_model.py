@@ -5,11 +5,11 @@ import numpy as np
 from . import _core
 from ._problem import Problem
 
-_KINDS = ("flow", "map", "algebraic")
+_KINDS = ("flow", "forced", "map", "algebraic")
 
 
 class Model(Problem):
-    """u' = f(u, p), u -> f(u, p) or f(u, p) = 0, with f as formulas, like `[model]` of case files.
+    """u' = f(u, p), u' = f(t, u, p), u -> f(u, p) or f(u, p) = 0, with f as formulas, like `[model]` of case files.
 
     It stands where a `Problem` may. Derivatives, the second ones too, are exact, and nothing is called in Python while
     a branch is traced. `trace` needs neither u0 nor p0 then: a branch begins at the first value of its range, with the
@@ -27,8 +27,11 @@ class Model(Problem):
         Formulas by names that equations and observables may use, in any order.
     observables : dict, optional
         Formulas by names: further columns.
-    kind : {"flow", "map", "algebraic"}
-        A flow has equilibria and Hopf points, a map fixed points and period doublings.
+    kind : {"flow", "forced", "map", "algebraic"}
+        A flow has equilibria, Hopf points and cycles, one that is forced cycles alone, a map fixed points and period
+        doublings.
+    period : str or number, optional
+        Of what is forced: the period of f in the time t, as a formula of the parameters.
     iterate : int
         Of a map: the points that are fixed after so many steps, at most 100.
 
@@ -43,11 +46,13 @@ class Model(Problem):
         A formula cannot be read: which one, where, and what was expected.
     """
 
-    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1):
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None):
         if kind not in _KINDS:
             raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
         if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
             raise ValueError(f"iterate: expected an integer from 1 to 100, and more than 1 only of maps, got {iterate!r}")
+        if (period is None) == (kind == "forced"):
+            raise ValueError(f"period: expected a formula or a number of kind \"forced\", and of no other, got {period!r}")
         if not equations:
             raise ValueError("equations: expected a formula for each unknown, got none")
         self.values = {str(name): _number(name, value) for name, value in parameters.items()}
@@ -59,6 +64,7 @@ class Model(Problem):
             _texts("equations", equations),
             _texts("observables", observables),
             _texts("start", start),
+            None if period is None else _texts("model", {"period": period})[0][1],
         )
         self.kind = kind
         self.iterate = int(iterate)

@@ -152,6 +152,63 @@ def trace_all(
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 
 
+def trace_cycles(
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, follow=True, intervals=20, degree=5,
+    accuracy=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+):
+    """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
+
+    Without `settle` those that leave the Hopf points of the branch of equilibria next to u0, each once. A Model of kind
+    "forced" has no equilibria: its cycles have the period of the load.
+
+    Parameters
+    ----------
+    problem, u0, p0, parameter, range, progress, functions
+        As `trace` takes them; f is the right-hand side of u' = f.
+    settle : float, optional
+        Begin with the cycle that the motion from u0 has come to after this time. Of what is forced fifty periods if it
+        is not given.
+    follow : bool
+        Follow what is met at branch points and period doublings as well.
+    intervals, degree : int
+        On how many intervals orbits are held to begin with, twice as many where `accuracy` asks for it, and by
+        polynomials of which degree, 2 to 7.
+    accuracy : float
+        Of orbits between the ends of intervals, relative to how far unknowns go.
+    doublings, max_branches : int
+        How often a doubled period is followed, and how many branches.
+    **options
+        Limits and what is looked for, as `trace` takes them.
+
+    Returns
+    -------
+    list of Branch
+        With the columns "T", and "x_max", "x_min" of each unknown x; see `Branch.orbit`, `Branch.multipliers`.
+    """
+    problem = _problem(problem, functions or {})
+    u0, p0 = problem._begin(u0, p0, parameter, range[0])
+    prepared = Prepared(problem, u0, p0, parameter, 0)
+    options["parameter"] = prepared.parameter
+    how, options["range"] = _way(prepared, range)
+    forced = getattr(problem, "kind", "") == "forced"
+    if not (forced or problem.equilibrium):
+        raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
+    if settle is not None and not float(settle) > 0:
+        raise ValueError(f"settle: expected a number > 0, got {settle!r}")
+    held = {
+        "intervals": int(intervals),
+        "degree": int(degree),
+        "tolerance": float(accuracy),
+        "doublings": int(doublings),
+        "max_branches": int(max_branches),
+    }
+    formulas = problem._formulas if forced else None
+    cores = _core.trace_cycles(
+        prepared.core, formulas, prepared.u0, prepared.p0, settle, bool(follow), how, options, held, progress
+    )
+    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
 def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, parameter=None, **functions):
     """All solutions at fixed parameters that deflated Newton iterations find.
 

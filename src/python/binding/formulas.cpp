@@ -18,25 +18,30 @@ std::vector<Formula> formulas_of(const std::string& name, const Texts& texts) {
 }
 
 FormulaKind kind_named(const std::string& name) {
+  if (name == "forced") return FormulaKind::forced;
   return name == "map" ? FormulaKind::map : name == "flow" ? FormulaKind::flow : FormulaKind::algebraic;
 }
 
 Formulas made(const std::string& kind, int iterate,
               const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
-              const Texts& equations, const Texts& observables, const Texts& start) {
+              const Texts& equations, const Texts& observables, const Texts& start,
+              const std::optional<std::string>& period) {
   FormulaSystem system{.kind = kind_named(kind), .iterate = iterate};
+  if (period) system.period = Formula{"period", *period};
   for (const auto& [name, value] : numbers) system.parameters.push_back({name, value, "parameters." + name});
   system.definitions = formulas_of("definitions", definitions);
   system.equations = formulas_of("equations", equations);
   system.observables = formulas_of("observables", observables);
   system.start = formulas_of("start", start);
-  return {std::make_shared<const problems::FormulaProblem>(system), problems::model_of(system)};
+  std::shared_ptr<const problems::FormulaField> forced;
+  if (system.kind == FormulaKind::forced) forced = std::make_shared<const problems::FormulaField>(system);
+  return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system)};
 }
 
 /// What it is called with, as the problem takes it.
 struct Place {
   Place(const Formulas& formulas, const py::handle& unknowns, const py::handle& parameters)
-      : u(formulas.problem->size()), p(std::ssize(formulas.model.settings)) {
+      : u(formulas.problem->size()), p(std::ssize(formulas.problem->parameter_names())) {
     take(unknowns, "u", u);
     take(parameters, "p", p);
   }
@@ -83,7 +88,10 @@ void bind_formulas(py::module_& module) {
              return give(Vector(values.tail(values.size() - at.u.size())));
            })
       .def("start", [](const Formulas& self, const std::vector<double>& p) {
-        return give(self.model.guess(*self.problem, p).unknowns);
+        Vector u(self.problem->size());
+        if (!self.start.evaluate(p.data(), u.data()))
+          throw py::value_error("start: it has no value at these parameters");
+        return give(u);
       });
 }
 

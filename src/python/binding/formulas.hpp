@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "arcslip/problems/formulas/formula_problem.hpp"
+#include "arcslip/problems/formulas/formula_field.hpp"
 
 namespace arcslip::python {
 
@@ -14,8 +14,9 @@ namespace py = pybind11;
 
 /// A system with its guess of the start.
 struct Formulas {
-  std::shared_ptr<const problems::FormulaProblem> problem;
-  problems::LibraryModel model;
+  std::shared_ptr<const problems::FormulaProblem> problem;  ///< of what is forced at t = 0
+  std::shared_ptr<const problems::FormulaField> forced;     ///< else null
+  Tape start;                                               ///< of the unknowns, by parameters
 };
 
 void bind_formulas(py::module_& module);

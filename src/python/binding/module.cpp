@@ -2,6 +2,7 @@
 
 #include "python/binding/branch.hpp"
 #include "python/binding/cases.hpp"
+#include "python/binding/cycles.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace.hpp"
 
@@ -9,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The C++ side of arcslip.";
   arcslip::python::bind_branch(module);
   arcslip::python::bind_cases(module);
+  arcslip::python::bind_cycles(module);
   arcslip::python::bind_formulas(module);
   arcslip::python::bind_trace(module);
 }

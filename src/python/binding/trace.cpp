@@ -11,6 +11,7 @@
 #include "arcslip/continuation/path/switching.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
+#include "python/binding/tracing.hpp"
 
 namespace arcslip::python {
 namespace {
@@ -19,50 +20,6 @@ using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::Guess;
 using continuation::TraceOptions;
-using Handles = std::vector<std::shared_ptr<BranchHandle>>;
-
-/// What stands for the library's model where a problem is written in Python.
-const auto written_in_python = std::make_shared<const problems::LibraryModel>(
-    problems::LibraryModel{"python", "written in Python", {}, {}, {}});
-
-/// Work of the engine without the lock; `observer` of it is told of each point.
-template <class Work>
-auto unlocked(TraceOptions& options, const py::object& progress, const Work& work) {
-  Interruption interruption(progress);
-  const PythonProblem::Listener listener(interruption);
-  options.go_on = [&] { return interruption.go_on(); };
-  std::size_t points = 0;
-  const continuation::Observer observer = [&](const BranchPoint& point) {
-    ++points;
-    return interruption.go_on([&] { return py::make_tuple(0, 1, points, point.arclength); });
-  };
-  auto result = [&] {
-    try {
-      const py::gil_scoped_release released;
-      return work(observer);
-    } catch (...) {
-      interruption.rethrow();  // what came first
-      throw;
-    }
-  }();
-  options.go_on = {};
-  interruption.rethrow();
-  return result;
-}
-
-TracedBranch traced_of(const std::shared_ptr<PythonProblem>& problem, const TraceOptions& options,
-                       Branch branch) {
-  auto request = std::make_shared<CaseBranch>();
-  request->values = nlohmann::ordered_json::object();
-  request->problem.model = written_in_python;
-  request->options = options;
-  request->options.go_on = {};
-  TracedBranch traced;
-  traced.request = request;
-  traced.base.problem = problem;
-  traced.branch = std::move(branch);
-  return traced;
-}
 
 /// A further branch of the same problem.
 TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Branch branch) {
@@ -77,17 +34,6 @@ TracedBranch beside(const BranchHandle& handle, const TraceOptions& options, Bra
   traced.told.reset();
   traced.curve.reset();
   return traced;
-}
-
-Guess guess_of(const PythonProblem& problem, const py::handle& u, const py::handle& p,
-               const py::handle& regime) {
-  Guess guess;
-  guess.unknowns.resize(problem.size());
-  take(u, "u0", guess.unknowns);
-  guess.parameters.resize(std::ssize(problem.traits().parameters));
-  take(p, "p0", guess.parameters);
-  guess.regime = problem.to_regime(regime);
-  return guess;
 }
 
 /// What a given derivative is that is not that of its function.
@@ -122,7 +68,7 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   const Guess guess = guess_of(*problem, u, p, regime);
   if (check) require_exact(*problem, guess, options);
   const auto begun = std::chrono::steady_clock::now();
-  const std::vector<Branch> branches = unlocked(options, progress, [&](const auto& observer) {
+  const std::vector<Branch> branches = in_engine(options, progress, [&](const auto& observer) {
     return traced_by(how, *problem, guess, box, options, observer);
   });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
@@ -146,7 +92,7 @@ py::list solve_all(const std::shared_ptr<PythonProblem>& problem, const std::vec
   seeking.upper = box.second;
   seeking.starts = count;
   TraceOptions options;
-  const std::vector<Guess> found = unlocked(options, py::none(), [&](const auto&) {
+  const std::vector<Guess> found = in_engine(options, py::none(), [&](const auto&) {
     seeking.go_on = options.go_on;
     return continuation::solve_all(*problem, guesses, seeking);
   });
@@ -170,7 +116,7 @@ Handles trace_guesses(const BranchHandle& handle, const std::vector<Guess>& gues
                       const py::object& progress) {
   Handles handles;
   for (const Guess& guess : guesses) {
-    Branch branch = unlocked(options, progress, [&](const auto& observer) {
+    Branch branch = in_engine(options, progress, [&](const auto& observer) {
       return continuation::trace(*handle.traced().base.problem, guess, options, observer);
     });
     handles.push_back(
@@ -225,7 +171,7 @@ std::shared_ptr<BranchHandle> curve_through(const BranchHandle& handle, std::siz
   const continuation::CurveWindow bounds =
       window ? continuation::CurveWindow{window->first, window->second} : continuation::CurveWindow{};
   std::shared_ptr<continuation::ExtendedProblem> curve;
-  Branch branch = unlocked(options, progress, [&](const auto& observer) {
+  Branch branch = in_engine(options, progress, [&](const auto& observer) {
     auto start = continuation::curve_through(base, active, handle.point(point), observable);
     curve = std::move(start.problem);
     return continuation::trace_curve(*curve, start.point, options, bounds, observer);
@@ -256,7 +202,7 @@ std::shared_ptr<BranchHandle> resume(const BranchHandle& handle, const py::dict&
   if (!handle.branch().checkpoint)
     throw py::value_error("resume: the branch has come to its end; there is nothing further");
   const CurveUse alone(handle.curve_flag());
-  Branch after = unlocked(options, progress, [&](const auto& observer) {
+  Branch after = in_engine(options, progress, [&](const auto& observer) {
     const continuation::Checkpoint& checkpoint = *handle.branch().checkpoint;
     return handle.curve()
                ? continuation::resume(*handle.curve(), checkpoint, options, observer)
@@ -280,7 +226,7 @@ std::shared_ptr<BranchHandle> trace_on(const std::shared_ptr<PythonProblem>& pro
       throw py::value_error(fmt::format("checkpoint: {}", error.what()));
     }
   }();
-  Branch branch = unlocked(options, progress, [&](const auto& observer) {
+  Branch branch = in_engine(options, progress, [&](const auto& observer) {
     return continuation::resume(*problem, checkpoint, options, observer);
   });
   return std::make_shared<BranchHandle>(traced_of(problem, options, std::move(branch)), problem);

@@ -6,11 +6,12 @@
 
 namespace arcslip::continuation {
 
-/// Follows the flow from `u` for a time, then looks for a cycle over as much time again: of a field that
-/// depends on time, one of its own period; else where the motion comes back to a plane across it as near as
-/// `close` of how far it goes. Throws std::invalid_argument that says why there is none.
+/// Follows the flow from `u` for a time, by default fifty periods of the field's own, then looks for a cycle
+/// over as much time again: of a field that depends on time, one of its own period; else where the motion
+/// comes back to a plane across it as near as `close` of how far it goes. Throws std::invalid_argument that
+/// says why there is none.
 CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector& u, const Vector& p,
-                         double time, const CycleOptions& options = {},
+                         std::optional<double> time, const CycleOptions& options = {},
                          const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::continuation

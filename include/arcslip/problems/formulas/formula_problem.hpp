@@ -3,7 +3,7 @@
 // A system of one's own, given by formulas of unknowns u and parameters p:
 //
 //   flow       u' = f(u, p)      equilibria f = 0, stable where all eigenvalues of df/du have Re < 0
-//   forced     u' = f(t, u, p)   cycles, see formula_field.hpp
+//   forced     u' = f(t, u, p)   cycles, see formula_field.hpp; here f at t = 0
 //   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers have |mu| < 1
 //   algebraic  f(u, p) = 0       without stability
 //
@@ -91,6 +91,9 @@ class FormulaProblem : public continuation::Problem {
   Tape equations_;              // of u, p
   std::vector<Tape> observed_;  // of u, p, each by itself: one may have no value where others do
 };
+
+/// The guess of each unknown, by the parameters. Throws FormulaError.
+Tape start_of(const FormulaSystem& system);
 
 /// The system as a model like those of the library: its parameters are settings, its guess is `start`.
 /// Throws FormulaError.
