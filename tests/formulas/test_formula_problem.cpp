@@ -241,8 +241,9 @@ TEST_CASE("Names that mean two things are refused with both places", "[formulas]
         "point: results have point already; expected another name");
   CHECK(message({.equations = {{"x", "-x"}}, .start = {{"y", "1"}}}) ==
         "y: there is no equation of this name");
-  CHECK(message({.equations = {{"x", "-x + t"}}}) ==
-        "x: \"t\" at column 6 of \"-x + t\" is the time, on which systems of kind \"forced\" alone may depend");
+  CHECK(
+      message({.equations = {{"x", "-x + t"}}}) ==
+      "x: \"t\" at column 6 of \"-x + t\" is the time, on which systems of kind \"forced\" alone may depend");
   CHECK(message({.parameters = {{"a", 1}}, .equations = {{"x", "-x"}}, .start = {{"x", "x"}}}) ==
         "x: unknown name \"x\" at column 1 of \"x\"; there are a");
 }
