@@ -88,6 +88,7 @@ std::string plural_of(const Count& count) {
                                 std::pair{"bogdanov_takens", "Bogdanov-Takens point"},
                                 std::pair{"zero_hopf", "zero-Hopf point"},
                                 std::pair{"hopf_hopf", "double Hopf point"},
+                                std::pair{"generalized_hopf", "generalised Hopf point"},
                                 std::pair{"symmetry_breaking", "breaking of symmetry"}};
   std::string name = count.first;
   std::replace(name.begin(), name.end(), '_', ' ');
