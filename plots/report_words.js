@@ -47,7 +47,7 @@ const types = { switch: ["switch of stick and slip", "circle"], peak: ["peak", "
   hopf: ["Hopf point", "star"], neimark_sacker: ["Neimark-Sacker point", "hexagram"], period_doubling: ["period doubling", "bowtie"],
   symmetry_breaking: ["symmetry breaking", "bowtie"], user: ["requested value", "cross"], cusp: ["cusp", "triangle-left"],
   bogdanov_takens: ["Bogdanov-Takens point", "hexagram"], zero_hopf: ["zero-Hopf point", "x"], hopf_hopf: ["double Hopf point", "bowtie"],
-  generalized_hopf: ["generalised Hopf point", "diamond"], strong_resonance: ["strong resonance", "triangle-down"],
+  generalized_hopf: ["generalised Hopf point", "diamond"], double_multiplier: ["strong resonance", "triangle-down"],
   birth: ["birth of a peak", "triangle-right"], death: ["death of a peak", "triangle-left"], corner: ["corner", "pentagon"],
   exchange: ["exchange of two peaks", "x"], optimum: ["best preload", "star"], robust: ["best preload with scatter", "diamond"] };
 

@@ -24,13 +24,13 @@ std::string_view to_string(PointType type) {
     case PointType::period_doubling: return "period_doubling";
     case PointType::symmetry_breaking: return "symmetry_breaking";
     case PointType::generalized_hopf: return "generalized_hopf";
-    case PointType::strong_resonance: return "strong_resonance";
+    case PointType::double_multiplier: return "double_multiplier";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::strong_resonance); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::double_multiplier); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

@@ -97,7 +97,7 @@ KINDS = {
     "zero_hopf": ("zero–Hopf", "p", 4.2, False),
     "hopf_hopf": ("double Hopf", "^", 4.0, False),
     "generalized_hopf": ("generalised Hopf", "D", 3.6, True),
-    "strong_resonance": ("strong resonance", "s", 3.6, True),
+    "double_multiplier": ("strong resonance", "s", 3.6, True),
     "neimark_sacker": ("Neimark–Sacker", "h", 3.6, True),
     "period_doubling": ("period doubling", "v", 4.0, False),
     "symmetry_breaking": ("symmetry breaking", "d", 4.2, False),

@@ -74,8 +74,7 @@ py::tuple orbit_of(const BranchHandle& handle, std::size_t i) {
   Vector times(mesh.nodes());
   for (Index node = 0; node < times.size(); ++node) times(node) = mesh.place(node);
   times *= cycles->duration(point.unknowns, point.parameters);
-  return py::make_tuple(give(times), give(Matrix(cycles->orbit(point.unknowns).transpose())),
-                        cycles->field().names());
+  return py::make_tuple(give(times), give(Matrix(cycles->orbit(point.unknowns))), cycles->field().names());
 }
 
 /// The Floquet multipliers of a point as their logarithms.

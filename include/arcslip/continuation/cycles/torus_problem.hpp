@@ -23,9 +23,9 @@ class TorusProblem : public ExtendedProblem {
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;
   /// There the pair meets at 1 or at -1.
-  std::optional<PointType> last_of_curve() const override { return PointType::strong_resonance; }
+  std::optional<PointType> last_of_curve() const override { return PointType::double_multiplier; }
   std::vector<PointType> test_types() const override {
-    return {PointType::strong_resonance, PointType::strong_resonance};
+    return {PointType::double_multiplier, PointType::double_multiplier};
   }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   /// `angle`: theta, as far as the torus turns with each round.

@@ -29,7 +29,7 @@ enum class PointType {
   period_doubling,    ///< one of its multipliers passes -1
   symmetry_breaking,  ///< a real eigenvalue vanishes along which the solution would lose a symmetry
   generalized_hopf,   ///< of a curve of Hopf points: the first Lyapunov coefficient vanishes
-  strong_resonance    ///< of a curve of Neimark-Sacker points: the pair of multipliers meets at 1 or at -1
+  double_multiplier   ///< of a curve of Neimark-Sacker points: the pair of multipliers meets at 1 or at -1
 };
 
 /// As written to files: its name; `switch` for regime_switch.
