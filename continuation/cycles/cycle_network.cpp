@@ -26,7 +26,13 @@ class CycleNetwork {
         cycles_(cycles),
         observer_(observer),
         parameter_(index_of(field_->parameter_names(), options.parameter)),
-        time_(options_) {}
+        time_(options_) {
+    std::vector<std::string> known{"T", "norm"};
+    for (const std::string& name : field_->names()) known.insert(known.end(), {name + "_max", name + "_min"});
+    for (const std::string& name : options.extrema_of) {  // those of equilibria are others
+      if (std::find(known.begin(), known.end(), name) != known.end()) options_.extrema_of.push_back(name);
+    }
+  }
 
   void leave_hopf(const BranchPoint& hopf) {
     CycleStart start = cycle_from_hopf(field_, {hopf.unknowns, hopf.parameters, hopf.regime}, cycles_);

@@ -12,7 +12,14 @@ namespace arcslip::continuation {
 
 CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                            const Vector& p, int periods, bool doubled)
-    : OrbitProblem(field, !field->is_periodic()), periods_(periods), doubled_(doubled) {
+    : OrbitProblem(field, !field->is_periodic()),
+      periods_(periods),
+      doubled_(doubled),
+      winding_(Vector::Zero(orbit.rows())) {
+  for (Index i = 0; i < orbit.rows(); ++i) {
+    if (const double turn = field->turn(i); turn > 0)
+      winding_(i) = turn * std::round((orbit(i, orbit.cols() - 1) - orbit(i, 0)) / turn);
+  }
   begin(mesh, orbit, p);
 }
 
@@ -34,9 +41,11 @@ Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) cons
     for (Index i = 0; i < m; ++i) {
       const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
       mesh.at(orbit, s, here, nullptr);
+      here -= s * winding_;
       if (doubled_) {
-        mesh.at(orbit, s < 0.5 ? s + 0.5 : s - 0.5, there, nullptr);
-        here = 0.5 * (here - there);
+        const double other = s < 0.5 ? s + 0.5 : s - 0.5;
+        mesh.at(orbit, other, there, nullptr);
+        here = 0.5 * (here - there + other * winding_);
       } else {
         mean += rule.weights()(i) * mesh.length(j) * here;
       }
@@ -49,7 +58,7 @@ Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) cons
 
 bool CycleProblem::end_conditions(const Vector& left, const Vector& right, const Vector& /*p*/,
                                   const EndConditions& out) const {
-  if (out.values != nullptr) *out.values = right - left;
+  if (out.values != nullptr) *out.values = right - left - winding_;
   if (out.by_left != nullptr) *out.by_left = -Matrix::Identity(left.size(), left.size());
   if (out.by_right != nullptr) out.by_right->setIdentity();
   if (out.by_parameters != nullptr) out.by_parameters->setZero();

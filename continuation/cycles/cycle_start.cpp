@@ -82,6 +82,7 @@ std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index
     const Matrix once = problem.orbit(all);
     Matrix both(once.rows(), mesh.nodes());
     both << once, sign * once.rightCols(once.cols() - 1);
+    if (sign > 0) both.rightCols(once.cols() - 1).colwise() += problem.winding();
     return both;
   };
   const BasePoint& at = located->point;

@@ -24,6 +24,9 @@ EquilibriumField::EquilibriumField(std::shared_ptr<const Problem> problem) : pro
     throw std::invalid_argument("cycles are followed of dense, smooth problems u' = F(u, p) alone");
   const std::vector<std::string> observed = observable_names(*problem_);
   const bool has_names = observes_unknowns(*problem_);
+  for (const Observable& one : problem_->observables()) {
+    if (has_names && std::ssize(turns_) < size()) turns_.push_back(one.period);
+  }
   for (Index i = 0; i < size(); ++i)
     names_.push_back(has_names ? observed[static_cast<std::size_t>(i)] : fmt::format("u{}", i + 1));
 }

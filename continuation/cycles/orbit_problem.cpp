@@ -89,6 +89,7 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   scales(*field_, orbit, p, scale, unused);
   OrbitFrame frame{
       mesh, scale, ranges(orbit, scale), has_duration_ ? phase_weights(mesh, orbit, scale) : Vector(), {}};
+  if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
   set_apart(frame, part_apart(mesh, orbit));
   if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
@@ -255,7 +256,7 @@ bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, con
   const auto in_units = frame.scale.cwiseInverse().asDiagonal();
   if (out.residual != nullptr) {
     out.residual->segment(ends, n) = in_units * values;
-    if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes()));
+    if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes())) - frame.phase_value;
   }
   if (out.parameter_jacobian != nullptr) {
     out.parameter_jacobian->middleRows(ends, n) = in_units * by_parameters;

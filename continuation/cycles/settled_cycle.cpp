@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boost/numeric/odeint.hpp>
+#include <cmath>
 #include <stdexcept>
 
 namespace arcslip::continuation {
@@ -73,8 +74,15 @@ class Motion {
 };
 
 /// The time after which the motion comes back to where it is, found on `motion`, which it is followed by.
-double time_of_return(Motion motion, double longest) {
+double time_of_return(const Field& field, Motion motion, double longest) {
   const Vector origin = motion.state();
+  const auto away = [&](const Vector& place) {  // but for whole turns
+    Vector result = place - origin;
+    for (Index i = 0; i < result.size(); ++i) {
+      if (const double turn = field.turn(i); turn > 0) result(i) = std::remainder(result(i), turn);
+    }
+    return result;
+  };
   const Vector across = motion.velocity(origin).normalized();
   const double begun = motion.time();
   Vector low = origin;
@@ -87,11 +95,11 @@ double time_of_return(Motion motion, double longest) {
     const Vector place = motion.state();
     low = low.cwiseMin(place);
     high = high.cwiseMax(place);
-    const double ahead = across.dot(place - origin);
+    const double ahead = across.dot(away(place));
     if (before < 0 && ahead >= 0) {
       const double part = before / (before - ahead);
       const Vector crossing = place_before + part * (place - place_before);
-      if ((crossing - origin).norm() < close * (high - low).norm())
+      if (away(crossing).norm() < close * (high - low).norm())
         return time_before + part * (motion.time() - time_before) - begun;
     }
     before = ahead;
@@ -116,7 +124,7 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
   if (!field->is_periodic()) {
     if (motion.velocity(motion.state()).norm() * time < 1e-6 * (1 + motion.state().norm()))
       refuse(fmt::format("the motion has come to rest at t = {:g}", time));
-    period = time_of_return(motion, time);
+    period = time_of_return(*field, motion, time);
   }
   const OrbitMesh fine(CollocationRule(options.degree), 4 * options.intervals);
   Matrix orbit(field->size(), fine.nodes());
@@ -124,8 +132,9 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
     motion.go_to(settled + period * fine.place(node));
     orbit.col(node) = motion.state();
   }
-  for (Index i = 0; i < orbit.rows(); ++i) {  // both ends meet
-    const double gap = orbit(i, orbit.cols() - 1) - orbit(i, 0);
+  for (Index i = 0; i < orbit.rows(); ++i) {  // both ends meet, but for whole turns
+    double gap = orbit(i, orbit.cols() - 1) - orbit(i, 0);
+    if (const double turn = field->turn(i); turn > 0) gap = std::remainder(gap, turn);
     for (Index node = 0; node < fine.nodes(); ++node) orbit(i, node) -= gap * fine.place(node);
   }
   const OrbitMesh mesh = fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);

@@ -1,11 +1,18 @@
 #include "arcslip/problems/formulas/formula_field.hpp"
 
+#include <algorithm>
+
 #include "numbers.hpp"
 
 namespace arcslip::problems {
 
 FormulaField::FormulaField(const FormulaSystem& system) : equations_(right_hand_side(system)) {
-  for (const Formula& equation : system.equations) names_.push_back(equation.name);
+  for (const Formula& equation : system.equations) {
+    names_.push_back(equation.name);
+    const bool turns =
+        std::find(system.angles.begin(), system.angles.end(), equation.name) != system.angles.end();
+    turns_.push_back(turns ? two_pi : 0);
+  }
   for (const FormulaParameter& parameter : system.parameters) parameters_.push_back(parameter.name);
   period_ = compile({parameters_, {}, {*system.period}});
 }

@@ -1,5 +1,6 @@
 #include "arcslip/problems/formulas/formula_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,7 +53,8 @@ FormulaProblem::FormulaProblem(const FormulaSystem& system)
     : kind_(system.kind),
       unknowns_(names_of(system.equations)),
       parameters_(names_of(system.parameters)),
-      observables_(names_of(system.observables)) {
+      observables_(names_of(system.observables)),
+      angles_(system.angles) {
   check_names(system);
   equations_ = tape_of(system, system.equations, kind_ == FormulaKind::map ? system.iterate : 1);
   for (const Formula& one : system.observables) observed_.push_back(tape_of(system, {one}, 1));
@@ -134,7 +136,10 @@ void FormulaProblem::test(const Vector& u, const Vector& p, const Regime& /*regi
 std::vector<continuation::Observable> FormulaProblem::observables() const {
   std::vector<continuation::Observable> all;
   for (const std::vector<std::string>* names : {&unknowns_, &observables_}) {
-    for (const std::string& name : *names) all.push_back({name, true});
+    for (const std::string& name : *names) {
+      const bool turns = std::find(angles_.begin(), angles_.end(), name) != angles_.end();
+      all.push_back({.name = name, .has_gradient = true, .period = turns ? two_pi : 0});
+    }
   }
   return all;
 }

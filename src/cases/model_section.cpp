@@ -84,6 +84,9 @@ const KeyTable<FormulaSystem>& model_keys() {
   const auto is_forced = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind == FormulaKind::forced;
   };
+  const auto is_flow = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind == FormulaKind::flow || system.kind == FormulaKind::forced;
+  };
   const auto is_not_forced = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind != FormulaKind::forced;
   };
@@ -115,6 +118,15 @@ const KeyTable<FormulaSystem>& model_keys() {
                          formulas("definitions", &FormulaSystem::definitions)),
        ModelKey::special("equations", "table of formulas", "f for each unknown, by its name, in their order",
                          read_equations, required),
+       ModelKey::special(
+           "angles", "list of names",
+           "unknowns of which whole turns, 2 pi, do not matter: cycles may go round",
+           [](FormulaSystem& system, const TomlSection& section) {
+             std::vector<std::string> names;
+             for (const Formula& equation : system.equations) names.push_back(equation.name);
+             system.angles = section.texts("angles", names, "an array of unknowns");
+           },
+           only("only of flows", is_flow), otherwise("none")),
        ModelKey::special("observables", "table of formulas",
                          "columns beside the unknowns, whose extrema may be looked for",
                          formulas("observables", &FormulaSystem::observables),

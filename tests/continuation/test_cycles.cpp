@@ -6,6 +6,7 @@
 
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/cycles/settled_cycle.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
 #include "catch.hpp"
@@ -254,6 +255,36 @@ TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly
     const BasePoint at = curve.problem->split(point.unknowns, point.parameters, point.regime);
     CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(0, 1e-9));
     CHECK_THAT(at.extras(0), Catch::Matchers::WithinAbs(std::cos(two_pi * at.parameters(1)), 1e-8));
+  }
+}
+
+TEST_CASE("An angle that goes round has the period of its closed form", "[cycles]") {
+  class Rotor : public EquilibriumField {
+   public:
+    using EquilibriumField::EquilibriumField;
+    double turn(Index unknown) const override { return unknown == 0 ? two_pi : 0; }
+  };
+  // phi' = a - sin phi: T = 2 pi/sqrt(a^2 - 1), without end at a = 1; z follows it
+  const auto flow = make_flow(2, {"a"}, [](const auto& u, const auto& p, auto& f) {
+    using std::sin;
+    f[0] = p[0] - sin(u[0]);
+    f[1] = 0.5 * (sin(u[0]) - u[1]);
+  });
+  const CycleStart start =
+      settled_cycle(std::make_shared<Rotor>(flow), Eigen::Vector2d(0.3, 0), Vector::Constant(1, 2), 60);
+  CHECK(start.problem->winding() == Eigen::Vector2d(two_pi, 0));
+  const CycleBranch traced = trace_cycles(start, over("a", 2, 0.9));
+  CHECK(traced.branch.stop == Stop::asymptotic);
+  REQUIRE(traced.branch.points.size() > 5);
+  for (const BranchPoint& point : traced.branch.points) {
+    const double a = point.parameters(0);
+    if (a < 1.0001) continue;
+    CHECK_THAT(traced.problem->duration(point.unknowns, point.parameters),
+               Catch::Matchers::WithinRel(two_pi / std::sqrt(a * a - 1), 1e-8));
+    const ComplexVector logs =
+        traced.problem->log_multipliers(point.unknowns, point.parameters, point.regime);
+    REQUIRE(logs.size() == 1);
+    CHECK_THAT(logs(0).real(), Catch::Matchers::WithinRel(-pi / std::sqrt(a * a - 1), 1e-8));
   }
 }
 

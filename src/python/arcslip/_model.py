@@ -32,6 +32,8 @@ class Model(Problem):
         doublings.
     period : str or number, optional
         Of what is forced: the period of f in the time t, as a formula of the parameters.
+    angles : sequence of str
+        Unknowns of which whole turns, 2 pi, do not matter: cycles of a flow may go round.
     iterate : int
         Of a map: the points that are fixed after so many steps, at most 100.
 
@@ -46,7 +48,7 @@ class Model(Problem):
         A formula cannot be read: which one, where, and what was expected.
     """
 
-    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None):
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=()):
         if kind not in _KINDS:
             raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
         if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
@@ -55,6 +57,9 @@ class Model(Problem):
             raise ValueError(f"period: expected a formula or a number of kind \"forced\", and of no other, got {period!r}")
         if not equations:
             raise ValueError("equations: expected a formula for each unknown, got none")
+        wrong = [name for name in angles if name not in equations]
+        if wrong:
+            raise ValueError(f"angles: there is no '{wrong[0]}' among {', '.join(equations)}")
         self.values = {str(name): _number(name, value) for name, value in parameters.items()}
         self._formulas = _core.Formulas(
             kind,
@@ -65,6 +70,7 @@ class Model(Problem):
             _texts("observables", observables),
             _texts("start", start),
             None if period is None else _texts("model", {"period": period})[0][1],
+            list(angles),
         )
         self.kind = kind
         self.iterate = int(iterate)

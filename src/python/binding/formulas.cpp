@@ -25,8 +25,9 @@ FormulaKind kind_named(const std::string& name) {
 Formulas made(const std::string& kind, int iterate,
               const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
               const Texts& equations, const Texts& observables, const Texts& start,
-              const std::optional<std::string>& period) {
+              const std::optional<std::string>& period, const std::vector<std::string>& angles) {
   FormulaSystem system{.kind = kind_named(kind), .iterate = iterate};
+  system.angles = angles;
   if (period) system.period = Formula{"period", *period};
   for (const auto& [name, value] : numbers) system.parameters.push_back({name, value, "parameters." + name});
   system.definitions = formulas_of("definitions", definitions);

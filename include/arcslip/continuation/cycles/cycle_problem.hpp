@@ -2,10 +2,10 @@
 
 // Cycles: periodic orbits of u' = f(t, u, p),
 //
-//   u(T) = u(0),   and where f does not depend on t    int u . u_0' ds = 0
+//   u(T) = u(0) + w,   and where f does not depend on t    int (u - u_0) . u_0' ds = 0
 //
 // with the last orbit of a frame for u_0. T is an unknown, or the field's own period. Stability by Floquet
-// multipliers, those of the orbit's own velocity left out.
+// multipliers, those of the orbit's own velocity left out. w are the whole turns of angles.
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
@@ -22,6 +22,7 @@ class CycleProblem : public OrbitProblem {
                const Vector& p, int periods = 1, bool doubled = false);
 
   int periods() const { return periods_; }
+  const Vector& winding() const { return winding_; }  ///< w, n
   bool is_doubled() const { return doubled_; }
   /// Where `apart` vanishes, as the end of a sentence.
   std::string end_of_kind() const;
@@ -56,6 +57,7 @@ class CycleProblem : public OrbitProblem {
 
   int periods_;
   bool doubled_;
+  Vector winding_;
 };
 
 }  // namespace arcslip::continuation

@@ -43,6 +43,9 @@ class Field {
     return false;
   }
 
+  /// Of an unknown of which values that differ by this are the same, as of an angle; else 0.
+  virtual double turn(Index /*unknown*/) const { return 0; }
+
   /// Whether it depends on time, with a period.
   virtual bool is_periodic() const { return false; }
   /// This period, and where that is not null its derivatives by the parameters.
@@ -56,7 +59,7 @@ class Field {
 };
 
 /// The field of which a dense problem's solutions are the equilibria. The observables of the problem that are
-/// its unknowns in their order name these; else they are u1, u2, ...
+/// its unknowns in their order name these and tell which are angles; else they are u1, u2, ...
 class EquilibriumField : public Field {
  public:
   /// Throws std::invalid_argument of a problem that has no equilibria, is sparse or has several regimes.
@@ -67,6 +70,9 @@ class EquilibriumField : public Field {
   Index size() const override { return problem_->size(); }
   std::vector<std::string> names() const override { return names_; }
   std::vector<std::string> parameter_names() const override { return problem_->parameter_names(); }
+  double turn(Index unknown) const override {
+    return turns_.empty() ? 0 : turns_[static_cast<std::size_t>(unknown)];
+  }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const FieldValues& out) const override;
   [[nodiscard]] bool second(double t, const Vector& u, const Vector& p, const Vector& w, const Vector& du,
@@ -78,6 +84,7 @@ class EquilibriumField : public Field {
  private:
   std::shared_ptr<const Problem> problem_;
   std::vector<std::string> names_;
+  std::vector<double> turns_;
 };
 
 }  // namespace arcslip::continuation

@@ -26,11 +26,13 @@ struct OrbitFrame {
   OrbitMesh mesh;
   Vector scale;  ///< n, of the unknowns of the field
   Vector range;  ///< n, how far these go along the orbit
-  Vector phase;  ///< n x nodes: of the condition that keeps the orbit from sliding along itself; or empty
+  Vector phase;  ///< n x nodes: weights of the condition that keeps the orbit from sliding along itself; or
+                 ///< empty
   /// n x nodes: of what is left of the motion that keeps the orbit apart from others, over the most that
   /// there was of it; or empty.
   Vector apart;
   double most_apart = 0;
+  double phase_value = 0;  ///< that of the condition for the frame's own orbit
 };
 
 /// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one.

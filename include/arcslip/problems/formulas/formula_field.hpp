@@ -20,12 +20,14 @@ class FormulaField : public continuation::Field {
   std::vector<std::string> parameter_names() const override { return parameters_; }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const continuation::FieldValues& out) const override;
+  double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
   bool is_periodic() const override { return true; }
   /// nan where it has no value above 0.
   double period(const Vector& p, Vector* by_parameters) const override;
 
  private:
   std::vector<std::string> names_;
+  std::vector<double> turns_;
   std::vector<std::string> parameters_;
   Tape equations_;  // of t, u, p
   Tape period_;     // of p

@@ -38,6 +38,7 @@ struct FormulaSystem {
   std::vector<Formula> definitions = {};          ///< of names that equations and observables use
   std::vector<Formula> observables = {};          ///< what is told beside the unknowns
   std::optional<Formula> period = {};             ///< of what is forced, by parameters
+  std::vector<std::string> angles = {};           ///< unknowns of which whole turns, 2 pi, do not matter
   std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
 };
 
@@ -88,6 +89,7 @@ class FormulaProblem : public continuation::Problem {
   std::vector<std::string> unknowns_;
   std::vector<std::string> parameters_;
   std::vector<std::string> observables_;
+  std::vector<std::string> angles_;
   Tape equations_;              // of u, p
   std::vector<Tape> observed_;  // of u, p, each by itself: one may have no value where others do
 };
