@@ -1,32 +1,14 @@
 // Cycles of case files: against closed forms, other methods, other programs and published numbers.
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
-
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
-#include "case_runs.hpp"
-#include "case_texts.hpp"
+#include "cycle_cases.hpp"
 
 namespace {
 
 using namespace arcslip;
 using namespace arcslip::testing;
-using continuation::CycleProblem;
 
 /// Another degree on a finer mesh than `degree = 5`, `intervals = 20` and `tolerance = 1e-6`.
 const Settings finer = {"cycles.degree=7", "cycles.intervals=80", "cycles.tolerance=1e-10"};
-
-const CycleProblem* cycles(const TracedBranch& traced) {
-  return dynamic_cast<const CycleProblem*>(traced.base.problem.get());
-}
-
-std::vector<TracedBranch> traced_of(const std::string& text, const Settings& settings = {}) {
-  std::vector<TracedBranch> all;
-  for (const CaseBranch& request : case_texts::read_text(text, settings).branches) {
-    for (TracedBranch& one : trace(request)) all.push_back(std::move(one));
-  }
-  return all;
-}
 
 /// AUTO's demonstrations have constants of single precision.
 const Settings enzyme_of_auto = {"model.parameters.alpha=0.20000000298023224",
@@ -34,41 +16,6 @@ const Settings enzyme_of_auto = {"model.parameters.alpha=0.20000000298023224",
 const Settings oscillator_of_auto = {
     "model.parameters.gamma=-0.60000002384185791", "model.parameters.r=0.60000002384185791",
     "model.parameters.a3=0.32857799530029297", "model.parameters.b3=0.93357801437377930"};
-
-/// Branches of cycles alone.
-std::vector<TracedBranch> cycles_of(std::vector<TracedBranch> all) {
-  std::erase_if(all, [](const TracedBranch& one) { return cycles(one) == nullptr; });
-  return all;
-}
-
-std::vector<double> values_at(const TracedBranch& traced, PointType type, const std::string& name) {
-  std::vector<double> values;
-  for (const BranchPoint& point : points(traced, type)) values.push_back(value(traced, point, name));
-  return values;
-}
-
-/// Those of all branches, ascending.
-std::vector<double> all_values_at(const std::vector<TracedBranch>& all, PointType type,
-                                  const std::string& name) {
-  std::vector<double> values;
-  for (const TracedBranch& one : all) {
-    for (const double found : values_at(one, type, name)) values.push_back(found);
-  }
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-void check_values(const std::vector<double>& found, const std::vector<double>& wanted, double margin) {
-  REQUIRE(found.size() == wanted.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    CHECK_THAT(found[i], WithinAbs(wanted[i], margin * std::max(1.0, std::abs(wanted[i]))));
-}
-
-/// x' = g x - turn y, y' = turn x + g y: cycles are the circles on which g(x^2 + y^2, mu) vanishes.
-std::string circles(const std::string& g, const std::string& turn, const std::string& rest) {
-  return "[model.parameters]\nmu = 0\n[model.definitions]\ns = \"x^2 + y^2\"\ng = \"" + g + "\"\nturn = \"" +
-         turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
-}
 
 const std::string mathieu = R"case(
 [model]
@@ -272,111 +219,6 @@ stop_at = [10, 100, 1000]
   const double mu = 1e4;
   CHECK_THAT(period(branch.back()),
              WithinAbs((3 - 2 * std::log(2.0)) * mu + 3 * 2.338107410459767 / std::cbrt(mu), 1e-3));
-}
-
-TEST_CASE("A branch of cycles between two Hopf points is traced once", "[cycles]") {
-  const auto all = traced_of(circles(
-      "0.25 - mu^2 - s", "1 + mu", "[branch]\nparameter = \"mu\"\nfrom = -0.9\nto = 1\nswitching = true\n"));
-  CHECK(all_values_at(all, PointType::hopf, "mu").size() == 2);
-  const auto found = cycles_of(all);
-  REQUIRE(found.size() == 1);
-  CHECK(found[0].branch.stop == Stop::left_regime);
-  CHECK_THAT(found[0].branch.points.back().parameters(0), WithinAbs(0.5, 1e-8));
-  for (const BranchPoint& point : found[0].branch.points) {
-    const double mu = point.parameters(0);
-    CHECK_THAT(value(found[0], point, "norm"), WithinAbs(std::sqrt(std::max(0.0, 0.25 - mu * mu)), 1e-7));
-  }
-}
-
-TEST_CASE("Cycles that leave no equilibrium are a closed branch", "[cycles]") {
-  const auto all = traced_of(circles("0.25 - mu^2 - (s - 1)^2", "1",
-                                     "[model.start]\nx = 1.3\n[cycles]\nsettle = 60\n[branch]\n"
-                                     "parameter = \"mu\"\nfrom = -1\nto = 1\nstart = 0\n"));
-  REQUIRE(all.size() == 1);
-  CHECK(all[0].branch.stop == Stop::closed_loop);
-  check_values(all_values_at(all, PointType::fold, "mu"), {-0.5, 0.5}, 1e-9);
-}
-
-TEST_CASE("Cycles leave a Hopf point that lies a millionth from a fold", "[cycles]") {
-  const auto all = traced_of(R"case(
-[model.parameters]
-mu = 1
-[model.equations]
-x = "(z - 0.001 - x^2 - y^2)*x - y"
-y = "x + (z - 0.001 - x^2 - y^2)*y"
-z = "mu - z^2"
-[model.start]
-z = "-sqrt(mu)"
-[branch]
-parameter = "mu"
-from = 1
-to = -1
-switching = true
-)case");
-  check_values(all_values_at(all, PointType::fold, "mu"), {0}, 1e-12);
-  check_values(all_values_at(all, PointType::hopf, "mu"), {1e-6}, 1e-12);
-  const auto found = cycles_of(all);
-  REQUIRE(found.size() == 1);
-  for (const BranchPoint& point : found[0].branch.points) {
-    const double z = std::sqrt(point.parameters(0));
-    CHECK_THAT(value(found[0], point, "norm"), WithinAbs(std::hypot(z, std::sqrt(z - 0.001)), 1e-7));
-  }
-}
-
-TEST_CASE("A period doubles a millionth from where cycles turn back", "[cycles]") {
-  // Circles with s = 1 +- sqrt(mu), beside a direction that turns by half a round with each: its multiplier
-  // is -e^(2 pi (c + s - 1)).
-  const auto all = traced_of(R"case(
-[model.parameters]
-mu = 0.2
-c = 0.001
-[model.definitions]
-s = "x^2 + y^2"
-C = "x/sqrt(s)"
-S = "y/sqrt(s)"
-a = "c + s - 1"
-g = "mu - (s - 1)^2"
-q = "z^2 + w^2"
-[model.equations]
-x = "g*x - y"
-y = "x + g*y"
-z = "(a - 1)/2*z + (a + 1)/2*(C*z + S*w) - w/2 - z*q"
-w = "(a - 1)/2*w + (a + 1)/2*(S*z - C*w) + z/2 - w*q"
-[model.start]
-x = 1.2
-[cycles]
-settle = 300
-doublings = 1
-[branch]
-parameter = "mu"
-from = 0.2
-to = -1
-switching = true
-)case");
-  REQUIRE(all.size() == 2);
-  check_values(values_at(all[0], PointType::fold, "mu"), {0}, 1e-10);
-  check_values(values_at(all[0], PointType::period_doubling, "mu"), {1e-6}, 1e-11);
-  CHECK_THAT(value(all[0], all[0].branch.points.front(), "T"), WithinAbs(2 * pi, 1e-8));
-  for (const BranchPoint& point : all[1].branch.points) {
-    CHECK_THAT(value(all[1], point, "T"), WithinAbs(4 * pi, 1e-6));
-  }
-}
-
-TEST_CASE("What asks for cycles where there are none is refused on one line", "[cycles]") {
-  const auto refusal = [](const std::string& equations, const std::string& start) {
-    const auto all =
-        traced_of("[model.parameters]\nmu = 1\n[model.equations]\n" + equations + "[model.start]\n" + start +
-                  "[cycles]\nsettle = 60\n[branch]\n" + "parameter = \"mu\"\nfrom = 1\nto = 2\n");
-    REQUIRE(all.size() == 1);
-    CHECK(all[0].branch.stop == Stop::no_start);
-    CHECK(all[0].branch.explanation.find('\n') == std::string::npos);
-    return all[0].branch.explanation;
-  };
-  CHECK_THAT(refusal("x = \"y\"\ny = \"-x - mu*y\"\n", "x = 1\n"), ContainsSubstring("has come to rest"));
-  CHECK_THAT(refusal("x = \"mu\"\ny = \"-y\"\n", "x = 1\n"), ContainsSubstring("does not come back"));
-  CHECK_THAT(refusal("x = \"mu*x^2\"\ny = \"-y\"\n", "x = 1\n"), ContainsSubstring("cannot be followed"));
-  CHECK_THAT(refusal("x = \"sqrt(-mu - x^2)\"\ny = \"-y\"\n", "x = 1\n"),
-             ContainsSubstring("cannot be followed"));
 }
 
 TEST_CASE("Mistakes in what is asked of cycles are told with their place", "[cycles]") {
