@@ -158,6 +158,22 @@ class Branch(_Columns):
         """From where the branch goes on, as text for `trace(checkpoint=...)`; None if there is nothing further."""
         return self._core.checkpoint
 
+    def orbit(self, point):
+        """The cycle at a point of a branch of cycles, one period of it.
+
+        Parameters
+        ----------
+        point : int or dict
+            Its row, or one of `special`.
+
+        Returns
+        -------
+        dict of numpy.ndarray
+            "t" from 0 to T and the unknowns by name, at the nodes of the mesh.
+        """
+        i = point["point"] if isinstance(point, dict) else int(point)
+        return self._core.orbit(i + len(self) if i < 0 else i)
+
     def sample(self, n=1000):
         """Points at equal distances of arclength, between those of the branch.
 

@@ -152,6 +152,55 @@ def trace_all(
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 
 
+def trace_cycles(
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, intervals=20, degree=5,
+    orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+):
+    """Trace the cycles of u' = f(u, p), by collocation.
+
+    Parameters
+    ----------
+    problem, u0, p0, parameter, range, progress
+        As `trace` takes them: a flow of a few unknowns, smooth.
+    settle : float, optional
+        Begin with the cycle that the motion from u0 has come to after this time; else with those that leave the Hopf
+        points of the equilibria next to u0.
+    intervals, degree : int
+        Of the polynomials on which orbits are held to begin with.
+    orbit_tolerance : float
+        On the error of orbits, relative to how far their unknowns go: there are twice as many intervals where it asks.
+    doublings : int
+        How often doubled periods are followed.
+    max_branches : int
+    functions : dict, optional
+        Parts of a `Problem` beside f.
+    **options
+        `tolerance`, `max_step`, `min_step`, `max_points`, `max_seconds`, `stop_at`, as `trace` takes them.
+
+    Returns
+    -------
+    list of Branch
+        Of cycles alone, each once, with all that they meet at branch points and period doublings. Columns are T, the
+        largest and smallest value of each unknown and the norm; `Branch.orbit` has the orbit itself.
+    """
+    if not isinstance(problem, Problem):
+        functions = {"equilibrium": True, **(functions or {})}
+    problem = _problem(problem, functions or {})
+    u0, p0 = problem._begin(u0, p0, parameter, range[0])
+    prepared = Prepared(problem, u0, p0, parameter, 0)
+    options["parameter"] = prepared.parameter
+    how, options["range"] = _way(prepared, range)
+    orbits = {
+        "intervals": intervals,
+        "degree": degree,
+        "orbit_tolerance": orbit_tolerance,
+        "doublings": doublings,
+        "max_branches": max_branches,
+    }
+    cores = _core.trace_cycles(prepared.core, prepared.u0, prepared.p0, how, settle, orbits, options, progress)
+    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
 def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, parameter=None, **functions):
     """All solutions at fixed parameters that deflated Newton iterations find.
 

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "arcslip/continuation/path/interpolation.hpp"
 #include "arcslip/continuation/path/polyline.hpp"
 #include "results/branch_columns.hpp"
@@ -108,6 +109,23 @@ py::list labels(const BranchHandle& handle) {
 py::list eigenvalues(const BranchHandle& handle) {
   py::list all;
   for (const BranchPoint& point : handle.branch().points) all.append(give(point.eigenvalues));
+  return all;
+}
+
+/// t and all unknowns by name, on the nodes of a cycle's mesh.
+py::dict orbit(const BranchHandle& handle, std::size_t i) {
+  const auto* cycles = dynamic_cast<const continuation::CycleProblem*>(handle.traced().base.problem.get());
+  if (cycles == nullptr || handle.traced().curve) throw py::value_error("orbit: only of branches of cycles");
+  const BranchPoint& point = handle.point(i);
+  const continuation::OrbitMesh& mesh = cycles->frame(point.regime).mesh;
+  const double duration = cycles->duration(point.unknowns, point.parameters);
+  Vector times(mesh.nodes());
+  for (Index node = 0; node < mesh.nodes(); ++node) times(node) = duration * mesh.place(node);
+  py::dict all;
+  all["t"] = give(std::move(times));
+  const std::vector<std::string> names = cycles->field().names();
+  for (std::size_t k = 0; k < names.size(); ++k)
+    all[names[k].c_str()] = give(Vector(cycles->orbit(point.unknowns).row(static_cast<Index>(k))));
   return all;
 }
 
@@ -235,6 +253,7 @@ void bind_branch(py::module_& module) {
       .def("labels", labels)
       .def("eigenvalues", eigenvalues)
       .def("work", work_of)
+      .def("orbit", orbit)
       .def("sample",
            [](const BranchHandle& self, std::size_t count) {
              if (count < 2) throw py::value_error("n: expected at least 2");

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "arcslip/continuation/curves/curve.hpp"
+#include "arcslip/continuation/cycles/settled_cycle.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "python/binding/formulas.hpp"
@@ -130,6 +131,47 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   for (const Branch& branch : branches) {
     TracedBranch traced = traced_of(problem, options, branch);
     traced.seconds = seconds.count() / static_cast<double>(branches.size());
+    handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
+  }
+  return handles;
+}
+
+continuation::CycleOptions cycle_options(const py::dict& given) {
+  continuation::CycleOptions options;
+  options.intervals = given["intervals"].cast<Index>();
+  options.degree = given["degree"].cast<int>();
+  options.tolerance = given["orbit_tolerance"].cast<double>();
+  options.doublings = given["doublings"].cast<int>();
+  options.max_branches = given["max_branches"].cast<std::size_t>();
+  return options;
+}
+
+/// Of the equilibria next to a guess, or of what the motion from there settles on.
+Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::handle& u, const py::handle& p,
+                     const std::string& how, const std::optional<double>& settle, const py::dict& orbits,
+                     const py::dict& given, const py::object& progress) {
+  TraceOptions options;
+  set_options(given, problem, options);
+  const continuation::CycleOptions cycles = cycle_options(orbits);
+  const Guess guess = guess_of(*problem, u, p, py::int_(0));
+  const auto field = std::make_shared<continuation::EquilibriumField>(problem);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto found = unlocked(options, progress, [&](const auto& observer) {
+    if (!settle) {
+      const Branch equilibria = traced_by(how, *problem, guess, {}, options, observer).front();
+      return continuation::trace_cycles_leaving(field, {equilibria}, options, cycles, observer);
+    }
+    continuation::CycleStart start =
+        continuation::settled_cycle(field, guess.unknowns, guess.parameters, *settle, cycles, options.go_on);
+    start.both_ways = how == "both";
+    return continuation::trace_connected_cycles(start, options, cycles, observer);
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun;
+  Handles handles;
+  for (const continuation::CycleBranch& one : found) {
+    TracedBranch traced = traced_of(problem, options, one.branch);
+    traced.base.problem = one.problem;
+    traced.seconds = seconds.count() / static_cast<double>(found.size());
     handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }
   return handles;
@@ -332,6 +374,7 @@ void bind_trace(py::module_& module) {
                if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
                return trace(problem, u, p, regime, how, box, check, options, progress);
              });
+  module.def("trace_cycles", trace_cycles);
   module.def("solve_all",
              [](const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
                 const py::object& p, const py::object& regime, const py::object& lower,
