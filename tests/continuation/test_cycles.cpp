@@ -213,7 +213,7 @@ TEST_CASE("Lorenz' cycles end on his homoclinic orbit", "[cycles]") {
       cycles_of(lorenz(), Eigen::Vector3d(4.9, 4.9, 9), Eigen::Vector3d(10, 8.0 / 3, 10), options);
   REQUIRE(all.size() == 1);
   const Branch& branch = all[0].branch;
-  CHECK(branch.stop == Stop::asymptotic);
+  CHECK(branch.stop == Stop::left_regime);
   const BranchPoint& last = branch.points.back();
   // [Sparrow, The Lorenz Equations, Springer 1982: 13.926]; by shooting along the unstable manifold
   CHECK_THAT(last.parameters(0), Catch::Matchers::WithinAbs(13.926557407, 2e-8));
