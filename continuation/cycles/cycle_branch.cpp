@@ -198,7 +198,7 @@ Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& 
   }
   kind.tell(branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
-    branch.stop = Stop::asymptotic;
+    branch.stop = Stop::left_regime;
     branch.explanation = growth.told();
     branch.checkpoint.reset();
   }

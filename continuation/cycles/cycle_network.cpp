@@ -35,10 +35,12 @@ class CycleNetwork {
   }
 
   void leave_hopf(const BranchPoint& hopf) {
-    CycleStart start = cycle_from_hopf(field_, {hopf.unknowns, hopf.parameters, hopf.regime}, cycles_);
-    const double period = start.guess.unknowns.tail(1)(0);
-    if (is_reached(hopf.parameters, period)) return;
-    follow(start, 0);
+    const Guess at{hopf.unknowns, hopf.parameters, hopf.regime};
+    for (const CycleStart& start : cycles_from_hopf(field_, at, cycles_)) {
+      const double period = start.guess.unknowns.tail(1)(0);
+      if (!may_go_on() || is_reached(hopf.parameters, period)) continue;
+      follow(start, 0);
+    }
   }
 
   void begin(const CycleStart& start) { follow(start, 0); }

@@ -1,5 +1,6 @@
 // Where branches of cycles begin.
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,9 +18,33 @@ namespace {
 constexpr double first = 1e-3;
 constexpr double shape = 1e-2;
 
+// How far from the imaginary axis, relative to the largest eigenvalue, one is at a Hopf point.
+constexpr double located = 1e-8;
+
 /// A change of an orbit, as large as the scale.
 Matrix in_units(const Matrix& change, const Vector& scale) {
   return change / change.cwiseQuotient(scale.replicate(1, change.cols())).cwiseAbs().maxCoeff();
+}
+
+/// The cycle that leaves an equilibrium with the motion of an eigenvector q.
+CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& hopf, const ComplexVector& q,
+                       double omega, const CycleOptions& options) {
+  const Index n = field->size();
+  Vector scale(n);
+  Vector unused(hopf.parameters.size());
+  field->scale(hopf.unknowns, hopf.parameters, scale, unused);
+  const OrbitMesh mesh(CollocationRule(options.degree), options.intervals);
+  Matrix motion(n, mesh.nodes());
+  for (Index node = 0; node < mesh.nodes(); ++node)
+    motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
+  motion.rightCols(1) = motion.col(0);
+  motion = in_units(motion, scale);
+  const Matrix still = hopf.unknowns.replicate(1, mesh.nodes());
+  CycleStart start = cycle_from_orbit(field, mesh, still + shape * motion, two_pi / omega, hopf.parameters);
+  start.guess.unknowns.head(still.size()) = (still + first * motion).reshaped();
+  start.guess.direction.setZero(start.guess.unknowns.size() + 1);
+  start.guess.direction.head(motion.size()) = motion.reshaped();
+  return start;
 }
 
 }  // namespace
@@ -34,37 +59,28 @@ CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh&
   return start;
 }
 
-CycleStart cycle_from_hopf(std::shared_ptr<const Field> field, const Guess& hopf,
-                           const CycleOptions& options) {
+std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
+                                         const CycleOptions& options) {
   const Index n = field->size();
   Matrix jacobian(n, n);
   if (field->is_periodic() || !field->evaluate(0, hopf.unknowns, hopf.parameters, {nullptr, &jacobian}))
-    throw std::invalid_argument("cycle_from_hopf: no equilibrium");
+    throw std::invalid_argument("cycles_from_hopf: no equilibrium");
   ComplexMatrix vectors;
   const ComplexVector values = eigenvalues(jacobian, &vectors);
-  Index best = -1;
+  std::vector<Index> pairs;
   for (Index i = 0; i < n; ++i) {
-    if (values(i).imag() > 0 && (best < 0 || std::abs(values(i).real()) < std::abs(values(best).real())))
-      best = i;
+    if (values(i).imag() > 0) pairs.push_back(i);
   }
-  if (best < 0) throw std::invalid_argument("cycle_from_hopf: no pair of eigenvalues is complex");
-  Vector scale(n);
-  Vector unused(hopf.parameters.size());
-  field->scale(hopf.unknowns, hopf.parameters, scale, unused);
-  const ComplexVector q = vectors.col(best);
-  const OrbitMesh mesh(CollocationRule(options.degree), options.intervals);
-  Matrix motion(n, mesh.nodes());
-  for (Index node = 0; node < mesh.nodes(); ++node)
-    motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
-  motion.rightCols(1) = motion.col(0);
-  motion = in_units(motion, scale);
-  const Matrix still = hopf.unknowns.replicate(1, mesh.nodes());
-  CycleStart start = cycle_from_orbit(std::move(field), mesh, still + shape * motion,
-                                      two_pi / values(best).imag(), hopf.parameters);
-  start.guess.unknowns.head(still.size()) = (still + first * motion).reshaped();
-  start.guess.direction.setZero(start.guess.unknowns.size() + 1);
-  start.guess.direction.head(motion.size()) = motion.reshaped();
-  return start;
+  if (pairs.empty()) throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");
+  const auto off_axis = [&](Index i) { return std::abs(values(i).real()); };
+  std::sort(pairs.begin(), pairs.end(), [&](Index i, Index j) { return off_axis(i) < off_axis(j); });
+  const double on_axis = off_axis(pairs.front()) + located * values.cwiseAbs().maxCoeff();
+  std::vector<CycleStart> starts;
+  for (const Index i : pairs) {
+    if (off_axis(i) <= on_axis)
+      starts.push_back(small_cycle(field, hopf, vectors.col(i), values(i).imag(), options));
+  }
+  return starts;
 }
 
 std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,

@@ -1,9 +1,48 @@
-"""Cycles of problems written in Python or as formulas."""
+"""Cycles from Python: arcslip.trace_cycles and Branch.orbit."""
 
 import numpy as np
 import pytest
 
 import arcslip
+
+
+def hopf_normal_form(u, p):
+    x, y = u
+    return np.array([p * x - (1 + p) * y - x * (x**2 + y**2), (1 + p) * x + p * y - y * (x**2 + y**2)])
+
+
+def test_cycles_of_a_function_are_its_circles():
+    (branch,) = arcslip.trace_cycles(hopf_normal_form, np.zeros(2), -0.5, "mu", range=(-0.5, 2))
+    assert branch.complete
+    assert np.abs(branch["T"] * (1 + branch["mu"]) - 2 * np.pi).max() < 1e-7
+    assert np.abs(branch["norm"] - np.sqrt(branch["mu"])).max() < 1e-7
+    orbit = branch.orbit(-1)
+    assert orbit["t"][0] == 0 and orbit["t"][-1] == pytest.approx(branch["T"][-1], rel=1e-14)
+    assert np.abs(orbit["u0"] ** 2 + orbit["u1"] ** 2 - 2).max() < 1e-5
+    with pytest.raises(IndexError):
+        branch.orbit(len(branch))
+
+
+def test_a_model_settles_and_its_period_doubles():
+    model = arcslip.Model(
+        equations={"x": "-y - z", "y": "x + a*y", "z": "b + z*(x - c)"},
+        parameters={"c": 2.5, "a": 0.2, "b": 0.2},
+        start={"x": 1, "y": 1},
+    )
+    branches = arcslip.trace_cycles(model, parameter="c", range=(2.5, 4), settle=400, doublings=1)
+    doubled = [point for branch in branches for point in branch.special if point["type"] == "period_doubling"]
+    assert [point["c"] for point in doubled] == pytest.approx([2.832445, 3.837358], abs=1e-6)
+    orbit = branches[0].orbit(doubled[0])
+    assert set(orbit) == {"t", "x", "y", "z"} and orbit["x"].max() == pytest.approx(doubled[0]["x_max"], rel=1e-3)
+
+
+def test_what_is_no_cycle_is_refused():
+    rest = arcslip.Model(equations={"x": "y", "y": "-x - d*y"}, parameters={"d": 1}, start={"x": 1})
+    with pytest.raises(ValueError, match="come to rest"):
+        arcslip.trace_cycles(rest, range=(1, 2), settle=60)
+    with pytest.raises(ValueError, match="only of branches of cycles"):
+        arcslip.trace(rest, range=(1, 2)).orbit(0)
+    assert arcslip.trace_cycles(rest, range=(1, 2)) == []
 
 
 def normal_form(u, p):
@@ -12,7 +51,7 @@ def normal_form(u, p):
     return np.array([p["mu"] * u[0] - turn * u[1] - u[0] * square, turn * u[0] + p["mu"] * u[1] - u[1] * square])
 
 
-def test_cycles_of_a_function_leave_its_hopf_point():
+def test_multipliers_of_a_function_cycles():
     (branch,) = arcslip.trace_cycles(
         normal_form, [0.0, 0.0], {"mu": -0.5}, range=(-0.5, 1), functions={"equilibrium": True, "unknowns": ["x", "y"]}
     )
@@ -25,21 +64,6 @@ def test_cycles_of_a_function_leave_its_hopf_point():
     orbit = branch.orbit(last)
     np.testing.assert_allclose(np.hypot(orbit["x"], orbit["y"]), 1, atol=1e-7)
     assert orbit["t"][-1] == branch["T"][last]
-
-
-def test_cycles_of_formulas_double_their_periods():
-    model = arcslip.Model(
-        equations={"x": "-y - z", "y": "x + a*y", "z": "b + z*(x - c)"},
-        parameters={"a": 0.2, "b": 0.2, "c": 2},
-        start={"x": 1},
-    )
-    branches = arcslip.trace_cycles(model, parameter="c", range=(2, 4), settle=300)
-    doublings = [point["c"] for branch in branches for point in branch.special if point["type"] == "period_doubling"]
-    assert doublings[0] == pytest.approx(2.832445, abs=2e-6)
-    assert doublings[1] == pytest.approx(3.837358, abs=2e-6)
-    first = next(point for point in branches[0].special if point["type"] == "period_doubling")
-    curve = branches[0].continue_in_two(first, "a", (0.2, 0.22), window=(0, 10))
-    assert curve.complete
 
 
 def test_a_forced_oscillator_is_as_its_formula_says():

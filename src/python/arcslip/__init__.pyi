@@ -76,6 +76,24 @@ def trace_all(
     functions: Mapping[str, Any] | None = None,
     **options: Any,
 ) -> list[Branch]: ...
+def trace_cycles(
+    problem: _Function | Problem,
+    u0: ArrayLike | None = None,
+    p0: _Parameters | None = None,
+    parameter: str | None = None,
+    range: tuple[float, float] = (0.0, 1.0),
+    *,
+    settle: float | None = None,
+    follow: bool = True,
+    intervals: int = 20,
+    degree: int = 5,
+    orbit_tolerance: float = 1e-6,
+    doublings: int = 3,
+    max_branches: int = 50,
+    progress: _Progress | None = None,
+    functions: Mapping[str, Any] | None = None,
+    **options: Any,
+) -> list[Branch]: ...
 def solve_all(
     problem: _Function | Problem,
     u0: ArrayLike | list[ArrayLike] | None = None,
@@ -210,6 +228,8 @@ class Branch(_Columns):
     def work(self) -> dict[str, int]: ...
     @property
     def checkpoint(self) -> str | None: ...
+    def orbit(self, point: int | Mapping[str, Any]) -> dict[str, _Array]: ...
+    def multipliers(self, point: int | Mapping[str, Any]) -> _Array: ...
     def sample(self, n: int = 1000) -> Sample: ...
     def where(self, value: float) -> Sample: ...
     def curve(self) -> dict[str, _Array]: ...

@@ -158,6 +158,36 @@ class Branch(_Columns):
         """From where the branch goes on, as text for `trace(checkpoint=...)`; None if there is nothing further."""
         return self._core.checkpoint
 
+    def orbit(self, point):
+        """The cycle at a point of a branch of cycles, one period of it.
+
+        Parameters
+        ----------
+        point : int or dict
+            Its row, or one of `special`.
+
+        Returns
+        -------
+        dict of numpy.ndarray
+            "t" from 0 to T and the unknowns by name, at the nodes of the mesh.
+        """
+        times, values, names = _core.orbit_of(self._core, self._row(point))
+        return {"t": times, **{name: values[:, i] for i, name in enumerate(names)}}
+
+    def multipliers(self, point):
+        """The Floquet multipliers of a cycle, without that of its own velocity, complex, shape (n - 1,) or (n,).
+
+        Parameters
+        ----------
+        point : int or dict
+            Its row, or one of `special`.
+        """
+        return np.exp(_core.log_multipliers_of(self._core, self._row(point)))
+
+    def _row(self, point):
+        i = point["point"] if isinstance(point, dict) else int(point)
+        return i + len(self) if i < 0 else i
+
     def sample(self, n=1000):
         """Points at equal distances of arclength, between those of the branch.
 
@@ -187,27 +217,6 @@ class Branch(_Columns):
         Sample
         """
         return Sample(self._core.where(value))
-
-    def orbit(self, point):
-        """Of a branch of cycles one of them, a dict of arrays: the time "t" over one period, and each unknown by name.
-
-        Parameters
-        ----------
-        point : int
-            Its row.
-        """
-        times, values, names = _core.orbit_of(self._core, point)
-        return {"t": times, **{name: values[:, i] for i, name in enumerate(names)}}
-
-    def multipliers(self, point):
-        """The Floquet multipliers of a cycle, without that of its own velocity, complex, shape (n - 1,) or (n,).
-
-        Parameters
-        ----------
-        point : int
-            Its row.
-        """
-        return np.exp(_core.log_multipliers_of(self._core, point))
 
     def curve(self):
         """The columns as they are drawn, dense where the branch bends: those of curves.csv, a dict of arrays."""

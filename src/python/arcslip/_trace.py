@@ -154,7 +154,7 @@ def trace_all(
 
 def trace_cycles(
     problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, follow=True, intervals=20, degree=5,
-    accuracy=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+    orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
 ):
     """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
 
@@ -171,9 +171,9 @@ def trace_cycles(
     follow : bool
         Follow what is met at branch points and period doublings as well.
     intervals, degree : int
-        On how many intervals orbits are held to begin with, twice as many where `accuracy` asks for it, and by
+        On how many intervals orbits are held to begin with, twice as many where `orbit_tolerance` asks for it, and by
         polynomials of which degree, 2 to 7.
-    accuracy : float
+    orbit_tolerance : float
         Of orbits between the ends of intervals, relative to how far unknowns go.
     doublings, max_branches : int
         How often a doubled period is followed, and how many branches.
@@ -185,6 +185,8 @@ def trace_cycles(
     list of Branch
         With the columns "T", and "x_max", "x_min" of each unknown x; see `Branch.orbit`, `Branch.multipliers`.
     """
+    if not isinstance(problem, Problem):
+        functions = {"equilibrium": True, **(functions or {})}
     problem = _problem(problem, functions or {})
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, 0)
@@ -198,7 +200,7 @@ def trace_cycles(
     held = {
         "intervals": int(intervals),
         "degree": int(degree),
-        "tolerance": float(accuracy),
+        "tolerance": float(orbit_tolerance),
         "doublings": int(doublings),
         "max_branches": int(max_branches),
     }

@@ -24,10 +24,11 @@ struct CycleStart {
   bool both_ways = false;  ///< along a direction and against it, or to both ends of the range
 };
 
-/// The cycles that leave a Hopf point of the field's equilibria.  Throws std::invalid_argument where no pair
-/// of eigenvalues is near the imaginary axis.
-CycleStart cycle_from_hopf(std::shared_ptr<const Field> field, const Guess& hopf,
-                           const CycleOptions& options = {});
+/// The cycles that leave a Hopf point of the field's equilibria: those of the pair of eigenvalues that is
+/// nearest to the imaginary axis, then of others that are on it as well.  Throws std::invalid_argument where
+/// no pair is complex.
+std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
+                                         const CycleOptions& options = {});
 
 /// The cycles of twice the period that leave a period doubling; none where it is not located.
 std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,

@@ -1,0 +1,152 @@
+// Cycles where several things meet, and what is refused.
+
+#include "cycle_cases.hpp"
+
+namespace {
+
+using namespace arcslip;
+using namespace arcslip::testing;
+
+/// x' = g x - turn y, y' = turn x + g y: cycles are the circles on which g(x^2 + y^2, mu) vanishes.
+std::string circles(const std::string& g, const std::string& turn, const std::string& rest) {
+  return "[model.parameters]\nmu = 0\n[model.definitions]\ns = \"x^2 + y^2\"\ng = \"" + g + "\"\nturn = \"" +
+         turn + "\"\n[model.equations]\nx = \"g*x - turn*y\"\ny = \"turn*x + g*y\"\n" + rest;
+}
+
+}  // namespace
+
+TEST_CASE("A branch of cycles between two Hopf points is traced once", "[cycles]") {
+  const auto all = traced_of(circles(
+      "0.25 - mu^2 - s", "1 + mu", "[branch]\nparameter = \"mu\"\nfrom = -0.9\nto = 1\nswitching = true\n"));
+  CHECK(all_values_at(all, PointType::hopf, "mu").size() == 2);
+  const auto found = cycles_of(all);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].branch.stop == Stop::left_regime);
+  CHECK_THAT(found[0].branch.points.back().parameters(0), WithinAbs(0.5, 1e-8));
+  for (const BranchPoint& point : found[0].branch.points) {
+    const double mu = point.parameters(0);
+    CHECK_THAT(value(found[0], point, "norm"), WithinAbs(std::sqrt(std::max(0.0, 0.25 - mu * mu)), 1e-7));
+  }
+}
+
+TEST_CASE("Cycles that leave no equilibrium are a closed branch", "[cycles]") {
+  const auto all = traced_of(circles("0.25 - mu^2 - (s - 1)^2", "1",
+                                     "[model.start]\nx = 1.3\n[cycles]\nsettle = 60\n[branch]\n"
+                                     "parameter = \"mu\"\nfrom = -1\nto = 1\nstart = 0\n"));
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::closed_loop);
+  check_values(all_values_at(all, PointType::fold, "mu"), {-0.5, 0.5}, 1e-9);
+}
+
+TEST_CASE("Cycles leave a Hopf point that lies a millionth from a fold", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model.parameters]
+mu = 1
+[model.equations]
+x = "(z - 0.001 - x^2 - y^2)*x - y"
+y = "x + (z - 0.001 - x^2 - y^2)*y"
+z = "mu - z^2"
+[model.start]
+z = "-sqrt(mu)"
+[branch]
+parameter = "mu"
+from = 1
+to = -1
+switching = true
+)case");
+  check_values(all_values_at(all, PointType::fold, "mu"), {0}, 1e-12);
+  check_values(all_values_at(all, PointType::hopf, "mu"), {1e-6}, 1e-12);
+  const auto found = cycles_of(all);
+  REQUIRE(found.size() == 1);
+  for (const BranchPoint& point : found[0].branch.points) {
+    const double z = std::sqrt(point.parameters(0));
+    CHECK_THAT(value(found[0], point, "norm"), WithinAbs(std::hypot(z, std::sqrt(z - 0.001)), 1e-7));
+  }
+}
+
+TEST_CASE("Two pairs of eigenvalues cross at one point, and cycles of both leave it", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model.parameters]
+mu = -0.5
+[model.definitions]
+s = "x^2 + y^2"
+q = "z^2 + w^2"
+[model.equations]
+x = "(mu - s - 2*q)*x - y"
+y = "x + (mu - s - 2*q)*y"
+z = "(mu - q - 2*s)*z - sqrt(2)*w"
+w = "sqrt(2)*z + (mu - q - 2*s)*w"
+[branch]
+parameter = "mu"
+from = -0.5
+to = 1
+switching = true
+)case");
+  const auto found = cycles_of(all);
+  REQUIRE(found.size() == 2);
+  std::vector<double> periods;
+  for (const TracedBranch& one : found) {
+    CHECK(one.branch.stop == Stop::reached_end);
+    periods.push_back(value(one, one.branch.points.back(), "T"));
+    for (const BranchPoint& point : one.branch.points)
+      CHECK_THAT(value(one, point, "norm"), WithinAbs(std::sqrt(point.parameters(0)), 1e-7));
+  }
+  std::sort(periods.begin(), periods.end());
+  check_values(periods, {2 * pi / std::sqrt(2.0), 2 * pi}, 1e-9);
+}
+
+TEST_CASE("A period doubles a millionth from where cycles turn back", "[cycles]") {
+  // Circles with s = 1 +- sqrt(mu), beside a direction that turns by half a round with each: its multiplier
+  // is -e^(2 pi (c + s - 1)).
+  const auto all = traced_of(R"case(
+[model.parameters]
+mu = 0.2
+c = 0.001
+[model.definitions]
+s = "x^2 + y^2"
+C = "x/sqrt(s)"
+S = "y/sqrt(s)"
+a = "c + s - 1"
+g = "mu - (s - 1)^2"
+q = "z^2 + w^2"
+[model.equations]
+x = "g*x - y"
+y = "x + g*y"
+z = "(a - 1)/2*z + (a + 1)/2*(C*z + S*w) - w/2 - z*q"
+w = "(a - 1)/2*w + (a + 1)/2*(S*z - C*w) + z/2 - w*q"
+[model.start]
+x = 1.2
+[cycles]
+settle = 300
+doublings = 1
+[branch]
+parameter = "mu"
+from = 0.2
+to = -1
+switching = true
+)case");
+  REQUIRE(all.size() == 2);
+  check_values(values_at(all[0], PointType::fold, "mu"), {0}, 1e-10);
+  check_values(values_at(all[0], PointType::period_doubling, "mu"), {1e-6}, 1e-11);
+  CHECK_THAT(value(all[0], all[0].branch.points.front(), "T"), WithinAbs(2 * pi, 1e-8));
+  for (const BranchPoint& point : all[1].branch.points) {
+    CHECK_THAT(value(all[1], point, "T"), WithinAbs(4 * pi, 1e-6));
+  }
+}
+
+TEST_CASE("What asks for cycles where there are none is refused on one line", "[cycles]") {
+  const auto refusal = [](const std::string& equations, const std::string& start) {
+    const auto all =
+        traced_of("[model.parameters]\nmu = 1\n[model.equations]\n" + equations + "[model.start]\n" + start +
+                  "[cycles]\nsettle = 60\n[branch]\n" + "parameter = \"mu\"\nfrom = 1\nto = 2\n");
+    REQUIRE(all.size() == 1);
+    CHECK(all[0].branch.stop == Stop::no_start);
+    CHECK(all[0].branch.explanation.find('\n') == std::string::npos);
+    return all[0].branch.explanation;
+  };
+  CHECK_THAT(refusal("x = \"y\"\ny = \"-x - mu*y\"\n", "x = 1\n"), ContainsSubstring("has come to rest"));
+  CHECK_THAT(refusal("x = \"mu\"\ny = \"-y\"\n", "x = 1\n"), ContainsSubstring("does not come back"));
+  CHECK_THAT(refusal("x = \"mu*x^2\"\ny = \"-y\"\n", "x = 1\n"), ContainsSubstring("cannot be followed"));
+  CHECK_THAT(refusal("x = \"sqrt(-mu - x^2)\"\ny = \"-y\"\n", "x = 1\n"),
+             ContainsSubstring("cannot be followed"));
+}

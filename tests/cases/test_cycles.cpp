@@ -1,0 +1,235 @@
+// Cycles of case files: against closed forms, other methods, other programs and published numbers.
+
+#include "cycle_cases.hpp"
+
+namespace {
+
+using namespace arcslip;
+using namespace arcslip::testing;
+
+/// Another degree on a finer mesh than `degree = 5`, `intervals = 20` and `tolerance = 1e-6`.
+const Settings finer = {"cycles.degree=7", "cycles.intervals=80", "cycles.tolerance=1e-10"};
+
+/// AUTO's demonstrations have constants of single precision.
+const Settings enzyme_of_auto = {"model.parameters.alpha=0.20000000298023224",
+                                 "model.parameters.kappa=0.10000000149011612"};
+const Settings oscillator_of_auto = {
+    "model.parameters.gamma=-0.60000002384185791", "model.parameters.r=0.60000002384185791",
+    "model.parameters.a3=0.32857799530029297", "model.parameters.b3=0.93357801437377930"};
+
+const std::string mathieu = R"case(
+[model]
+kind = "forced"
+period = "pi"
+[model.parameters]
+a = 0
+q = 1
+d = 0
+[model.equations]
+x = "v"
+v = "-d*v - (a + q*cos(2*t))*x"
+[branch]
+parameter = "a"
+from = -1
+to = 5
+[continuation]
+branch_point_pairs = true
+)case";
+
+}  // namespace
+
+TEST_CASE("Special points of cycles are those that a finer mesh of another degree has", "[cycles][numbers]") {
+  struct Sought {
+    std::string file, parameter;
+    PointType type;
+    std::vector<double> published;
+    double digits;
+  };
+  // of duffing.toml by harmonic balance; AUTO-07p; published of Roessler's flow
+  const std::vector<Sought> all = {
+      {"tank_cycles", "p1", PointType::fold, {0.161696}, 1e-6},
+      {"roessler_cascade", "c", PointType::period_doubling, {2.832445, 3.837358}, 1e-6},
+      {"forced_duffing", "W", PointType::fold, {1.1157002516, 1.2696019548}, 1e-9},
+      {"oscillator_tori", "nu", PointType::neimark_sacker, {-0.59165022, -0.59165022}, 1e-7}};
+  for (const Sought& sought : all) {
+    INFO(sought.file);
+    const Run run(sought.file);
+    const Run fine(sought.file, finer);
+    const auto found = all_values_at(cycles_of(run.traced), sought.type, sought.parameter);
+    check_values(found, sought.published, sought.digits);
+    check_values(found, all_values_at(cycles_of(fine.traced), sought.type, sought.parameter), 1e-8);
+  }
+}
+
+TEST_CASE("An oscillator's cycles lose their symmetry and shed tori where AUTO-07p has it", "[cycles]") {
+  const Run run("oscillator_tori", oscillator_of_auto);
+  const auto all = cycles_of(run.traced);
+  REQUIRE(all.size() >= 2);
+  check_values(values_at(all[0], PointType::fold, "nu"), {-0.58433479733}, 1e-9);
+  check_values(values_at(all[0], PointType::branch_point, "nu"), {-0.587029027}, 1e-7);
+  check_values(values_at(all[1], PointType::period_doubling, "nu"), {-0.614955256, -0.614955256}, 1e-7);
+  check_values(values_at(all[1], PointType::neimark_sacker, "nu"), {-0.59165021575, -0.59165021575}, 1e-8);
+  for (const std::string unknown : {"x", "y", "z"}) {  // the two are images of each other
+    const auto largest = values_at(all[1], PointType::neimark_sacker, unknown + "_max");
+    const auto smallest = values_at(all[1], PointType::neimark_sacker, unknown + "_min");
+    REQUIRE(largest.size() == 2);
+    CHECK_THAT(largest[0], WithinAbs(-smallest[1], 1e-6));
+    CHECK_THAT(largest[1], WithinAbs(-smallest[0], 1e-6));
+  }
+}
+
+TEST_CASE("Lorenz' cycles at large rho double their periods where AUTO-07p has it", "[cycles][numbers]") {
+  const Run run("lorenz_doublings");
+  CHECK_THAT(values_at(run.traced.front(), PointType::branch_point, "rho").at(0), WithinAbs(312.97, 5e-3));
+  check_values(all_values_at(run.traced, PointType::period_doubling, "rho"),
+               {215.96593063, 215.96593063, 218.21012776, 218.21012776, 229.40670856, 229.40670856}, 1e-9);
+}
+
+TEST_CASE("Folds of cycles over two parameters pass those of AUTO-07p", "[cycles]") {
+  const Run run("enzyme_cycle_folds", enzyme_of_auto);
+  REQUIRE(run.traced.size() == 2);
+  check_values(all_values_at(run.traced, PointType::start, "rho"), {2.7596872229, 5.0078403972}, 1e-9);
+  // AUTO's s0 are 109 and 111 to 2e-7; those of s0 = 111 are the folds of a closed branch
+  const auto ends = all_values_at(run.traced, PointType::end, "rho");
+  check_values(ends, {2.582642451, 2.9862945702, 4.7221259912, 5.2433220475}, 2e-7);
+  const auto isola = traced_of(R"case(
+[model.parameters]
+rho = 4
+[model.definitions]
+rate = "rho*s*a/(1 + s + 0.10000000149011612*s^2)"
+[model.equations]
+s = "111 - s - rate"
+a = "0.20000000298023224*(500 - a) - rate"
+[model.start]
+s = 30
+a = 90
+[cycles]
+settle = 400
+[branch]
+parameter = "rho"
+from = 2
+to = 6
+start = 4
+)case");
+  REQUIRE(isola.size() == 1);
+  CHECK(isola[0].branch.stop == Stop::closed_loop);
+  check_values(all_values_at(isola, PointType::fold, "rho"), {ends[1], ends[2]}, 1e-8);
+}
+
+TEST_CASE("Cycles end on orbits between equilibria, at a parameter that is told", "[cycles]") {
+  const Run lorenz("lorenz_cycles");
+  const auto homoclinic = cycles_of(lorenz.traced);
+  REQUIRE(homoclinic.size() == 1);
+  CHECK(homoclinic[0].branch.stop == Stop::left_regime);
+  CHECK_THAT(homoclinic[0].branch.points.back().parameters(0), WithinAbs(13.926557407, 2e-8));
+  const Run predator("predator_cycles");
+  const auto saddles = cycles_of(predator.traced);
+  REQUIRE(saddles.size() == 1);
+  CHECK(saddles[0].branch.stop == Stop::left_regime);
+  // between the saddles (1, 0) and (0, 0); AUTO-07p's cycle of T = 36 lies at 0.707941
+  CHECK_THAT(saddles[0].branch.points.back().parameters(0), WithinAbs(0.70807, 5e-5));
+}
+
+TEST_CASE("Duffing's oscillator in time is that of fifteen harmonics", "[cycles]") {
+  const Run time("forced_duffing");
+  const Run harmonics("duffing", {"system.harmonics=15"});
+  const TracedBranch& found = time.traced.front();
+  const auto folds = values_at(harmonics.traced.front(), PointType::fold, "W");
+  check_values(values_at(found, PointType::fold, "W"), folds, 1e-9);
+  for (const BranchPoint& point : found.branch.points) {
+    const double w = point.parameters(0);
+    CHECK_THAT(value(found, point, "T"), WithinRel(2 * pi / w, 1e-13));
+  }
+}
+
+TEST_CASE("Multipliers of forced linear systems are known exactly", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "forced"
+period = "2*pi/w"
+[model.parameters]
+w = 0.7
+z = 0.1
+[model.equations]
+x = "v"
+v = "cos(w*t) - 2*z*v - x"
+r = "(sin(w*t) - 0.3)*r + x"
+[branch]
+parameter = "w"
+from = 0.7
+to = 1.5
+)case",
+                             finer);
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::reached_end);
+  for (const BranchPoint& point : all[0].branch.points) {
+    const double period = 2 * pi / point.parameters(0);
+    const ComplexVector found =
+        cycles(all[0])->log_multipliers(point.unknowns, point.parameters, point.regime);
+    REQUIRE(found.size() == 3);
+    const double turn = std::remainder(std::sqrt(1 - 0.01) * period, 2 * pi);
+    for (const Complex& wanted :
+         {Complex(-0.1 * period, turn), Complex(-0.1 * period, -turn), Complex(-0.3 * period, 0)}) {
+      INFO(point.parameters(0) << ": " << wanted);
+      CHECK((found.array() - wanted).abs().minCoeff() < 1e-10);
+    }
+    CHECK(point.unstable == 0);
+  }
+}
+
+TEST_CASE("Tongues of Mathieu's equation begin and end at its characteristic values", "[cycles]") {
+  // x'' + (a + q cos 2t) x = 0 at q = 1: a_0, a_2 and b_2, with multipliers 1, b_1 and a_1, with -1, of
+  // scipy.special.mathieu_a(m, 0.5) and mathieu_b(m, 0.5)
+  const auto all = traced_of(mathieu);
+  REQUIRE(all.size() == 1);
+  check_values(values_at(all[0], PointType::branch_point, "a"),
+               {-0.1217655449411, 3.979189215751, 4.10090059556}, 1e-8);
+  check_values(values_at(all[0], PointType::period_doubling, "a"), {0.4706543549338, 1.466766842516}, 1e-8);
+}
+
+TEST_CASE("Van der Pol's period is known to mu = 10000", "[cycles][numbers]") {
+  const auto all = traced_of(R"case(
+[model.parameters]
+mu = 1
+[model.equations]
+x = "y"
+y = "mu*(1 - x^2)*y - x"
+[model.start]
+x = 2
+[cycles]
+settle = 40
+[branch]
+parameter = "mu"
+from = 1
+to = 1e4
+[continuation]
+stop_at = [10, 100, 1000]
+)case");
+  REQUIRE(all.size() == 1);
+  const auto period = [&](const BranchPoint& point) { return value(all[0], point, "T"); };
+  const auto& branch = all[0].branch.points;
+  // by Taylor series of order 32 in 33 digits
+  CHECK_THAT(period(branch.front()), WithinRel(6.6632868593231301, 1e-9));
+  const std::vector<double> exact = {19.0783695669390140704, 162.837071092370012132, 1614.40112580833398307};
+  const auto there = points(all[0], PointType::user);
+  REQUIRE(there.size() == exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) CHECK_THAT(period(there[i]), WithinRel(exact[i], 1e-8));
+  // T = (3 - 2 ln 2) mu + 3 alpha mu^(-1/3) + O(ln(mu)/mu), -alpha the first zero of Airy's function
+  CHECK(all[0].branch.stop == Stop::reached_end);
+  const double mu = 1e4;
+  CHECK_THAT(period(branch.back()),
+             WithinAbs((3 - 2 * std::log(2.0)) * mu + 3 * 2.338107410459767 / std::cbrt(mu), 1e-3));
+}
+
+TEST_CASE("Mistakes in what is asked of cycles are told with their place", "[cycles]") {
+  const std::string text = mathieu + "[cycles]\ndegree = 5\n";
+  const std::vector<Mistake> mistakes = {
+      {"degree = 5", "degree = 8", ":19:10: ", "cycles.degree: ", "integer >= 2 and <= 7", "got 8"},
+      {"degree = 5", "intervals = 3", ":19:13: ", "cycles.intervals: ", "integer >= 4", "got 3"},
+      {"degree = 5", "tolerance = 0", ":19:13: ", "cycles.tolerance: ", "number > 0", "got 0"},
+      {"degree = 5", "settle = -1", ":19:10: ", "cycles.settle: ", "number > 0", "got -1"},
+      {"degree = 5", "order = 5", ":19:9: ", "cycles", "order", ""},
+      {"period = \"pi\"", "", ":2:1: ", "model.period: ", "expected a formula", "missing"},
+      {"kind = \"forced\"", "kind = \"flow\"", ":4:10: ", "model.period: ", "only of kind = \"forced\"", ""}};
+  for (const Mistake& mistake : mistakes) case_texts::check_refused(text, mistake);
+}

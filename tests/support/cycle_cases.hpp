@@ -1,0 +1,57 @@
+#pragma once
+
+// Cycles that case files ask for, and their special points.
+
+#include <algorithm>
+#include <cmath>
+
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "case_runs.hpp"
+#include "case_texts.hpp"
+
+namespace arcslip::testing {
+
+using continuation::CycleProblem;
+
+inline const CycleProblem* cycles(const TracedBranch& traced) {
+  return dynamic_cast<const CycleProblem*>(traced.base.problem.get());
+}
+
+inline std::vector<TracedBranch> traced_of(const std::string& text, const Settings& settings = {}) {
+  std::vector<TracedBranch> all;
+  for (const CaseBranch& request : case_texts::read_text(text, settings).branches) {
+    for (TracedBranch& one : trace(request)) all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// Branches of cycles alone.
+inline std::vector<TracedBranch> cycles_of(std::vector<TracedBranch> all) {
+  std::erase_if(all, [](const TracedBranch& one) { return cycles(one) == nullptr; });
+  return all;
+}
+
+inline std::vector<double> values_at(const TracedBranch& traced, PointType type, const std::string& name) {
+  std::vector<double> values;
+  for (const BranchPoint& point : points(traced, type)) values.push_back(value(traced, point, name));
+  return values;
+}
+
+/// Those of all branches, ascending.
+inline std::vector<double> all_values_at(const std::vector<TracedBranch>& all, PointType type,
+                                         const std::string& name) {
+  std::vector<double> values;
+  for (const TracedBranch& one : all) {
+    for (const double found : values_at(one, type, name)) values.push_back(found);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+inline void check_values(const std::vector<double>& found, const std::vector<double>& wanted, double margin) {
+  REQUIRE(found.size() == wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    CHECK_THAT(found[i], WithinAbs(wanted[i], margin * std::max(1.0, std::abs(wanted[i]))));
+}
+
+}  // namespace arcslip::testing
