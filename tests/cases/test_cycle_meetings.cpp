@@ -150,3 +150,19 @@ TEST_CASE("What asks for cycles where there are none is refused on one line", "[
   CHECK_THAT(refusal("x = \"sqrt(-mu - x^2)\"\ny = \"-y\"\n", "x = 1\n"),
              ContainsSubstring("cannot be followed"));
 }
+
+TEST_CASE("Curves of folds and Hopf points are followed from where they meet", "[cycles]") {
+  // Each of both case files comes to all curves of the other; numbers of BifurcationKit.jl, lorenz84.jl
+  for (const char* file : {"lorenz84_fold_curve", "lorenz84_hopf_curve"}) {
+    INFO(file);
+    const Run run(file, {"branch.switching=true"});
+    REQUIRE(run.traced.size() == 3);
+    const auto at = [&](PointType type) { return all_values_at(run.traced, type, "F"); };
+    check_values(at(PointType::generalized_hopf), {2.37636009}, 1e-8);
+    CHECK(at(PointType::hopf_hopf).size() == 2);
+    for (const double F : at(PointType::hopf_hopf)) CHECK_THAT(F, WithinAbs(2.53322111, 1e-8));
+    for (const double F : at(PointType::zero_hopf)) CHECK_THAT(F, WithinAbs(1.283419296, 1e-8));
+    for (const double F : at(PointType::bogdanov_takens)) CHECK_THAT(F, WithinAbs(1.446716701, 1e-8));
+    for (const TracedBranch& one : run.traced) CHECK(one.branch.points.size() > 5);
+  }
+}

@@ -135,8 +135,10 @@ class Model(Problem):
         definitions: Mapping[str, str | float] | None = None,
         observables: Mapping[str, str | float] | None = None,
         *,
-        kind: Literal["flow", "map", "algebraic"] = "flow",
+        kind: Literal["flow", "forced", "map", "algebraic"] = "flow",
         iterate: int = 1,
+        period: str | float | None = None,
+        angles: Sequence[str] = (),
     ) -> None: ...
     def residual(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
     def jacobian(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
