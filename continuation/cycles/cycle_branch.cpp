@@ -103,13 +103,15 @@ class GrowthWatch {
 
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
+    constexpr double nearly =
+        1e-9;  // of the parameter: it nears its limit as fast as the period grows slowly
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
     Vector scale(point.parameters.size());
     problem_.scale(point.unknowns, point.parameters, unknowns, scale);
     const double value = point.parameters(parameter_);
     const double period = problem_.duration(point.unknowns, point.parameters);
-    const double same = options_.tolerances.same_value * scale(parameter_);
+    const double same = nearly * scale(parameter_);
     if (!(std::abs(value - value_) <= same) || period < period_) {
       value_ = value;
       period_ = period;

@@ -16,23 +16,28 @@ struct Mark {
   Vector observed;
 };
 
+/// What is looked for on cycles: extrema of what these have, whereas those of equilibria are others.
+TraceOptions of_cycles(const Field& field, const TraceOptions& given) {
+  TraceOptions options = unwatched(given);
+  std::vector<std::string> known{"T", "norm"};
+  for (const std::string& name : field.names()) known.insert(known.end(), {name + "_max", name + "_min"});
+  for (const std::string& name : given.extrema_of) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) options.extrema_of.push_back(name);
+  }
+  return options;
+}
+
 /// Follows cycles, each branch once.
 class CycleNetwork {
  public:
   CycleNetwork(std::shared_ptr<const Field> field, const TraceOptions& options, const CycleOptions& cycles,
                const Observer& observer)
       : field_(std::move(field)),
-        options_(unwatched(options)),
+        options_(of_cycles(*field_, options)),
         cycles_(cycles),
         observer_(observer),
         parameter_(index_of(field_->parameter_names(), options.parameter)),
-        time_(options_) {
-    std::vector<std::string> known{"T", "norm"};
-    for (const std::string& name : field_->names()) known.insert(known.end(), {name + "_max", name + "_min"});
-    for (const std::string& name : options.extrema_of) {  // those of equilibria are others
-      if (std::find(known.begin(), known.end(), name) != known.end()) options_.extrema_of.push_back(name);
-    }
-  }
+        time_(options_) {}
 
   void leave_hopf(const BranchPoint& hopf) {
     const Guess at{hopf.unknowns, hopf.parameters, hopf.regime};

@@ -175,6 +175,7 @@ void RunFiles::finish(double seconds, bool interrupted) {
   for (const char* name : {"/verify.csv", "/offsets.csv"}) {  // they belong to other branches
     if (!verification_) std::filesystem::remove(folder_ + name, ignored);
   }
+  std::erase_if(tables_, [](const PointTable& table) { return !table.has_header; });  // without a row
   for (const char* name : {sectors_name, orbits_name}) {
     const auto is_own = [&](const PointTable& table) { return table.file->path() == folder_ + name; };
     if (std::none_of(tables_.begin(), tables_.end(), is_own))

@@ -80,7 +80,7 @@ def test_a_map_doubles_its_period():
         ({"start": {"z": 1}}, r"^start\.z: there is no equation of this name$"),
         ({"observables": {"x": "y"}}, r"^observables\.x: equations\.x has this name already$"),
         ({"definitions": {"rate": "rate"}}, r"^definitions\.rate: is defined by itself: rate -> rate$"),
-        ({"kind": "flux"}, r"^kind: expected one of flow, map, algebraic"),
+        ({"kind": "flux"}, r"^kind: expected one of flow, forced, map, algebraic"),
         ({"iterate": 2}, r"^iterate: "),
         ({"equations": {"x": None}}, r"^equations\.x: expected a formula"),
     ],
