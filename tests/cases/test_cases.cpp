@@ -6,6 +6,7 @@
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
 
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "case_runs.hpp"
 #include "cases/design_study.hpp"
 #include "library_cases.hpp"
