@@ -281,6 +281,7 @@ TEST_CASE("An angle that goes round has the period of its closed form", "[cycles
     if (a < 1.0001) continue;
     CHECK_THAT(traced.problem->duration(point.unknowns, point.parameters),
                Catch::Matchers::WithinRel(two_pi / std::sqrt(a * a - 1), 1e-8));
+    if (a < 1.01) continue;  // where an orbit rests long its few intervals do not tell how fast others come
     const ComplexVector logs =
         traced.problem->log_multipliers(point.unknowns, point.parameters, point.regime);
     REQUIRE(logs.size() == 1);
