@@ -103,8 +103,7 @@ class GrowthWatch {
 
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
-    constexpr double nearly =
-        1e-9;  // of the parameter: it nears its limit as fast as the period grows slowly
+    constexpr double nearly = 1e-9;  // of the parameter, whose distance from its limit falls with e^-T
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
     Vector scale(point.parameters.size());

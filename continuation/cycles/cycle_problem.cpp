@@ -71,7 +71,26 @@ double CycleProblem::given_duration(const Vector& p, Vector* by_parameters) cons
   return periods_ * period;
 }
 
+std::atomic<long> CycleProblem::made_ = 0;
+
+/// Stability and period doublings are asked for one after the other, at the end of a step and as it is taken.
+struct CycleProblem::Last {
+  long problem = 0;  // its number
+  Vector unknowns;
+  Vector parameters;
+  Regime regime;
+  ComplexVector logs;
+};
+
 ComplexVector CycleProblem::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  thread_local Last last;
+  const bool known =
+      last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
+  if (!known) last = {number_, u, p, regime, found_multipliers(u, p, regime)};
+  return last.logs;
+}
+
+ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
   std::vector<Matrix> factors;
   if (!transfers(u, p, regime, factors)) return {};
   if (!has_duration()) return continuation::log_multipliers(factors);

@@ -7,6 +7,8 @@
 // with the last orbit of a frame for u_0. T is an unknown, or the field's own period. Stability by Floquet
 // multipliers, those of the orbit's own velocity left out. w are the whole turns of angles.
 
+#include <atomic>
+
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
 namespace arcslip::continuation {
@@ -27,7 +29,8 @@ class CycleProblem : public OrbitProblem {
   /// Where `apart` vanishes, as the end of a sentence.
   std::string end_of_kind() const;
 
-  /// ln(mu) of the multipliers; empty where there are none.
+  /// ln(mu) of the multipliers; empty where there are none. What a thread was told last is known when it asks
+  /// again.
   ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
   /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
@@ -52,12 +55,17 @@ class CycleProblem : public OrbitProblem {
   double given_duration(const Vector& p, Vector* by_parameters) const override;
 
  private:
+  struct Last;
+  ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
+
   struct Extremum;
   Extremum extremum(const Vector& u, const Regime& regime, Index unknown, double sign) const;
 
   int periods_;
   bool doubled_;
   Vector winding_;
+  static std::atomic<long> made_;
+  long number_ = ++made_;  // which of them this is
 };
 
 }  // namespace arcslip::continuation
