@@ -249,7 +249,7 @@ bool InterpolatedBranch::is_corner(std::size_t point) const {
 
 /// The nearest points around a piece, one on each side, or two on one where there are none on the other, with
 /// whether they are behind it. They are not so near to each other that differences would be lost in rounding;
-/// none is beyond a corner or an end of the branch.
+/// none is beyond a corner, an end of the branch, or where unknowns mean something else.
 std::vector<std::pair<std::size_t, bool>> InterpolatedBranch::around(std::size_t piece) const {
   constexpr double far_enough = 0.02;  // of the piece's length
   constexpr std::size_t wanted = 2;
@@ -262,6 +262,8 @@ std::vector<std::pair<std::size_t, bool>> InterpolatedBranch::around(std::size_t
     std::size_t point = edges[side];
     while (point != last && !is_corner(point)) {
       point = side == 1 ? point + 1 : point - 1;
+      const BranchPoint& other = branch_.points[point];
+      if (other.regime != branch_.points[piece].regime && other.type != PointType::regime_switch) break;
       if (std::abs(distance(edges[side], point)) < least) continue;
       edges[side] = point;
       found.emplace_back(point, side == 1);

@@ -16,6 +16,8 @@ def test_cycles_of_a_function_are_its_circles():
     assert branch.complete
     assert np.abs(branch["T"] * (1 + branch["mu"]) - 2 * np.pi).max() < 1e-7
     assert np.abs(branch["norm"] - np.sqrt(branch["mu"])).max() < 1e-7
+    with pytest.raises(ValueError, match="samples of cycles"):
+        branch.sample(10)
     orbit = branch.orbit(-1)
     assert orbit["t"][0] == 0 and orbit["t"][-1] == pytest.approx(branch["T"][-1], rel=1e-14)
     assert np.abs(orbit["u0"] ** 2 + orbit["u1"] ** 2 - 2).max() < 1e-5
