@@ -9,13 +9,15 @@
 #include "arcslip/continuation/cycles/settled_cycle.hpp"
 #include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/problem/derivative_check.hpp"
+#include "branches.hpp"
 #include "catch.hpp"
 #include "flow.hpp"
 
-namespace arcslip::tests {
-namespace {
+using namespace arcslip;
+using namespace arcslip::continuation;
+using namespace arcslip::testing;
 
-using namespace continuation;
+namespace {
 
 /// Cycles of radius sqrt(mu) that turn with omega = 1 + mu: T = 2 pi/(1 + mu), multiplier e^(-2 mu T).
 std::shared_ptr<const Problem> hopf_normal_form() {
@@ -60,21 +62,6 @@ std::shared_ptr<const Problem> with_rider() {
     f[2] = p[0] * u[2] - p[1] * u[3] + 0.1 * u[0] * u[2];
     f[3] = p[1] * u[2] + p[0] * u[3] + 0.1 * u[0] * u[3];
   });
-}
-
-std::vector<BranchPoint> of_type(const Branch& branch, PointType type) {
-  std::vector<BranchPoint> found;
-  std::copy_if(branch.points.begin(), branch.points.end(), std::back_inserter(found),
-               [&](const BranchPoint& point) { return point.type == type; });
-  return found;
-}
-
-TraceOptions over(const std::string& parameter, double from, double to) {
-  TraceOptions options;
-  options.parameter = parameter;
-  options.from = from;
-  options.to = to;
-  return options;
 }
 
 /// The equilibria from a guess, then all cycles.
@@ -133,12 +120,12 @@ TEST_CASE("Cycles of a Hopf normal form are its circles", "[cycles]") {
     const double period = two_pi / (1 + mu);
     Vector observed;
     problem.observe(point.unknowns, point.parameters, point.regime, observed);
-    CHECK_THAT(observed(0), Catch::Matchers::WithinRel(period, 1e-9));
-    CHECK_THAT(observed(1), Catch::Matchers::WithinAbs(std::sqrt(mu), 1e-7));
-    CHECK_THAT(observed(5), Catch::Matchers::WithinAbs(std::sqrt(mu), 1e-8));
+    CHECK_THAT(observed(0), WithinRel(period, 1e-9));
+    CHECK_THAT(observed(1), WithinAbs(std::sqrt(mu), 1e-7));
+    CHECK_THAT(observed(5), WithinAbs(std::sqrt(mu), 1e-8));
     const ComplexVector logs = problem.log_multipliers(point.unknowns, point.parameters, point.regime);
     REQUIRE(logs.size() == 1);
-    CHECK_THAT(logs(0).real(), Catch::Matchers::WithinAbs(-2 * mu * period, 1e-7));
+    CHECK_THAT(logs(0).real(), WithinAbs(-2 * mu * period, 1e-7));
     CHECK(point.unstable == 0);
   }
 }
@@ -146,7 +133,7 @@ TEST_CASE("Cycles of a Hopf normal form are its circles", "[cycles]") {
 TEST_CASE("Collocation converges at twice its degree at the ends of intervals", "[cycles]") {
   // 17 digits by a Taylor series of order 30 with 40 digits
   const double exact = period_of_van_der_pol(7, 64);
-  CHECK_THAT(exact, Catch::Matchers::WithinRel(6.6632868593231301, 1e-13));
+  CHECK_THAT(exact, WithinRel(6.6632868593231301, 1e-13));
   for (const int degree : {2, 3, 4}) {
     const double coarse = std::abs(period_of_van_der_pol(degree, 32) - exact);
     const double fine = std::abs(period_of_van_der_pol(degree, 64) - exact);
@@ -217,7 +204,7 @@ TEST_CASE("Lorenz' cycles end on his homoclinic orbit", "[cycles]") {
   CHECK(branch.stop == Stop::left_regime);
   const BranchPoint& last = branch.points.back();
   // [Sparrow, The Lorenz Equations, Springer 1982: 13.926]; by shooting along the unstable manifold
-  CHECK_THAT(last.parameters(0), Catch::Matchers::WithinAbs(13.926557407, 2e-8));
+  CHECK_THAT(last.parameters(0), WithinAbs(13.926557407, 2e-8));
   CHECK(of_type(branch, PointType::fold).empty());
 }
 
@@ -228,14 +215,14 @@ TEST_CASE("Roessler's cycles double their periods", "[cycles]") {
   const CycleBranch single = trace_cycles(start, over("c", 2, 4.5), cycles);
   const auto first = of_type(single.branch, PointType::period_doubling);
   REQUIRE(!first.empty());
-  CHECK_THAT(first[0].parameters(0), Catch::Matchers::WithinAbs(2.832445, 2e-6));
+  CHECK_THAT(first[0].parameters(0), WithinAbs(2.832445, 2e-6));
   const auto doubled = cycle_from_doubling(*single.problem, 0, first[0]);
   REQUIRE(doubled);
   const CycleBranch twice = trace_cycles(*doubled, over("c", 2, 4.5), cycles);
   CHECK(twice.problem->periods() == 2);
   const auto second = of_type(twice.branch, PointType::period_doubling);
   REQUIRE(!second.empty());
-  CHECK_THAT(second[0].parameters(0), Catch::Matchers::WithinAbs(3.837, 2e-3));
+  CHECK_THAT(second[0].parameters(0), WithinAbs(3.837, 2e-3));
 }
 
 TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly known places", "[cycles]") {
@@ -246,15 +233,15 @@ TEST_CASE("Tori leave where a pair of multipliers crosses the circle, at exactly
   const CycleBranch traced = trace_cycles(start, over("a", -0.1, 0.1));
   const auto tori = of_type(traced.branch, PointType::neimark_sacker);
   REQUIRE(tori.size() == 1);
-  CHECK_THAT(tori[0].parameters(0), Catch::Matchers::WithinAbs(0, 1e-9));
+  CHECK_THAT(tori[0].parameters(0), WithinAbs(0, 1e-9));
   CurveStart curve = curve_through(*traced.problem, "a", tori[0]);
   const Branch along = trace_curve(*curve.problem, curve.point, over("nu", 0.05, 0.3), {-1, 1});
   CHECK(along.complete());
   REQUIRE(along.points.size() > 4);
   for (const BranchPoint& point : along.points) {
     const BasePoint at = curve.problem->split(point.unknowns, point.parameters, point.regime);
-    CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(0, 1e-9));
-    CHECK_THAT(at.extras(0), Catch::Matchers::WithinAbs(std::cos(two_pi * at.parameters(1)), 1e-8));
+    CHECK_THAT(at.parameters(0), WithinAbs(0, 1e-9));
+    CHECK_THAT(at.extras(0), WithinAbs(std::cos(two_pi * at.parameters(1)), 1e-8));
   }
 }
 
@@ -280,12 +267,12 @@ TEST_CASE("An angle that goes round has the period of its closed form", "[cycles
     const double a = point.parameters(0);
     if (a < 1.0001) continue;
     CHECK_THAT(traced.problem->duration(point.unknowns, point.parameters),
-               Catch::Matchers::WithinRel(two_pi / std::sqrt(a * a - 1), 1e-8));
+               WithinRel(two_pi / std::sqrt(a * a - 1), 1e-8));
     if (a < 1.01) continue;  // where an orbit rests long its few intervals do not tell how fast others come
     const ComplexVector logs =
         traced.problem->log_multipliers(point.unknowns, point.parameters, point.regime);
     REQUIRE(logs.size() == 1);
-    CHECK_THAT(logs(0).real(), Catch::Matchers::WithinRel(-pi / std::sqrt(a * a - 1), 1e-8));
+    CHECK_THAT(logs(0).real(), WithinRel(-pi / std::sqrt(a * a - 1), 1e-8));
   }
 }
 
@@ -304,7 +291,5 @@ TEST_CASE("Curves of period doublings pass those of branches across them", "[cyc
   const auto there = of_type(traced, PointType::user);
   REQUIRE(there.size() == 1);
   const BasePoint at = curve.problem->split(there[0].unknowns, there[0].parameters, there[0].regime);
-  CHECK_THAT(at.parameters(0), Catch::Matchers::WithinAbs(doubling(0.21).second.parameters(0), 1e-8));
+  CHECK_THAT(at.parameters(0), WithinAbs(doubling(0.21).second.parameters(0), 1e-8));
 }
-
-}  // namespace arcslip::tests

@@ -10,7 +10,7 @@
 
 #include "arcslip/continuation/problem/problem.hpp"
 
-namespace arcslip::tests {
+namespace arcslip::testing {
 
 /// `f(u, p, out)` for vectors of any number type.
 template <class F>
@@ -54,4 +54,4 @@ std::shared_ptr<const continuation::Problem> make_flow(Index size, std::vector<s
   return std::make_shared<Flow<F>>(size, std::move(parameters), std::move(f));
 }
 
-}  // namespace arcslip::tests
+}  // namespace arcslip::testing
