@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -47,6 +48,7 @@ CollocationRule::CollocationRule(int degree)
     barycentric_(k) = 1 / product;
   }
   highest_ = std::tgamma(m + 1) * barycentric_;
+  for (int i = 1; i < 200; ++i) product_ = std::max(product_, std::abs((0.005 * i - nodes_.array()).prod()));
   values_.resize(m, m + 1);
   derivatives_.resize(m, m + 1);
   Vector value;

@@ -103,7 +103,7 @@ std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index
   };
   const BasePoint& at = located->point;
   const Matrix both = twice(at.unknowns, 1);
-  const Matrix change = in_units(twice(conditions.variation(), -1), problem.frame(at.regime).scale);
+  const Matrix change = in_units(twice(conditions.right_null(), -1), problem.frame(at.regime).scale);
   CycleStart start = cycle_from_orbit(problem.shared_field(), mesh, both + shape * change,
                                       2 * problem.duration(at.unknowns, at.parameters), at.parameters,
                                       2 * problem.periods(), true);

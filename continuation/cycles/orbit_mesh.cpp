@@ -59,10 +59,7 @@ Vector OrbitMesh::highest_derivatives(const Matrix& values, const Vector& scale)
 
 Vector OrbitMesh::errors(const Matrix& values, const Vector& scale) const {
   const Index order = rule_.degree() + 1;
-  double largest = 0;  // of the product of all s - nodes
-  for (int i = 1; i < 200; ++i)
-    largest = std::max(largest, std::abs((0.005 * i - rule_.nodes().array()).prod()));
-  Vector result = highest_derivatives(values, scale) * (largest / std::tgamma(order + 1));
+  Vector result = highest_derivatives(values, scale) * (rule_.product() / std::tgamma(order + 1));
   for (Index j = 0; j < intervals(); ++j) result(j) *= std::pow(length(j), order);
   return result;
 }

@@ -129,6 +129,12 @@ double OrbitProblem::duration(const Vector& u, const Vector& p, Vector* by_param
   return u(u.size() - 1);
 }
 
+Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regime) const {
+  Vector result(nodes());
+  for (Index node = 0; node < result.size(); ++node) result(node) = frame(regime).mesh.place(node);
+  return result * duration(u, p);
+}
+
 double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   return at.mesh.errors(orbit(u), at.range).maxCoeff();

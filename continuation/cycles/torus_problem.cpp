@@ -93,12 +93,6 @@ double TorusProblem::strain() const {
   return std::max(right_.head(2 * count_).norm(), left_[0].head(2 * count_).norm() * column_.norm());
 }
 
-Vector TorusProblem::padded(const Eigen::Ref<const Vector>& v) const {
-  Vector result = Vector::Zero(base().size());
-  result.head(count_) = v;
-  return result;
-}
-
 bool TorusProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
   if (!solve_borders(point.extras(0))) return false;
   values = right_.tail(2);
@@ -108,9 +102,11 @@ bool TorusProblem::conditions(const BasePoint& point, Vector& values, Matrix* gr
   Matrix weights(base().size(), 2);
   Matrix columns;
   for (const Index part : {0, 1}) {
-    for (Index j = 0; j < 2; ++j) weights.col(j) = padded(left_[j].segment(part * count_, count_));
+    for (Index j = 0; j < 2; ++j)
+      weights.col(j) = padded(left_[j].segment(part * count_, count_), base().size());
     const Vector v = right_.segment(part * count_, count_).cwiseProduct(scale_.head(count_));
-    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, padded(v), none, columns))
+    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, padded(v, base().size()),
+                          none, columns))
       return false;
     gradients->leftCols(columns.rows()) -= columns.transpose();
   }

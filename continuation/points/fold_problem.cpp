@@ -1,75 +1,14 @@
 #include "arcslip/continuation/points/fold_problem.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/linear/borders.hpp"
 
 namespace arcslip::continuation {
 
-FoldProblem::FoldProblem(const Problem& base, Index active)
-    : ExtendedProblem(base, active, 1),
-      solver_(make_bordered_solver(base.size(), 1, base.sparse())),
-      column_(spread(base.size(), 1)),
-      row_(spread(base.size(), 2)),
-      second_(base),
-      right_(base.size() + 1),
-      left_(base.size() + 1) {}
+FoldProblem::FoldProblem(const Problem& base, Index active) : SingularProblem(base, active, base.size()) {}
 
-bool FoldProblem::solve_borders() const {
-  const Index n = base().size();
-  at_.fill(*solver_, scale_);
-  solver_->columns().col(0) = column_;
-  solver_->rows().row(0) = row_.transpose();
-  solver_->corner()(0, 0) = 0;
-  if (solver_->factor() == 0) return false;
-  right_.setUnit(n);
-  solver_->solve(right_);
-  left_.setUnit(n);
-  solver_->solve_transposed(left_);
-  return right_.allFinite() && left_.allFinite();
-}
-
-bool FoldProblem::adapt(const BasePoint& point) {
-  if (!ExtendedProblem::adapt(point)) return false;
-  const Index n = base().size();
-  const double size = column_size(at_, scale_);
-  for (int i = 0; i < 3; ++i) {  // inverse iteration
-    if (!solve_borders()) return false;
-    column_ = left_.head(n) * (size / left_.head(n).norm());
-    row_ = right_.head(n).normalized();
-  }
-  column_ *= steepness(point);
-  return true;
-}
-
-void FoldProblem::each_border(const std::function<void(double*, Index)>& use) {
-  ExtendedProblem::each_border(use);
-  use(column_.data(), column_.size());
-  use(row_.data(), row_.size());
-  use(&second_.memory(), 1);
-}
-
-double FoldProblem::strain() const {
-  const Index n = base().size();
-  return std::max(right_.head(n).norm(), left_.head(n).norm() * column_.norm());
-}
-
-bool FoldProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
-  if (!solve_borders()) return false;
-  const Index n = base().size();
-  values(0) = right_(n);
-  if (gradients == nullptr) return true;
-  Vector row;
-  const Vector none = Vector::Zero(point.parameters.size());
-  if (!second_.contract(point.unknowns, point.parameters, point.regime, left_.head(n), right_null(), none,
-                        row))
-    return false;
-  gradients->row(0) = -row.transpose();
-  return true;
-}
-
-Vector FoldProblem::right_null() const { return scale_.cwiseProduct(right_.head(base().size())); }
+void FoldProblem::fill(BorderedSolver& solver) const { at_.fill(solver, scale_); }
 
 double FoldProblem::quadratic(const BasePoint& point) const {
   // 0 = w^T F_p (p_a - p_a*) + 1/2 w^T F_uu v v x^2 + ...

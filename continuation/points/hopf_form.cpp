@@ -15,12 +15,14 @@ namespace {
 /// Of a dense problem's Jacobian at a point along real directions, by differences.
 class Derivatives {
  public:
-  Derivatives(const Problem& problem, const Guess& at) : at_(at), linearization_(problem), second_(problem) {
-    none_ = Vector::Zero(at.parameters.size());
+  Derivatives(const Problem& problem, const Guess& at)
+      : at_(at), linearization_(problem), scale_(at.unknowns.size()) {
+    Vector parameter_scale(at.parameters.size());
+    problem.scale(at.unknowns, at.parameters, scale_, parameter_scale);
   }
 
   bool linear(Matrix& a) {
-    if (!jacobian(none_, 0, here_)) return false;
+    if (!jacobian(at_.unknowns, here_)) return false;
     a = here_.reshaped(at_.unknowns.size(), at_.unknowns.size());
     return true;
   }
@@ -31,12 +33,12 @@ class Derivatives {
     std::map<double, Vector> known;
     const auto once = [&](double h, Vector& out) {
       const auto [place, is_new] = known.try_emplace(h);
-      if (is_new && !jacobian(v, h, place->second)) place->second.resize(0);
+      if (is_new && !jacobian(at_.unknowns + h * v, place->second)) place->second.resize(0);
       out = place->second;
       return out.size() > 0;
     };
-    const auto twice = [&](double h,
-                           Vector& out) {  // odd in h; its derivative at 0 is the second one of `once`
+    // odd in h; its derivative at 0 is the second one of `once`
+    const auto twice = [&](double h, Vector& out) {
       Vector behind;
       if (!once(h, out) || !once(-h, behind)) return false;
       out = (out + behind - 2 * here_) / h;
@@ -54,23 +56,21 @@ class Derivatives {
   }
 
  private:
-  bool jacobian(const Vector& v, double h, Vector& out) {
-    const Vector u = h == 0 ? at_.unknowns : Vector(at_.unknowns + h * v);
+  bool jacobian(const Vector& u, Vector& out) {
     if (!linearization_.evaluate(u, at_.parameters, at_.regime)) return false;
     out = linearization_.jacobian().reshaped();
     return out.allFinite();
   }
 
-  double step(const Vector& v) {
+  double step(const Vector& v) const {
     constexpr double first = 0.02;  // of the scale
-    const double length = second_.length(at_.unknowns, at_.parameters, v, none_);
+    const double length = v.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>();
     return length > 0 ? first / length : first;
   }
 
   const Guess& at_;
   Linearization linearization_;
-  SecondDerivative second_;
-  Vector none_;
+  Vector scale_;
   Vector here_;
 };
 

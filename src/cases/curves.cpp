@@ -23,18 +23,20 @@ using continuation::PointType;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
+/// Whether two vectors are one but for how well points are located.
+bool same_place(const Vector& a, const Vector& b) {
+  return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
+}
+
 /// Whether a curve passes the special point of its base.
 bool passes(const TracedBranch& traced, const BranchPoint& seed, const std::string& second) {
   const Index parameter = continuation::index_of(traced.base.problem->parameter_names(), second);
-  const auto same = [](const Vector& a, const Vector& b) {
-    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
-  };
   if (traced.base.problem->size() != seed.unknowns.size()) return false;
   return std::any_of(traced.branch.points.begin(), traced.branch.points.end(), [&](const BranchPoint& point) {
     const BasePoint at = traced.curve->split(point.unknowns, point.parameters, point.regime);
     return std::abs(at.parameters(parameter) - seed.parameters(parameter)) <=
                1e-12 * std::abs(seed.parameters(parameter)) &&
-           same(at.parameters, seed.parameters) && same(at.unknowns, seed.unknowns);
+           same_place(at.parameters, seed.parameters) && same_place(at.unknowns, seed.unknowns);
   });
 }
 
@@ -77,16 +79,14 @@ bool is_seed(const CurveRequest& asked, const continuation::Problem& problem, co
 bool is_known(const TracedBranch& curve, const ExtendedProblem& kind, const BasePoint& at) {
   const bool same_kind = (dynamic_cast<const FoldProblem*>(curve.curve.get()) != nullptr) ==
                          (dynamic_cast<const FoldProblem*>(&kind) != nullptr);
-  const auto same = [](const Vector& a, const Vector& b) {
-    return ((a - b).array().abs() <= 1e-6 * (1 + b.array().abs())).all();
-  };
   return same_kind &&
          std::any_of(curve.branch.points.begin(), curve.branch.points.end(), [&](const BranchPoint& point) {
            const BasePoint here = curve.curve->split(point.unknowns, point.parameters, point.regime);
            const bool same_pair =
                kind.size() - kind.base().size() < 2 ||
                std::abs(here.extras(0) - at.extras(0)) <= 1e-5 * (1 + std::abs(at.extras(0)));
-           return same_pair && same(here.parameters, at.parameters) && same(here.unknowns, at.unknowns);
+           return same_pair && same_place(here.parameters, at.parameters) &&
+                  same_place(here.unknowns, at.unknowns);
          });
 }
 

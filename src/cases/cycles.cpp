@@ -18,12 +18,9 @@ using continuation::Field;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
-std::shared_ptr<const CycleProblem> cycles_of(const std::shared_ptr<const continuation::Problem>& problem) {
-  return std::dynamic_pointer_cast<const CycleProblem>(problem);
-}
-
 std::shared_ptr<const Field> field_of(const std::shared_ptr<const continuation::Problem>& problem) {
-  if (const auto cycles = cycles_of(problem)) return cycles->shared_field();
+  if (const auto cycles = std::dynamic_pointer_cast<const CycleProblem>(problem))
+    return cycles->shared_field();
   return std::make_shared<EquilibriumField>(problem);
 }
 
@@ -43,7 +40,9 @@ std::vector<TracedBranch> told(const Request& request, std::vector<CycleBranch> 
 
 }  // namespace
 
-bool is_of_cycles(const TracedBranch& traced) { return cycles_of(traced.base.problem) != nullptr; }
+const CycleProblem* cycles_of(const TracedBranch& traced) {
+  return traced.curve ? nullptr : dynamic_cast<const CycleProblem*>(traced.base.problem.get());
+}
 
 bool asks_for_cycles(const CaseBranch& request) {
   return request.cycles.settle || (request.problem.model != nullptr && request.problem.model->is_driven);

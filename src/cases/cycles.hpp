@@ -6,8 +6,8 @@
 
 namespace arcslip {
 
-/// Whether its solutions are cycles, as the problem says.
-bool is_of_cycles(const TracedBranch& traced);
+/// The problem of a branch whose solutions are cycles; null of others and of curves.
+const continuation::CycleProblem* cycles_of(const TracedBranch& traced);
 
 /// Whether the branch is one of cycles from its start on: by `settle`, or of a system that depends on time.
 bool asks_for_cycles(const CaseBranch& request);

@@ -173,7 +173,8 @@ std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseB
   across->switching = asked.of_cycles;
   across->options.max_seconds = time.rest().max_seconds;
   std::vector<TracedBranch> traced = trace_branches(across, subject, TimeBudget(across->options), {});
-  if (asked.of_cycles) std::erase_if(traced, [](const TracedBranch& one) { return !is_of_cycles(one); });
+  if (asked.of_cycles)
+    std::erase_if(traced, [](const TracedBranch& one) { return cycles_of(one) == nullptr; });
   return traced;
 }
 

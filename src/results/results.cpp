@@ -57,7 +57,8 @@ void add_units(const ProblemRequest& problem, ordered_json& summary) {
 /// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, of cycles,
 /// which orbits.csv has, and of so many that nobody would read them.
 ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
-  if (traced.curve || is_of_cycles(traced) || point.unknowns.size() > most_stored_unknowns) return nullptr;
+  if (traced.curve || cycles_of(traced) != nullptr || point.unknowns.size() > most_stored_unknowns)
+    return nullptr;
   ordered_json parameters;
   const std::vector<std::string> names = traced.base.problem->parameter_names();
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -1,8 +1,7 @@
 #include "python/binding/cycles.hpp"
 
-#include <chrono>
-
 #include "arcslip/continuation/cycles/settled_cycle.hpp"
+#include "cases/cycles.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
 #include "python/binding/tracing.hpp"
@@ -65,25 +64,27 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
   return handles;
 }
 
+/// Throws py::value_error that begins with what is asked for of others than cycles.
+const continuation::CycleProblem& cycles_in(const BranchHandle& handle, const char* asked) {
+  const continuation::CycleProblem* cycles = cycles_of(handle.traced());
+  if (cycles == nullptr) throw py::value_error(std::string(asked) + ": only of branches of cycles");
+  return *cycles;
+}
+
 /// The orbit of a point: times, then unknowns x times.
 py::tuple orbit_of(const BranchHandle& handle, std::size_t i) {
-  const auto* cycles = dynamic_cast<const continuation::CycleProblem*>(handle.traced().base.problem.get());
-  if (cycles == nullptr || handle.curve()) throw py::value_error("orbit: only of branches of cycles");
+  const continuation::CycleProblem& cycles = cycles_in(handle, "orbit");
   const continuation::BranchPoint& point = handle.point(i);
-  const continuation::OrbitMesh& mesh = cycles->frame(point.regime).mesh;
-  Vector times(mesh.nodes());
-  for (Index node = 0; node < times.size(); ++node) times(node) = mesh.place(node);
-  times *= cycles->duration(point.unknowns, point.parameters);
-  return py::make_tuple(give(times), give(Matrix(cycles->orbit(point.unknowns))), cycles->field().names());
+  return py::make_tuple(give(cycles.times(point.unknowns, point.parameters, point.regime)),
+                        give(Matrix(cycles.orbit(point.unknowns))), cycles.field().names());
 }
 
 /// The Floquet multipliers of a point as their logarithms.
 py::array log_multipliers_of(const BranchHandle& handle, std::size_t i) {
-  const auto* cycles = dynamic_cast<const continuation::CycleProblem*>(handle.traced().base.problem.get());
-  if (cycles == nullptr || handle.curve()) throw py::value_error("multipliers: only of branches of cycles");
+  const continuation::CycleProblem& cycles = cycles_in(handle, "multipliers");
   const continuation::BranchPoint& point = handle.point(i);
   return give(
-      handle.heard([&] { return cycles->log_multipliers(point.unknowns, point.parameters, point.regime); }));
+      handle.heard([&] { return cycles.log_multipliers(point.unknowns, point.parameters, point.regime); }));
 }
 
 }  // namespace

@@ -59,6 +59,9 @@ class OrbitProblem : public Problem {
   /// T, and its derivatives by the parameters where that is not null.
   double duration(const Vector& u, const Vector& p, Vector* by_parameters = nullptr) const;
 
+  /// When the nodes are reached, 0 to T.
+  Vector times(const Vector& u, const Vector& p, const Regime& regime) const;
+
   /// Largest estimated error of an orbit, relative to how far its unknowns go.
   double mesh_error(const Vector& u, const Regime& regime) const;
 
@@ -84,7 +87,6 @@ class OrbitProblem : public Problem {
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
   Index switch_count() const override { return frame_digits; }
   std::string describe(const Regime& regime) const override;
-  int border_count(const Regime& /*regime*/) const override { return 0; }
 
  protected:
   /// Values g of the n conditions, and their derivatives; those that are null are not wanted.

@@ -41,7 +41,6 @@ class TorusProblem : public ExtendedProblem {
  private:
   [[nodiscard]] bool solve_borders(double kappa) const;
   void assemble(double kappa) const;
-  Vector padded(const Eigen::Ref<const Vector>& v) const;
 
   Index unknowns_;                          // of the field
   Index count_;                             // of J_z

@@ -15,6 +15,13 @@ inline Vector spread(Index size, int which) {
   return v.normalized();
 }
 
+/// As the first entries of so many, 0 behind them.
+inline Vector padded(const Eigen::Ref<const Vector>& v, Index size) {
+  Vector result = Vector::Zero(size);
+  result.head(v.size()) = v;
+  return result;
+}
+
 /// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at
 /// the folds of a single unknown, 1, which is large for F.
 inline double column_size(const Linearization& at, const Vector& scale) {
