@@ -38,16 +38,20 @@ Tape compiled_ends(const FormulaSystem& system, const Words& unknowns, const Wor
   return compile(set);
 }
 
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void check_count(const FormulaSystem& system) {
   const std::size_t wanted = system.equations.size() + system.free.size();
-  const std::size_t given = system.conditions.size() + system.integrals.size();
-  if (given == wanted) return;
+  if (system.conditions.size() + system.integrals.size() == wanted) return;
+  const std::string first = system.conditions.empty() ? "conditions" : system.conditions.front().place;
   throw FormulaError(
-      "model.conditions",
-      fmt::format("expected {} conditions and integrals, one for each of {} unknowns and {} free parameters, "
-                  "got {} conditions and {} integrals",
-                  wanted, system.equations.size(), system.free.size(), system.conditions.size(),
-                  system.integrals.size()));
+      first.substr(0, first.rfind('[')),
+      fmt::format("expected {} conditions and integrals, one for each of {} and {}, got {} and {}", wanted,
+                  counted(system.equations.size(), "unknown"), counted(system.free.size(), "free parameter"),
+                  counted(system.conditions.size(), "condition"),
+                  counted(system.integrals.size(), "integral")));
 }
 
 }  // namespace

@@ -128,6 +128,7 @@ void check_names(const FormulaSystem& system) {
 Tape start_of(const FormulaSystem& system) {
   FormulaSet set;
   for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  if (system.interval) set.definitions.push_back({system.interval->variable, system.interval->from.text});
   for (const Formula& equation : system.equations) {
     const auto given = std::find_if(system.start.begin(), system.start.end(),
                                     [&](const Formula& one) { return one.name == equation.name; });
