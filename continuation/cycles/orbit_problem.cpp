@@ -105,13 +105,29 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   Vector scale(orbit.rows());
   Vector unused(p.size());
   scales(*field_, orbit, p, scale, unused);
-  OrbitFrame frame{
-      mesh, scale, ranges(orbit, scale), has_duration_ ? phase_weights(mesh, orbit, scale) : Vector(), {}};
+  OrbitFrame frame{mesh, scale, {}, ranges(orbit, scale), {}, {}};
+  frame.ends = end_scale(frame, orbit, p);
+  if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
   set_apart(frame, part_apart(mesh, orbit));
   if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
   return last_frame();
+}
+
+Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const {
+  const Index n = field_->size();
+  Vector values(n);
+  Matrix by_left(n, n);
+  Matrix by_right(n, n);
+  if (!end_conditions(orbit.col(0), orbit.rightCols(1), p, {&values, &by_left, &by_right, nullptr}))
+    return Vector::Ones(n);
+  const Vector change = by_left.cwiseAbs()
+                            .cwiseMax(by_right.cwiseAbs())
+                            .cwiseProduct(frame.scale.transpose().replicate(n, 1))
+                            .rowwise()
+                            .maxCoeff();
+  return (change.array() > 0).select(change, 1);
 }
 
 void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
@@ -276,7 +292,7 @@ bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, con
   const EndConditions wanted{&values, derivatives ? &by_left : nullptr, derivatives ? &by_right : nullptr,
                              derivatives ? &by_parameters : nullptr};
   if (!end_conditions(u.head(n), u.segment(last, n), p, wanted)) return false;
-  const auto in_units = frame.scale.cwiseInverse().asDiagonal();
+  const auto in_units = frame.ends.cwiseInverse().asDiagonal();
   if (out.residual != nullptr) {
     out.residual->segment(ends, n) = in_units * values;
     if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes())) - frame.phase_value;
