@@ -1,5 +1,6 @@
 #include "arcslip/continuation/path/corrector.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -80,6 +81,7 @@ bool Corrector::evaluate(CurvePoint& point) {
 
 bool Corrector::factor(const Vector& scale, const Vector& normal) {
   ++work_.factorizations;
+  factored_scale_ = scale;
   linearization_.fill(*solver_, scale);
   solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
   solver_->rows() = normal.head(size_).transpose();
@@ -235,8 +237,7 @@ void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
   const double length = point.tangent.norm();
   point.tangent /= length;
   point.orientation = border_sign_;
-  LogProduct size;
-  solver_->multiply_determinant(size);
+  LogProduct size = determinant(point.scale);
   if (&point != &origin) {
     for (Index i = 0; i <= size_; ++i) size *= point.scale(i) / origin.scale(i);
   }
@@ -246,9 +247,31 @@ void Corrector::set_tangent(CurvePoint& point, const CurvePoint& origin) {
 
 double Corrector::log_determinant() const {
   if (border_sign_ == 0) return -std::numeric_limits<double>::infinity();
+  return determinant(factored_scale_).log();
+}
+
+/// Where a parameter multiplies many rows of a sparse problem at once, the product of their lengths runs
+/// through hundreds of decades: it is taken out, but for nearly full rows, such as conditions on null
+/// vectors.
+LogProduct Corrector::determinant(const Vector& scale) const {
   LogProduct size;
   solver_->multiply_determinant(size);
-  return size.log();
+  if (!linearization_.sparse()) return size;
+  const SparseMatrix& jacobian = linearization_.sparse_jacobian();
+  squares_ = (linearization_.parameter_jacobian().col(parameter_) * scale(size_)).cwiseAbs2();
+  counts_.setZero(size_);
+  for (Index column = 0; column < size_; ++column) {
+    for (SparseMatrix::InnerIterator entry(jacobian, column); entry; ++entry) {
+      const double value = entry.value() * scale(column);
+      squares_(entry.row()) += value * value;
+      ++counts_(entry.row());
+    }
+  }
+  const Index nearly_full = std::max<Index>(32, 4 * jacobian.nonZeros() / std::max<Index>(size_, 1));
+  for (Index row = 0; row < size_; ++row) {
+    if (counts_(row) <= nearly_full) size /= std::sqrt(squares_(row));
+  }
+  return size;
 }
 
 }  // namespace arcslip::continuation

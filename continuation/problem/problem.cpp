@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/points/extended_problem.hpp"
 #include "arcslip/continuation/problem/directional_check.hpp"
 #include "arcslip/continuation/problem/evaluation.hpp"
@@ -24,9 +25,17 @@ bool Problem::second(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*r
 
 bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                           ComplexVector& values) const {
-  if (!is_equilibrium() || sparse()) return false;
-  Matrix jacobian(size(), size());
+  if (!is_equilibrium()) return false;
   Evaluation out;
+  if (sparse()) {
+    constexpr Index looked_at = 20;
+    SparseMatrix entries(size(), size());
+    out.sparse_jacobian = &entries;
+    if (!continuation::evaluate(*this, u, p, regime, out)) return false;
+    values = nearest_eigenvalues(entries, looked_at);
+    return values.size() > 0 && values.allFinite();
+  }
+  Matrix jacobian(size(), size());
   out.jacobian = &jacobian;
   if (!continuation::evaluate(*this, u, p, regime, out) || !jacobian.allFinite()) return false;
   values = continuation::eigenvalues(jacobian);

@@ -30,10 +30,14 @@ inline Setting not_negative(std::string name, double value, std::string meaning)
   return {std::move(name), value, 0, std::numeric_limits<double>::max(), false, std::move(meaning)};
 }
 
+/// A real setting above zero.
+inline Setting positive(std::string name, double value, std::string meaning) {
+  return {std::move(name), value, 0, std::numeric_limits<double>::max(), false, std::move(meaning), false};
+}
+
 /// A real setting above zero that must be given.
 inline Setting given_positive(std::string name, std::string meaning) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {std::move(name), none, 0, std::numeric_limits<double>::max(), false, std::move(meaning), false};
+  return positive(std::move(name), std::numeric_limits<double>::quiet_NaN(), std::move(meaning));
 }
 
 }  // namespace arcslip

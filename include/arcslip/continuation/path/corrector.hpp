@@ -125,7 +125,7 @@ class Corrector {
   bool nearly_singular();
 
   /// Sign of det [J F_p; normal^T] as last factored, in units of the origin's scale, and the logarithm of its
-  /// size.
+  /// size, of a sparse problem over the lengths of its rows.
   double orientation() const { return border_sign_; }
   double log_determinant() const;
 
@@ -139,6 +139,7 @@ class Corrector {
   double solve_correction(double change);
   void apply(CurvePoint& point, const CurvePoint& origin);
   double turn_to_parameter();
+  LogProduct determinant(const Vector& scale) const;
   double rounding_level(const CurvePoint& point);  // also sets parameter_rounds_
 
   const Problem& problem_;
@@ -157,6 +158,9 @@ class Corrector {
   Vector direction_;
   Vector unknown_scale_;
   Vector magnitudes_;  // of the terms of F
+  Vector factored_scale_;
+  mutable Eigen::VectorX<Index> counts_;  // of the rows' entries
+  mutable Vector squares_;                // of the rows' lengths
   Vector parameter_scale_;
   Vector before_;            // the unknowns before the last correction of `close`
   Vector parameter_normal_;  // the condition that keeps the parameter

@@ -23,7 +23,7 @@ struct HopfForm {
   double terms = 0;     ///< the sum of the sizes of its three terms
 };
 
-/// At a Hopf point of a dense equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
+/// At a Hopf point of an equilibrium, of the pair of eigenvalues nearest to +-j omega or, where that is
 /// 0, to the imaginary axis. None where derivatives cannot be had or no pair is there.
 [[nodiscard]] std::optional<HopfForm> hopf_form(const Problem& problem, const Guess& hopf, double omega = 0);
 

@@ -102,7 +102,8 @@ class Problem {
   virtual bool is_equilibrium() const { return false; }
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
-  /// takes those of a dense equilibrium's Jacobian; a periodic solution has the rates of hill.hpp.
+  /// takes those of an equilibrium's Jacobian, of a sparse one beyond 200 unknowns the 20 nearest to 0; a
+  /// periodic solution has the rates of hill.hpp.
   [[nodiscard]] virtual bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                          ComplexVector& values) const;
 
