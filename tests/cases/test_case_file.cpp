@@ -239,7 +239,8 @@ TEST_CASE("Wrong input for what goes beyond a forced response is refused as well
 
 TEST_CASE("Wrong input for models of the library and for curves is refused") {
   const Mistake of_models[] = {
-      {"\"cusp\"", "\"cups\"", ":2:9", "system.model", R"("bratu" or "bratu_2d" or "cusp")", "got \"cups\""},
+      {"\"cusp\"", "\"cups\"", ":2:9", "system.model",
+       R"("bratu" or "bratu_2d" or "brusselator_1d" or "cusp")", "got \"cups\""},
       {"lambda = 1", "mu = 1", ":3:6", "system.mu", "has its values from [branch]", ""},
       {"lambda = 1", "lamda = 1", ":3:", "system.lamda", "did you mean 'lambda'?", ""},
       {"lambda = 1", "lambda = \"1\"", ":3:10", "system.lambda", "a finite number", "got \"1\""},

@@ -19,6 +19,7 @@ using continuation::Branch;
 using continuation::BranchPoint;
 using continuation::Guess;
 using continuation::PointType;
+using continuation::Regime;
 using problems::ForcedResponse;
 using problems::HarmonicResponse;
 

@@ -31,7 +31,7 @@ class Problem:
         (u, p) -> complex numbers that tell stability, by the signs of their real parts.
     sparse : bool
         Whether `jacobian` returns a sparse matrix, as scipy's, or (data, indices, indptr) of compressed columns, always
-        with the same pattern. Equilibria of sparse problems do not tell their stability.
+        with the same pattern. With more than 200 unknowns the 20 eigenvalues nearest to 0 tell stability.
     equilibrium : bool
         Whether F is the right-hand side of u' = F, so that the Jacobian's eigenvalues tell stability.
     unknowns : sequence of str
