@@ -21,40 +21,41 @@ Vector BoundaryProblem::times(const Vector& u, const Vector& p, const Regime& re
 }
 
 std::vector<Observable> BoundaryProblem::observables() const {
-  std::vector<Observable> all = orbit_observables(*this);
+  std::vector<Observable> all;
   const std::vector<std::string> names = field().names();
+  for (Index i = 0; i < boundary_->free(); ++i)
+    all.push_back({names[static_cast<std::size_t>(told() + i)], true});
+  for (const Observable& one : orbit_observables(*this)) all.push_back(one);
   for (Index i = 0; i < told(); ++i) {
     const std::string& name = names[static_cast<std::size_t>(i)];
     all.push_back({name + "_left", true});
     all.push_back({name + "_right", true});
   }
-  for (Index i = told(); i < told() + boundary_->free(); ++i)
-    all.push_back({names[static_cast<std::size_t>(i)], true});
   return all;
 }
 
-/// Among u: that of an observable which is one of its entries, counted from the first such one.
-Index BoundaryProblem::place_of(Index which) const {
-  if (which >= 2 * told()) return which - told();
-  return which / 2 + (which % 2 == 0 ? 0 : field().size() * (nodes() - 1));
+/// Where among u the value of an unknown is at the left end, or at the right one.
+Index BoundaryProblem::place_of(Index unknown, bool right) const {
+  return unknown + (right ? field().size() * (nodes() - 1) : 0);
 }
 
 void BoundaryProblem::observe(const Vector& u, const Vector& /*p*/, const Regime& regime,
                               Vector& values) const {
   const Vector on_orbit = observed_on_orbit(*this, u, regime);
-  const Index entries = 2 * told() + boundary_->free();
-  values.resize(on_orbit.size() + entries);
-  values.head(on_orbit.size()) = on_orbit;
-  for (Index i = 0; i < entries; ++i) values(on_orbit.size() + i) = u(place_of(i));
+  const Index ends = boundary_->free() + on_orbit.size();
+  values.resize(ends + 2 * told());
+  values.head(ends) << u.segment(told(), boundary_->free()), on_orbit;
+  for (Index i = 0; i < 2 * told(); ++i) values(ends + i) = u(place_of(i / 2, i % 2 == 1));
 }
 
 double BoundaryProblem::observe(const Vector& u, const Vector& /*p*/, const Regime& regime, Index which,
                                 Gradient& gradient) const {
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
-  const Index on_orbit = 2 * told() + 1;
-  if (which < on_orbit) return observed_on_orbit(*this, u, regime, which, gradient.unknowns);
-  const Index place = place_of(which - on_orbit);
+  const Index on_orbit = which - boundary_->free();
+  const Index at_end = on_orbit - (2 * told() + 1);
+  if (on_orbit >= 0 && at_end < 0) return observed_on_orbit(*this, u, regime, on_orbit, gradient.unknowns);
+  const Index place = on_orbit < 0 ? told() + which : place_of(at_end / 2, at_end % 2 == 1);
   gradient.unknowns(place) = 1;
   return u(place);
 }

@@ -58,6 +58,12 @@ CollocationRule::CollocationRule(int degree)
     values_.row(i) = value.transpose();
     derivatives_.row(i) = derivative.transpose();
   }
+  constexpr Index looks = 17;
+  looks_.resize(looks, m + 1);
+  for (Index i = 0; i < looks; ++i) {
+    at(static_cast<double>(i) / (looks - 1), value, derivative);
+    looks_.row(i) = value.transpose();
+  }
 }
 
 void CollocationRule::at(double s, Vector& value, Vector& derivative) const {

@@ -169,6 +169,7 @@ class KindWatch {
 template <class Begin>
 Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
                const Observer& observer, const Begin& begin) {
+  options.journal = nullptr;  // which has no meshes: the same work is done anew
   const KindWatch kind(problem, options);
   MeshWatch meshes(problem, orbits);
   GrowthWatch growth(problem, options);

@@ -57,7 +57,8 @@ class OrbitNetwork {
     }
   }
 
-  bool may_go_on() const { return !interrupted_ && time_.goes_on() && found_.size() < orbits_.max_branches; }
+  /// Without time left the next branch is begun, and says so.
+  bool may_go_on() const { return !interrupted_ && found_.size() < orbits_.max_branches; }
   std::vector<OrbitBranch> take() { return std::move(found_); }
 
  private:

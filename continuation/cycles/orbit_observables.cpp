@@ -1,10 +1,24 @@
 #include "arcslip/continuation/cycles/orbit_observables.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
 namespace arcslip::continuation {
 namespace {
+
+/// Where a function with this slope is highest, if it rises, then falls.
+template <class Slope>
+double summit(const Slope& slope, double low, double high) {
+  const double at_low = slope(low);
+  if (!(at_low > 0)) return low;
+  const double at_high = slope(high);
+  if (!(at_high < 0)) return high;
+  std::uintmax_t most = 60;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      slope, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(), most);
+  return 0.5 * (below + above);
+}
 
 /// The largest value of an unknown times a sign, and by which nodes.
 struct Extremum {
@@ -23,29 +37,19 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
   Extremum best{values(highest), highest, Vector::Ones(1)};
   Vector weights;
   Vector slopes;
-  const auto look = [&](Index interval) {  // bisects the slope about the highest of many values
+  const auto look = [&](Index interval) {  // finds the zero of the slope about the highest of many values
     const auto within = values.segment(interval * m, m + 1);
-    const auto value_at = [&](double s) {
+    const auto slope = [&](double s) {
       rule.at(s, weights, slopes);
-      return within.dot(weights);
+      return within.dot(slopes);
     };
-    constexpr int looks = 16;
-    double top = 0;
-    double at = 0;
-    for (int i = 0; i <= looks; ++i) {
-      const double s = static_cast<double>(i) / looks;
-      const double value = value_at(s);
-      if (i == 0 || value > top) at = s;
-      top = i == 0 ? value : std::max(top, value);
-    }
-    double low = std::max(0.0, at - 1.0 / looks);
-    double high = std::min(1.0, at + 1.0 / looks);
-    for (int round = 0; round < 60 && low < high; ++round) {
-      at = 0.5 * (low + high);
-      value_at(at);
-      (within.dot(slopes) > 0 ? low : high) = at;
-    }
-    const double value = value_at(at);
+    const double last = static_cast<double>(rule.looks().rows() - 1);
+    Index top = 0;
+    (rule.looks() * within).maxCoeff(&top);
+    const double at = summit(slope, std::max(0.0, (static_cast<double>(top) - 1) / last),
+                             std::min(1.0, (static_cast<double>(top) + 1) / last));
+    rule.at(at, weights, slopes);
+    const double value = within.dot(weights);
     if (value > best.value) best = {value, interval * m, weights};
   };
   const Index j = std::min(highest / m, problem.intervals() - 1);
@@ -55,25 +59,25 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
   return best;
 }
 
-/// The root of the mean square, and its derivatives.
-double norm(const OrbitProblem& problem, const Vector& u, const Regime& regime, Vector& gradient) {
+/// The root of the mean square, and its derivatives where they are wanted.
+double norm(const OrbitProblem& problem, const Vector& u, const Regime& regime, Vector* gradient) {
   const OrbitMesh& mesh = problem.frame(regime).mesh;
   const CollocationRule& rule = mesh.rule();
   const Index m = problem.degree();
   const Index n = problem.field().size();
   const Index told = problem.told();
+  const auto orbit = problem.orbit(u);
+  Matrix at(told, m);  // the Gauss points
   double square = 0;
-  auto by_nodes = gradient.head(n * mesh.nodes()).reshaped(n, mesh.nodes());
   for (Index j = 0; j < mesh.intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const Vector at = problem.orbit(u).block(0, j * m, told, m + 1) * rule.values().row(i).transpose();
-      const double weight = mesh.length(j) * rule.weights()(i);
-      square += weight * at.squaredNorm();
-      by_nodes.block(0, j * m, told, m + 1) += weight * at * rule.values().row(i);
-    }
+    at.noalias() = orbit.block(0, j * m, told, m + 1) * rule.values().transpose();
+    square += mesh.length(j) * at.colwise().squaredNorm().dot(rule.weights());
+    if (gradient == nullptr) continue;
+    at *= mesh.length(j) * rule.weights().asDiagonal();
+    gradient->segment(n * j * m, n * (m + 1)).reshaped(n, m + 1).topRows(told) += at * rule.values();
   }
   const double root = std::sqrt(square);
-  if (root > 0) gradient /= root;
+  if (gradient != nullptr && root > 0) *gradient /= root;
   return root;
 }
 
@@ -98,14 +102,13 @@ Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Reg
     values(2 * i) = extremum(problem, u, regime, i, 1).value;
     values(2 * i + 1) = extremum(problem, u, regime, i, -1).value;
   }
-  Vector unused = Vector::Zero(problem.size());
-  values(2 * told) = norm(problem, u, regime, unused);
+  values(2 * told) = norm(problem, u, regime, nullptr);
   return values;
 }
 
 double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index which,
                          Vector& gradient) {
-  if (which == 2 * problem.told()) return norm(problem, u, regime, gradient);
+  if (which == 2 * problem.told()) return norm(problem, u, regime, &gradient);
   const Extremum found = extremum(problem, u, regime, which / 2, which % 2 == 0 ? 1 : -1);
   for (Index k = 0; k < found.weights.size(); ++k)
     gradient((found.first + k) * problem.field().size() + which / 2) = found.weights(k);

@@ -142,6 +142,7 @@ std::string_view to_string(BranchPointKind kind) {
   switch (kind) {
     case BranchPointKind::transcritical: return "transcritical";
     case BranchPointKind::pitchfork: return "pitchfork";
+    case BranchPointKind::hilltop: return "hilltop";
     case BranchPointKind::isolated: return "isolated";
     case BranchPointKind::degenerate: return "degenerate";
   }
@@ -193,7 +194,9 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
     std::swap(result.slopes[0], result.slopes[1]);
     std::swap(rates[0], rates[1]);
   }
-  result.kind = rates[1] < tolerances.turns ? BranchPointKind::pitchfork : BranchPointKind::transcritical;
+  result.kind = rates[0] < tolerances.turns   ? BranchPointKind::hilltop
+                : rates[1] < tolerances.turns ? BranchPointKind::pitchfork
+                                              : BranchPointKind::transcritical;
   if (result.kind == BranchPointKind::pitchfork) {
     result.slopes[1] = 0;
     Vector& turning = result.directions[1];

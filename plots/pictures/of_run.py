@@ -116,12 +116,15 @@ class PicturesOfRun:
         for name in self.data.table.columns[4:]:
             if name in ("unstable", "arclength"):
                 break
+            unknown, _, end = name.rpartition("_")
+            if end in ("max", "min") and self.data.ends_of([unknown]):
+                name = unknown  # both ends in one panel
             if name != parameter and name not in self.data.system and name not in found:
                 found.append(name)
         return found[:3]
 
     def _panels(self, x, mode, columns, lines_title="", titles=None):
-        self.data.table.require([x, "arclength", *columns])
+        self.data.table.require([x, "arclength", *(name for name in columns if not self.data.ends_of([name]))])
         unmarked = [kind for kind, title in (titles or {}).items() if not title]
         quantities = [Quantity(self.data.curves(x, column, mode, unmarked), mode, self.title(column), wide=20)
                       for column in columns]

@@ -86,8 +86,9 @@ class RunData:
         """
         names, function = ((quantity,), lambda y: y) if isinstance(quantity, str) else quantity
         (xs,) = self.columns(x)
-        columns = self.columns(*names)
         ends = self.ends_of(names)
+        has_values = not ends or self.table.has(*names)
+        columns = self.columns(*names) if has_values else ends
         told = self.unstable() if mode == "stability" else self.slips
         marked = [kind for kind in dict.fromkeys(self.types) if kind in style.KINDS and kind not in unmarked]
         all_curves = []
@@ -97,16 +98,16 @@ class RunData:
             i = min(number, len(self.looks) - 1)
             look = {"linestyle": style.UNTOLD} if mode == "stability" and self.is_untold(part) else {}
             drawn = columns
-            if ends and not np.isfinite(columns[0][part].astype(float)).any():
-                drawn = ends  # cycles: both ends of what the unknown runs through
-            for column in [drawn] if drawn is columns else drawn:
-                values = [one[part] for one in column] if drawn is columns else [column[part]]
+            if ends and not (has_values and np.isfinite(columns[0][part].astype(float)).any()):
+                drawn = ends  # orbits: both ends of what the unknown runs through
+            for column in drawn if drawn is ends else [drawn]:
+                values = [column[part]] if drawn is ends else [one[part] for one in column]
                 all_curves.append(Curve(xs[part], function(*values), told[part], special, self.looks[i],
                                         self.names[i], style=look))
         return all_curves
 
     def ends_of(self, names):
-        """The columns of the largest and the smallest value of an unknown along cycles, or nothing."""
+        """The columns of the largest and the smallest value of an unknown along orbits, or nothing."""
         both = [f"{names[0]}_max", f"{names[0]}_min"]
         return self.columns(*both) if len(names) == 1 and all(map(self.table.has, both)) else []
 

@@ -25,6 +25,22 @@ Words with_ending(const Words& names, const char* ending) {
   return all;
 }
 
+/// Refuses ends that are numbers, and one.
+void check_ends(const FormulaInterval& interval) {
+  for (const Formula* end : {&interval.from, &interval.to}) {
+    try {
+      compile({{}, {}, {*end}});
+    } catch (const FormulaError&) {
+      return;  // it has parameters
+    }
+  }
+  double ends[2] = {0, 0};
+  const bool known = compile({{}, {}, {interval.from, interval.to}}).evaluate(nullptr, ends);
+  if (!known || ends[0] == ends[1])
+    throw FormulaError(interval.place, fmt::format("expected two different ends, got {} and {}",
+                                                   interval.from.text, interval.to.text));
+}
+
 /// Of the unknowns at both ends and parameters.
 Tape compiled_ends(const FormulaSystem& system, const Words& unknowns, const Words& parameters) {
   FormulaSet set{with(with(with_ending(unknowns, "_left"), with_ending(unknowns, "_right")), parameters),
@@ -84,6 +100,8 @@ FormulaBoundary::FormulaBoundary(const FormulaSystem& system)
   std::vector<Formula> rates = system.equations;
   rates.insert(rates.end(), system.integrals.begin(), system.integrals.end());
   compile({with({variable_}, with(unknowns, all_parameters)), system.definitions, rates});
+  compile({with({variable_}, all_parameters), {}, system.start});
+  check_ends(*system.interval);
 
   const std::string length = fmt::format("(({}) - ({}))", own[1].text, own[0].text);
   const Formula place{variable_, fmt::format("({}) + {} * {}", own[0].text, scaled_place, length)};

@@ -97,10 +97,12 @@ void add_boundary(const std::shared_ptr<const FormulaBoundary>& field, LibraryMo
     };
     return continuation::boundary_start(field, guess, p, options);
   };
-  model.build = [start = model.boundary](const LibraryModel::Values& values) {
-    const auto problem = start(values, {}).problem;
+  model.build = [field](const LibraryModel::Values& values) {  // its guess may have no value yet
+    const continuation::OrbitOptions options;
+    const continuation::OrbitMesh mesh(continuation::CollocationRule(options.degree), options.intervals);
     return std::make_unique<continuation::BoundaryProblem>(
-        dynamic_cast<const continuation::BoundaryProblem&>(*problem));
+        field, mesh, Matrix::Zero(field->size(), mesh.nodes()),
+        parameters_of(values, std::ssize(field->parameter_names())));
   };
   model.guess = [start = model.boundary](const continuation::Problem& /*problem*/,
                                          const LibraryModel::Values& values) {

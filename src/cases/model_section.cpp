@@ -252,7 +252,7 @@ std::vector<ListedKey> listed_model_keys(const LibraryModel& model) {
 
 void resolve_model(const TomlDocument& document, nlohmann::ordered_json& section) {
   for (auto& [key, value] : section.items()) {
-    if (!value.is_object()) continue;
+    if (!value.is_object() || key == "interval") continue;
     nlohmann::ordered_json ordered = nlohmann::ordered_json::object();
     for (const NamedNode& entry : in_order(TomlSection(document, fmt::format("{}.{}", section_name, key))))
       ordered[entry.key] = value[entry.key];

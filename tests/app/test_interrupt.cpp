@@ -232,9 +232,11 @@ TEST_CASE("A run whose branches had no time to be whole goes on to the tables of
                              fmt::format(" --set continuation.max_seconds={}", seconds));
     INFO(part.err);
     CHECK(part.status == 0);
-    CHECK(names_in(folder.path("r")) == run_results);
-    for (const char* name : {"/branches.csv", "/curves.csv"})
-      CHECK(read(folder.path("r") + name) == read(folder.path("whole") + name));
+    CHECK(names_in(folder.path("r")) == names_in(folder.path("whole")));
+    for (const std::string& name : names_in(folder.path("whole"))) {
+      if (name.ends_with(".csv"))
+        CHECK(read(folder.path("r") + "/" + name) == read(folder.path("whole") + "/" + name));
+    }
   };
   SECTION("several branches, of which some are whole") {
     check(figure_8_case + " --set branch.for_each.preload=[0.5,50.0,5.0] --set continuation.max_step=0.01",
@@ -242,6 +244,10 @@ TEST_CASE("A run whose branches had no time to be whole goes on to the tables of
   }
   SECTION("several curves in two parameters") { check(case_named("border"), "5e-4"); }
   SECTION("a curve of peaks") { check(case_named("ridge"), "0.01"); }
+  SECTION("branches of a boundary value problem, on meshes of their own") {
+    check(case_named("buckling_boundary") + " --set cycles.tolerance=1e-8", "0.05");
+  }
+  SECTION("cycles under a load") { check(case_named("forced_duffing"), "0.05"); }
 }
 
 TEST_CASE("Only an interrupted run of the same case is gone on with", "[interrupt]") {

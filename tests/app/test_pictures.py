@@ -32,12 +32,13 @@ def run(case, folder, *settings, command="run"):
 
 LIBRARY = ["ab", "cusp", "enz", "pp2", "freudenstein_roth", "lorenz84", "lure", "bratu", "duffing"]
 FORMULAS = ["brusselator", "henon", "morris_lecar"]
+ORBITS = ["buckling_boundary"]
 
 
 @pytest.fixture(scope="session")
 def results(tmp_path_factory):
     root = tmp_path_factory.mktemp("results")
-    cases = {name: name for name in ["figure_8", "stability", "border", *LIBRARY, *FORMULAS]} | {"rotor": "rotor_ring"}
+    cases = {name: name for name in ["figure_8", "stability", "border", *LIBRARY, *FORMULAS, *ORBITS]} | {"rotor": "rotor_ring"}
     return {name: run(case, root / name) for name, case in cases.items()}
 
 
@@ -256,13 +257,20 @@ def test_a_picture_of_four_hundred_designs_is_drawn_within_seconds(tmp_path):
     assert time.process_time() - begin < 10
 
 
-@pytest.mark.parametrize("problem", [*LIBRARY, *FORMULAS])
+@pytest.mark.parametrize("problem", [*LIBRARY, *FORMULAS, *ORBITS])
 def test_branches_of_every_problem_of_the_library_and_of_formulas_are_drawn(results, problem):
     (figure,) = figures_of(results[problem], only=["branch"]).values()
     texts = [text for text, _ in texts_of(figure)]
     assert ("stable" in texts) == (problem in ("ab", "cusp", "enz", "pp2", "duffing", "lure", *FORMULAS))
     assert ("Hopf" in texts) == (problem in ("ab", "lorenz84", "pp2", "brusselator", "morris_lecar"))
     assert ("period doubling" in texts) == (problem in ("lure", "henon"))
+
+
+def test_both_ends_of_what_an_unknown_runs_through_share_a_panel(results):
+    (figure,) = figures_of(results["buckling_boundary"], only=["branch"]).values()
+    assert {"angle", "moment", "norm"} <= {text for text, _ in texts_of(figure)}
+    heights = np.concatenate([line.get_ydata() for line in figure.axes[0].lines])
+    assert np.nanmax(heights) == pytest.approx(3.0876433, abs=1e-6) and np.nanmin(heights) == pytest.approx(-3.0876433, abs=1e-6)
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 700])

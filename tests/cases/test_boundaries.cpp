@@ -64,6 +64,26 @@ TEST_CASE("Case files of boundary value problems have the points of their closed
   CHECK(orbits_header(column[1]) == "branch,point,type,s,angle,moment\n");
 }
 
+TEST_CASE("Where the real solutions of Bratu's problem end complex ones go on", "[boundaries]") {
+  const auto all = traced_of(  // AUTO-07p, demo ezp
+      "[model]\nkind = \"boundary\"\ninterval = { x = [0, 1] }\nparameters = { lambda = 0.1 }\n"
+      "equations = { u = \"v\", v = \"-lambda*exp(u)*cos(w)\", w = \"z\", z = \"-lambda*exp(u)*sin(w)\" }\n"
+      "conditions = [\"u_left\", \"u_right\", \"w_left\", \"w_right\"]\n"
+      "[branch]\nparameter = \"lambda\"\nfrom = 0.1\nto = 5\nswitching = true\n");
+  REQUIRE(all.size() == 2);
+  check_values(all_values_at(all, PointType::branch_point, "lambda"), {bratu_fold}, 1e-9);
+  Complex theta(1.2, 0.5);  // lambda = 8 theta^2/cosh(theta)^2
+  for (int i = 0; i < 50; ++i)
+    theta -= (8.0 * theta * theta - 5.0 * std::pow(std::cosh(theta), 2)) /
+             (16.0 * theta - 10.0 * std::cosh(theta) * std::sinh(theta));
+  const Complex slope = 4.0 * theta * std::tanh(theta);
+  for (const auto* end : {&all[1].branch.points.front(), &all[1].branch.points.back()}) {
+    CHECK(end->parameters(0) == 5);
+    CHECK_THAT(value(all[1], *end, "v_left"), WithinRel(slope.real(), 1e-9));
+    CHECK_THAT(std::abs(value(all[1], *end, "z_left")), WithinRel(std::abs(slope.imag()), 1e-9));
+  }
+}
+
 TEST_CASE("An interval may depend on a parameter, and folds are followed in two", "[boundaries]") {
   const auto over_length = traced_of(on_length, {"cycles.tolerance=1e-9"});
   check_values(all_values_at(over_length, PointType::fold, "L"), {std::sqrt(bratu_fold)}, 1e-9);
@@ -115,6 +135,9 @@ TEST_CASE("Mistakes in boundary value problems are told in one line", "[boundari
        "has this name already", ""},
       {"{ x = [\"-half\", \"half\"] }", "{ x = [0, \"long\"] }", ":3:", "model.interval.x[1]",
        "unknown name \"long\"", "there are"},
+      {"[\"-half\", \"half\"]", "[2, 2.0]", ":3:", "model.interval.x", "two different ends", "got 2 and 2"},
+      {"start = { u = \"1.4", "start = { u = \"s*1.4", ":10:", "model.start.u", "unknown name \"s\"",
+       "there are x, mu, half, square"},
       {"interval = { x = [\"-half\", \"half\"] }\n", "", ":1:", "model.interval", "missing", ""},
       {"u^2 - square", "w^2 - square", ":8:14", "model.integrals[0]", "unknown name \"w\"", ""},
       {"kind = \"boundary\"", "kind = \"flow\"", ":3:12", "model.interval", "only of kind = \"boundary\"",

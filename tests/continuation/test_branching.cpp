@@ -8,6 +8,7 @@
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "catch.hpp"
+#include "flow.hpp"
 #include "scalar_problem.hpp"
 
 using namespace arcslip;
@@ -102,6 +103,32 @@ TEST_CASE("A pitchfork is found, classified, and left along all its ways") {
     const BranchPoint& last = other.points.back();
     CHECK_THAT(last.unknowns(0), WithinRel(way.direction(0) > 0 ? 1.0 : -1.0, 1e-9));
     CHECK(of_type(other, PointType::fold).empty());
+  }
+}
+
+TEST_CASE("At a fold that is a branch point as well the other branch is left along its own direction") {
+  // z^2 = lambda (1 + z) of complex z: real for lambda > 0, and two solutions side by side below
+  const auto problem = make_flow(2, {"lambda"}, [](const auto& u, const auto& p, auto& f) {
+    f[0] = u[0] * u[0] - u[1] * u[1] - p[0] * (1.0 + u[0]);
+    f[1] = 2.0 * u[0] * u[1] - p[0] * u[1];
+  });
+  const Branch branch =
+      trace(*problem, {Eigen::Vector2d(1.6180339887, 0), vector_of({1})}, over("lambda", 1, -1));
+  const auto found = of_type(branch, PointType::branch_point);
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0].parameters(0), WithinAbs(0, 1e-10));
+  const auto form = branch_point_form(*problem, 0, {found[0].unknowns, found[0].parameters, 0, {}});
+  REQUIRE(form);
+  CHECK(form->kind == BranchPointKind::hilltop);
+  const std::vector<Guess> ways = other_ways(*problem, "lambda", found[0]);
+  REQUIRE(ways.size() == 2);
+  for (const Guess& way : ways) {
+    CHECK(std::abs(way.direction(0)) < 1e-6 * std::abs(way.direction(1)));
+    const Branch other = trace(*problem, way, over("lambda", 1, -1));
+    CHECK(other.stop == Stop::reached_end);
+    const Vector& last = other.points.back().unknowns;  // (-1 +- j sqrt 3)/2
+    CHECK_THAT(last(0), WithinAbs(-0.5, 1e-9));
+    CHECK_THAT(std::abs(last(1)), WithinRel(std::sqrt(0.75), 1e-9));
   }
 }
 

@@ -33,8 +33,8 @@ class BoundaryField : public Field {
   virtual Index free() const { return 0; }
 };
 
-/// Unknowns: see OrbitProblem. Observables: those of orbits; the values of each unknown at both ends,
-/// `x_left` and `x_right`; the free parameters.
+/// Unknowns: see OrbitProblem. Observables: the free parameters; those of orbits; the values of each unknown
+/// at both ends, `x_left` and `x_right`.
 class BoundaryProblem : public OrbitProblem {
  public:
   BoundaryProblem(std::shared_ptr<const BoundaryField> field, const OrbitMesh& mesh, const Matrix& orbit,
@@ -62,7 +62,7 @@ class BoundaryProblem : public OrbitProblem {
   double given_duration(const Vector& p, Vector* by_parameters) const override;
 
  private:
-  Index place_of(Index which) const;
+  Index place_of(Index unknown, bool right) const;
 
   std::shared_ptr<const BoundaryField> boundary_;
 };

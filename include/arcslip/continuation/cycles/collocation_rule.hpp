@@ -22,8 +22,9 @@ class CollocationRule {
   const Vector& weights() const { return weights_; }          ///< m, their sum is 1
   const Matrix& values() const { return values_; }            ///< m x (m + 1): at the points from the nodes
   const Matrix& derivatives() const { return derivatives_; }  ///< m x (m + 1): the same of the derivative
-  const Vector& highest() const { return highest_; }          ///< m + 1: of the m-th derivative
-  double product() const { return product_; }                 ///< largest |prod (s - node)| on the interval
+  const Matrix& looks() const { return looks_; }      ///< 17 x (m + 1): at equal distances, ends included
+  const Vector& highest() const { return highest_; }  ///< m + 1: of the m-th derivative
+  double product() const { return product_; }         ///< largest |prod (s - node)| on the interval
 
   /// Weights of the values at the nodes, m + 1, in the value at s and in the derivative there.
   void at(double s, Vector& value, Vector& derivative) const;
@@ -36,6 +37,7 @@ class CollocationRule {
   Vector weights_;
   Matrix values_;
   Matrix derivatives_;
+  Matrix looks_;
   Vector highest_;
   double product_ = 0;
 };

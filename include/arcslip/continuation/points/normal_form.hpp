@@ -35,6 +35,7 @@ struct FoldForm {
 enum class BranchPointKind {
   transcritical,  ///< both branches have a slope in the parameter
   pitchfork,      ///< one of them turns there
+  hilltop,        ///< both do: a fold as well
   isolated,       ///< no branch leaves the point: the centre of a vanishing closed branch
   degenerate      ///< the second-order terms do not tell
 };
