@@ -45,13 +45,16 @@ class Carrier {
   Regime regime_;
 };
 
-/// How far along a branch the frame of its last point serves.
+/// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
+/// corrected there.
 class MeshWatch {
  public:
   MeshWatch(CycleProblem& problem, const CycleOptions& options) : problem_(problem), options_(options) {}
 
-  bool serves(const BranchPoint& point) const {
+  bool serves(const BranchPoint& point) {
     constexpr double grip = 0.5;
+    if (point.type == PointType::branch_point) singular_ = point.arclength;
+    if (point.arclength == singular_) return true;
     return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
            problem_.phase_grip(point.unknowns, point.regime) > grip;
   }
@@ -70,6 +73,7 @@ class MeshWatch {
  private:
   CycleProblem& problem_;
   const CycleOptions& options_;
+  double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
 };
 
 /// Thrown where more intervals are needed and there may be more.
@@ -92,8 +96,8 @@ bool renew(CycleProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
   return true;
 }
 
-/// Tells where the period grows while the parameter no longer changes: where an orbit comes ever nearer to an
-/// equilibrium.
+/// Tells where the period grows while the parameter no longer changes, and the orbit all but rests on its
+/// way: where it comes ever nearer to an equilibrium. Relaxation oscillations grow as fast, without rest.
 class GrowthWatch {
  public:
   GrowthWatch(const CycleProblem& problem, const TraceOptions& options)
@@ -104,6 +108,7 @@ class GrowthWatch {
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
     constexpr double nearly = 1e-9;  // of the parameter, whose distance from its limit falls with e^-T
+    constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
     Vector scale(point.parameters.size());
@@ -115,7 +120,8 @@ class GrowthWatch {
       value_ = value;
       period_ = period;
     }
-    return period < grown * period_;
+    return period < grown * period_ ||
+           problem_.least_speed(point.unknowns, point.parameters, point.regime) > rest;
   }
 
   /// A sentence.
@@ -199,7 +205,7 @@ Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& 
   }
   kind.tell(branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
-    branch.stop = Stop::left_regime;
+    branch.stop = Stop::infinite_period;
     branch.explanation = growth.told();
     branch.checkpoint.reset();
   }

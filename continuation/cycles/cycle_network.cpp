@@ -77,11 +77,12 @@ class CycleNetwork {
         waiting_.push_back({traced.problem, point, doublings});
       }
     }
-    if (traced.branch.stop == Stop::left_regime) {
-      const BranchPoint& last = traced.branch.points.back();
+    const auto keep_end = [&](const BranchPoint& end) {
       const double rounds = traced.problem->is_doubled() ? 2 : 1;
-      ends_.push_back({last.parameters, traced.problem->duration(last.unknowns, last.parameters) / rounds});
-    }
+      ends_.push_back({end.parameters, traced.problem->duration(end.unknowns, end.parameters) / rounds});
+    };
+    if (traced.branch.first_stop == Stop::left_regime) keep_end(traced.branch.points.front());
+    if (traced.branch.stop == Stop::left_regime) keep_end(traced.branch.points.back());
     found_.push_back(std::move(traced));
   }
 

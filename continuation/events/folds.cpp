@@ -5,14 +5,27 @@
 namespace arcslip::continuation {
 namespace {
 
+/// Whether the parameter has stood still up to where the step begins, and may have turned before.
+bool has_stood(const StepSearch& search) {
+  const Step& step = search.stepper.step();
+  const double begin = step.parameter_rate_from();
+  const int before = search.signs.parameter;
+  return sign_of_rate(search.stepper, begin) == 0 && before * begin <= 0 && !step.past.empty() &&
+         before * sign_of_rate(search.stepper, step.past.front().rate / step.here.scale.tail(1)(0)) >= 0;
+}
+
 /// Two in one step, the second of which turns the parameter back, show in how far it has come; but from where
-/// the branch turns itself, as at a pitchfork, the way there is not told by a slope.
+/// the branch turns itself, as at a pitchfork, the way there is not told by a slope. A parameter that has
+/// stood still but for rounding has turned where it moves again.
 void search_folds(StepSearch& step) {
   if (step.stepper.is_regular()) return;
   const int before = step.signs.parameter;
-  const double after = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
-  const bool turns = before * sign_of(after) < 0 || (before != 0 && step.stepper.step().may_turn_twice());
-  step.note(folds, PointType::fold, 0, step.turn(Readings::rate, before, turns));
+  const double rate = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
+  const int after = step.is_whole() ? sign_of_rate(step.stepper, rate) : sign_of(rate);
+  const bool turns = before * after < 0 || (before * after > 0 && step.stepper.step().may_turn_twice());
+  const bool turned = before * after < 0 && has_stood(step);
+  step.note(folds, PointType::fold, 0,
+            turned ? Zero{Zero::State::found, 0} : step.turn(Readings::rate, before, turns));
 }
 
 void pass_fold(const Event& event, const Passage& passage) {
