@@ -11,7 +11,7 @@ namespace {
 /// Vectors of one frame in another one.
 class Carrier {
  public:
-  Carrier(const CycleProblem& problem, const Regime& from, const Regime& to)
+  Carrier(const OrbitProblem& problem, const Regime& from, const Regime& to)
       : problem_(problem), from_(problem.frame(from).mesh), to_(problem.frame(to).mesh), regime_(to) {}
 
   /// n + 1 or n entries, of which those of the orbit change.
@@ -39,7 +39,7 @@ class Carrier {
   }
 
  private:
-  const CycleProblem& problem_;
+  const OrbitProblem& problem_;
   const OrbitMesh& from_;
   const OrbitMesh& to_;
   Regime regime_;
@@ -49,7 +49,7 @@ class Carrier {
 /// corrected there.
 class MeshWatch {
  public:
-  MeshWatch(CycleProblem& problem, const CycleOptions& options) : problem_(problem), options_(options) {}
+  MeshWatch(OrbitProblem& problem, const OrbitOptions& options) : problem_(problem), options_(options) {}
 
   bool serves(const BranchPoint& point) {
     constexpr double grip = 0.5;
@@ -71,8 +71,8 @@ class MeshWatch {
   }
 
  private:
-  CycleProblem& problem_;
-  const CycleOptions& options_;
+  OrbitProblem& problem_;
+  const OrbitOptions& options_;
   double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
 };
 
@@ -80,7 +80,7 @@ class MeshWatch {
 struct TooCoarse {};
 
 /// Puts a branch on a mesh that fits where it stands; false if no mesh of as many intervals does.
-bool renew(CycleProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
+bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
   Progress& progress = *branch.checkpoint->ahead;
   const Regime before = progress.here.regime;
   const auto regime = meshes.renewed(progress.here.unknowns, progress.here.parameters, before);
@@ -100,7 +100,7 @@ bool renew(CycleProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
 /// way: where it comes ever nearer to an equilibrium. Relaxation oscillations grow as fast, without rest.
 class GrowthWatch {
  public:
-  GrowthWatch(const CycleProblem& problem, const TraceOptions& options)
+  GrowthWatch(const OrbitProblem& problem, const TraceOptions& options)
       : problem_(problem),
         options_(options),
         parameter_(index_of(problem.parameter_names(), options.parameter)) {}
@@ -108,6 +108,7 @@ class GrowthWatch {
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
     constexpr double nearly = 1e-9;  // of the parameter, whose distance from its limit falls with e^-T
+    constexpr int many = 30;         // points: where rounding hides how an orbit goes on
     constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
@@ -119,8 +120,9 @@ class GrowthWatch {
     if (!(std::abs(value - value_) <= same) || period < period_) {
       value_ = value;
       period_ = period;
+      points_ = 0;
     }
-    return period < grown * period_ ||
+    return (period < grown * period_ && ++points_ < many) ||
            problem_.least_speed(point.unknowns, point.parameters, point.regime) > rest;
   }
 
@@ -133,18 +135,20 @@ class GrowthWatch {
   }
 
  private:
-  const CycleProblem& problem_;
+  const OrbitProblem& problem_;
   const TraceOptions& options_;
   Index parameter_;
   double value_ = std::numeric_limits<double>::quiet_NaN();
   double period_ = 0;
+  int points_ = 0;  // since then
 };
 
 /// Ends a branch where its cycles become simpler ones, by an event.
 class KindWatch {
  public:
-  KindWatch(const CycleProblem& problem, TraceOptions& options)
+  KindWatch(const OrbitProblem& problem, TraceOptions& options)
       : problem_(problem), parameter_(options.parameter) {
+    if (problem.end_of_kind().empty()) return;
     constexpr double nothing = 1e-3;  // of what there was: nearer to it cycles are hard to tell from others
     options.events.push_back({name, [&problem](const Vector& u, const Vector& /*p*/, const Regime& regime) {
                                 return problem.apart(u, regime) - nothing;
@@ -166,16 +170,16 @@ class KindWatch {
 
  private:
   static constexpr const char* name = "end of a kind of cycles";
-  const CycleProblem& problem_;
+  const OrbitProblem& problem_;
   std::string parameter_;
 };
 
 /// One way; `begin` traces up to where the observer says no.
 template <class Begin>
-Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& cycles,
+Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& orbits,
                const Observer& observer, const Begin& begin) {
   const KindWatch kind(problem, options);
-  MeshWatch meshes(problem, cycles);
+  MeshWatch meshes(problem, orbits);
   GrowthWatch growth(problem, options);
   bool worn = false;
   bool told = false;
@@ -191,11 +195,11 @@ Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& 
   while (branch.stop == Stop::interrupted && worn && !told && !grows) {
     worn = false;
     if (!renew(problem, meshes, branch, options)) {
-      if (2 * problem.intervals() <= cycles.most_intervals) throw TooCoarse{};
+      if (2 * problem.intervals() <= orbits.most_intervals) throw TooCoarse{};
       branch.stop = Stop::no_value;
       branch.explanation = fmt::format(
           "an orbit of {} intervals misses more than {:g} of what its unknowns do, at {} = {:.10g}",
-          problem.intervals(), cycles.tolerance, options.parameter,
+          problem.intervals(), orbits.tolerance, options.parameter,
           branch.points.back().parameters(index_of(problem.parameter_names(), options.parameter)));
       return branch;
     }
@@ -212,11 +216,11 @@ Branch one_way(CycleProblem& problem, TraceOptions options, const CycleOptions& 
   return branch;
 }
 
-CycleBranch on_these_intervals(const CycleStart& start, const TraceOptions& options,
-                               const CycleOptions& cycles, const Observer& observer) {
-  CycleProblem& problem = *start.problem;
+OrbitBranch on_these_intervals(const OrbitStart& start, const TraceOptions& options,
+                               const OrbitOptions& orbits, const Observer& observer) {
+  OrbitProblem& problem = *start.problem;
   const auto part = [&](bool towards_to) {
-    return one_way(problem, options, cycles, observer,
+    return one_way(problem, options, orbits, observer,
                    [&](const TraceOptions& watched, const Observer& watching) {
                      return trace_one_way(problem, start.guess, towards_to, watched, watching);
                    });
@@ -227,17 +231,36 @@ CycleBranch on_these_intervals(const CycleStart& start, const TraceOptions& opti
 
 }  // namespace
 
-CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options, const CycleOptions& cycles,
+OrbitStart start_from(std::shared_ptr<OrbitProblem> problem, const Matrix& orbit, double duration,
+                      const Vector& p) {
+  OrbitStart start{std::move(problem), {}};
+  start.guess.unknowns.resize(start.problem->size());
+  start.guess.unknowns.head(orbit.size()) = orbit.reshaped();
+  if (start.problem->has_duration()) start.guess.unknowns.tail(1).setConstant(duration);
+  start.guess.parameters = p;
+  return start;
+}
+
+OrbitBranch trace_orbits(const OrbitStart& start, const TraceOptions& options, const OrbitOptions& orbits,
                          const Observer& observer) {
   const TimeBudget time(options);
-  CycleStart at = start;
+  OrbitStart at = start;
   while (true) {
     try {
-      return on_these_intervals(at, time.rest(), cycles, observer);
+      return on_these_intervals(at, time.rest(), orbits, observer);
     } catch (const TooCoarse&) {
       at = refined(start, 2 * at.problem->intervals());
     }
   }
+}
+
+CycleBranch cycle_branch(OrbitBranch branch) {
+  return {std::dynamic_pointer_cast<const CycleProblem>(branch.problem), std::move(branch.branch)};
+}
+
+CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options, const CycleOptions& cycles,
+                         const Observer& observer) {
+  return cycle_branch(trace_orbits({start.problem, start.guess, start.both_ways}, options, cycles, observer));
 }
 
 }  // namespace arcslip::continuation

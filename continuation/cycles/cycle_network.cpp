@@ -27,28 +27,27 @@ TraceOptions of_cycles(const Field& field, const TraceOptions& given) {
   return options;
 }
 
-/// Follows cycles, each branch once.
-class CycleNetwork {
+/// Follows orbits, each branch once.
+class OrbitNetwork {
  public:
-  CycleNetwork(std::shared_ptr<const Field> field, const TraceOptions& options, const CycleOptions& cycles,
+  OrbitNetwork(const Field& field, const TraceOptions& options, const OrbitOptions& orbits,
                const Observer& observer)
-      : field_(std::move(field)),
-        options_(of_cycles(*field_, options)),
-        cycles_(cycles),
+      : options_(options),
+        orbits_(orbits),
         observer_(observer),
-        parameter_(index_of(field_->parameter_names(), options.parameter)),
+        parameter_(index_of(field.parameter_names(), options.parameter)),
         time_(options_) {}
 
-  void leave_hopf(const BranchPoint& hopf) {
+  void leave_hopf(const std::shared_ptr<const Field>& field, const BranchPoint& hopf) {
     const Guess at{hopf.unknowns, hopf.parameters, hopf.regime};
-    for (const CycleStart& start : cycles_from_hopf(field_, at, cycles_)) {
+    for (const CycleStart& start : cycles_from_hopf(field, at, orbits_)) {
       const double period = start.guess.unknowns.tail(1)(0);
       if (!may_go_on() || is_reached(hopf.parameters, period)) continue;
-      follow(start, 0);
+      follow({start.problem, start.guess, start.both_ways}, 0);
     }
   }
 
-  void begin(const CycleStart& start) { follow(start, 0); }
+  void begin(const OrbitStart& start) { follow(start, 0); }
 
   void follow_waiting() {
     while (!waiting_.empty() && may_go_on()) {
@@ -58,18 +57,18 @@ class CycleNetwork {
     }
   }
 
-  bool may_go_on() const { return !interrupted_ && time_.goes_on() && found_.size() < cycles_.max_branches; }
-  std::vector<CycleBranch> take() { return std::move(found_); }
+  bool may_go_on() const { return !interrupted_ && time_.goes_on() && found_.size() < orbits_.max_branches; }
+  std::vector<OrbitBranch> take() { return std::move(found_); }
 
  private:
   struct Waiting {
-    std::shared_ptr<const CycleProblem> problem;
+    std::shared_ptr<const OrbitProblem> problem;
     BranchPoint point;
     int doublings;
   };
 
-  void follow(const CycleStart& start, int doublings) {
-    CycleBranch traced = trace_cycles(start, time_.rest(), cycles_, observer_);
+  void follow(const OrbitStart& start, int doublings) {
+    OrbitBranch traced = trace_orbits(start, time_.rest(), orbits_, observer_);
     interrupted_ = is_unfinished(traced.branch.stop);
     for (const BranchPoint& point : traced.branch.points) {
       if (point.type == PointType::branch_point || point.type == PointType::period_doubling) {
@@ -77,27 +76,31 @@ class CycleNetwork {
         waiting_.push_back({traced.problem, point, doublings});
       }
     }
+    const auto* cycles = dynamic_cast<const CycleProblem*>(traced.problem.get());
     const auto keep_end = [&](const BranchPoint& end) {
-      const double rounds = traced.problem->is_doubled() ? 2 : 1;
+      const double rounds = cycles->is_doubled() ? 2 : 1;
       ends_.push_back({end.parameters, traced.problem->duration(end.unknowns, end.parameters) / rounds});
     };
-    if (traced.branch.first_stop == Stop::left_regime) keep_end(traced.branch.points.front());
-    if (traced.branch.stop == Stop::left_regime) keep_end(traced.branch.points.back());
+    if (cycles != nullptr && traced.branch.first_stop == Stop::left_regime)
+      keep_end(traced.branch.points.front());
+    if (cycles != nullptr && traced.branch.stop == Stop::left_regime) keep_end(traced.branch.points.back());
     found_.push_back(std::move(traced));
   }
 
   void leave(const Waiting& from) {
-    const bool doubles = from.point.type == PointType::period_doubling;
-    if (doubles) {
-      const double period = from.problem->duration(from.point.unknowns, from.point.parameters);
-      if (from.doublings >= cycles_.doublings || is_reached(from.point.parameters, period)) return;
-    } else if (times_marked(mark(*from.problem, from.point)) > 1) {
-      return;  // both of its branches are known
-    }
-    const std::optional<CycleStart> start =
-        doubles ? cycle_from_doubling(*from.problem, parameter_, from.point)
-                : cycle_from_branch_point(*from.problem, options_.parameter, from.point, options_.tolerances);
-    if (start) follow(*start, from.doublings + (doubles ? 1 : 0));
+    if (from.point.type == PointType::period_doubling) return double_at(from);
+    if (times_marked(mark(*from.problem, from.point)) > 1) return;  // both of its branches are known
+    const std::optional<OrbitStart> start =
+        orbit_from_branch_point(*from.problem, options_.parameter, from.point, options_.tolerances);
+    if (start) follow(*start, from.doublings);
+  }
+
+  void double_at(const Waiting& from) {
+    const auto& cycles = dynamic_cast<const CycleProblem&>(*from.problem);
+    const double period = cycles.duration(from.point.unknowns, from.point.parameters);
+    if (from.doublings >= orbits_.doublings || is_reached(from.point.parameters, period)) return;
+    const std::optional<CycleStart> start = cycle_from_doubling(cycles, parameter_, from.point);
+    if (start) follow({start->problem, start->guess, start->both_ways}, from.doublings + 1);
   }
 
   /// Whether a branch has ended there, on a cycle of this period or on an equilibrium.
@@ -110,7 +113,7 @@ class CycleNetwork {
     });
   }
 
-  Mark mark(const CycleProblem& problem, const BranchPoint& point) const {
+  Mark mark(const OrbitProblem& problem, const BranchPoint& point) const {
     Mark result{point.type, point.parameters(parameter_), {}};
     problem.observe(point.unknowns, point.parameters, point.regime, result.observed);
     return result;
@@ -131,41 +134,52 @@ class CycleNetwork {
     double period;
   };
 
-  std::shared_ptr<const Field> field_;
   TraceOptions options_;
-  CycleOptions cycles_;
+  OrbitOptions orbits_;
   const Observer& observer_;
   Index parameter_;
   TimeBudget time_;
-  std::vector<CycleBranch> found_;
+  std::vector<OrbitBranch> found_;
   std::deque<Waiting> waiting_;
   std::vector<Mark> marks_;
   std::vector<End> ends_;
   bool interrupted_ = false;
 };
 
+std::vector<CycleBranch> cycle_branches(std::vector<OrbitBranch> orbits) {
+  std::vector<CycleBranch> all;
+  for (OrbitBranch& one : orbits) all.push_back(cycle_branch(std::move(one)));
+  return all;
+}
+
 }  // namespace
 
-std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const TraceOptions& options,
-                                                const CycleOptions& cycles, const Observer& observer) {
-  CycleNetwork network(start.problem->shared_field(), options, cycles, observer);
+std::vector<OrbitBranch> trace_connected_orbits(const OrbitStart& start, const TraceOptions& options,
+                                                const OrbitOptions& orbits, const Observer& observer) {
+  OrbitNetwork network(start.problem->field(), options, orbits, observer);
   network.begin(start);
   network.follow_waiting();
   return network.take();
+}
+
+std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const TraceOptions& options,
+                                                const CycleOptions& cycles, const Observer& observer) {
+  return cycle_branches(trace_connected_orbits({start.problem, start.guess, start.both_ways},
+                                               of_cycles(start.problem->field(), options), cycles, observer));
 }
 
 std::vector<CycleBranch> trace_cycles_leaving(const std::shared_ptr<const Field>& field,
                                               const std::vector<Branch>& equilibria,
                                               const TraceOptions& options, const CycleOptions& cycles,
                                               const Observer& observer) {
-  CycleNetwork network(field, options, cycles, observer);
+  OrbitNetwork network(*field, of_cycles(*field, options), cycles, observer);
   for (const Branch& branch : equilibria) {
     for (const BranchPoint& point : branch.points) {
-      if (point.type == PointType::hopf && network.may_go_on()) network.leave_hopf(point);
+      if (point.type == PointType::hopf && network.may_go_on()) network.leave_hopf(field, point);
     }
   }
   network.follow_waiting();
-  return network.take();
+  return cycle_branches(network.take());
 }
 
 }  // namespace arcslip::continuation

@@ -5,6 +5,7 @@
 
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/cycles/orbit_observables.hpp"
 #include "arcslip/continuation/cycles/torus_problem.hpp"
 #include "arcslip/continuation/problem/guess.hpp"
 
@@ -144,107 +145,23 @@ std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index act
 
 std::vector<Observable> CycleProblem::observables() const {
   std::vector<Observable> all{{"T", true}};
-  for (const std::string& name : field().names()) {
-    all.push_back({name + "_max", true});
-    all.push_back({name + "_min", true});
-  }
-  all.push_back({"norm", true});
+  for (const Observable& one : orbit_observables(*this)) all.push_back(one);
   return all;
 }
 
-/// The largest value of an unknown times a sign, and by which nodes.
-struct CycleProblem::Extremum {
-  double value = 0;
-  Index first = 0;  // node
-  Vector weights;
-};
-
-auto CycleProblem::extremum(const Vector& u, const Regime& regime, Index unknown, double sign) const
-    -> Extremum {
-  const CollocationRule& rule = frame(regime).mesh.rule();
-  const Vector values = sign * orbit(u).row(unknown).transpose();
-  const Index m = degree();
-  Index highest = 0;
-  values.maxCoeff(&highest);
-  Extremum best{values(highest), highest, Vector::Ones(1)};
-  Vector weights;
-  Vector slopes;
-  const auto look = [&](Index interval) {  // bisects the slope about the highest of many values
-    const auto within = values.segment(interval * m, m + 1);
-    const auto value_at = [&](double s) {
-      rule.at(s, weights, slopes);
-      return within.dot(weights);
-    };
-    constexpr int looks = 16;
-    double top = 0;
-    double at = 0;
-    for (int i = 0; i <= looks; ++i) {
-      const double s = static_cast<double>(i) / looks;
-      const double value = value_at(s);
-      if (i == 0 || value > top) at = s;
-      top = i == 0 ? value : std::max(top, value);
-    }
-    double low = std::max(0.0, at - 1.0 / looks);
-    double high = std::min(1.0, at + 1.0 / looks);
-    for (int round = 0; round < 60 && low < high; ++round) {
-      at = 0.5 * (low + high);
-      value_at(at);
-      (within.dot(slopes) > 0 ? low : high) = at;
-    }
-    const double value = value_at(at);
-    if (value > best.value) best = {value, interval * m, weights};
-  };
-  const Index j = std::min(highest / m, intervals() - 1);
-  look(j);
-  if (highest % m == 0) look((j + intervals() - 1) % intervals());
-  best.value *= sign;
-  return best;
-}
-
 void CycleProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  const Index n = field().size();
-  values.resize(2 * n + 2);
+  values.resize(1 + orbit_observables(*this).size());
   values(0) = duration(u, p);
-  for (Index i = 0; i < n; ++i) {
-    values(1 + 2 * i) = extremum(u, regime, i, 1).value;
-    values(2 + 2 * i) = extremum(u, regime, i, -1).value;
-  }
-  Gradient unused{Vector(size()), Vector(p.size())};
-  values(2 * n + 1) = observe(u, p, regime, 2 * n + 1, unused);
+  values.tail(values.size() - 1) = observed_on_orbit(*this, u, regime);
 }
 
 double CycleProblem::observe(const Vector& u, const Vector& p, const Regime& regime, Index which,
                              Gradient& gradient) const {
-  const Index n = field().size();
   gradient.unknowns.setZero();
   gradient.parameters.setZero();
-  if (which == 0) {
-    if (has_duration()) gradient.unknowns(size() - 1) = 1;
-    return duration(u, p, &gradient.parameters);
-  }
-  if (which <= 2 * n) {
-    const Index unknown = (which - 1) / 2;
-    const Extremum found = extremum(u, regime, unknown, which % 2 == 1 ? 1 : -1);
-    for (Index k = 0; k < found.weights.size(); ++k)
-      gradient.unknowns((found.first + k) * n + unknown) = found.weights(k);
-    return found.value;
-  }
-  const OrbitMesh& mesh = frame(regime).mesh;
-  const CollocationRule& rule = mesh.rule();
-  const Index m = degree();
-  double square = 0;
-  auto by_nodes = gradient.unknowns.head(n * nodes()).reshaped(n, nodes());
-  for (Index j = 0; j < intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const Vector at = orbit(u).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
-      const double weight = mesh.length(j) * rule.weights()(i);
-      square += weight * at.squaredNorm();
-      by_nodes.middleCols(j * m, m + 1) += weight * at * rule.values().row(i);
-    }
-  }
-  const double norm = std::sqrt(square);
-  if (norm > 0) gradient.unknowns /= norm;
-  return norm;
+  if (which > 0) return observed_on_orbit(*this, u, regime, which - 1, gradient.unknowns);
+  if (has_duration()) gradient.unknowns(size() - 1) = 1;
+  return duration(u, p, &gradient.parameters);
 }
 
 }  // namespace arcslip::continuation

@@ -51,12 +51,8 @@ CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
 
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                             double duration, const Vector& p, int periods, bool doubled) {
-  CycleStart start{std::make_shared<CycleProblem>(std::move(field), mesh, orbit, p, periods, doubled), {}};
-  start.guess.unknowns.resize(start.problem->size());
-  start.guess.unknowns.head(orbit.size()) = orbit.reshaped();
-  if (start.problem->has_duration()) start.guess.unknowns.tail(1).setConstant(duration);
-  start.guess.parameters = p;
-  return start;
+  const auto problem = std::make_shared<CycleProblem>(std::move(field), mesh, orbit, p, periods, doubled);
+  return {problem, start_from(problem, orbit, duration, p).guess};
 }
 
 std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
@@ -113,22 +109,21 @@ std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index
   return start;
 }
 
-std::optional<CycleStart> cycle_from_branch_point(const CycleProblem& problem, const std::string& parameter,
+std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, const std::string& parameter,
                                                   const BranchPoint& point, const Tolerances& tolerances) {
   const std::vector<Guess> ways = other_ways(problem, parameter, point, tolerances);
   if (ways.empty()) return std::nullopt;
   const Guess& way = ways.front();
-  CycleStart start =
-      cycle_from_orbit(problem.shared_field(), problem.frame(point.regime).mesh, problem.orbit(way.unknowns),
-                       problem.duration(way.unknowns, way.parameters), way.parameters, problem.periods(),
-                       problem.is_doubled());
+  const Matrix orbit = problem.orbit(way.unknowns);
+  OrbitStart start = start_from(problem.about(problem.frame(point.regime).mesh, orbit, way.parameters), orbit,
+                                problem.duration(way.unknowns, way.parameters), way.parameters);
   start.guess.direction = way.direction;
   start.both_ways = true;
   return start;
 }
 
-CycleStart refined(const CycleStart& start, Index intervals) {
-  const CycleProblem& from = *start.problem;
+OrbitStart refined(const OrbitStart& start, Index intervals) {
+  const OrbitProblem& from = *start.problem;
   const OrbitFrame& frame = from.frame(start.guess.regime);
   const Matrix orbit = from.orbit(start.guess.unknowns);
   const bool has_direction = start.guess.direction.size() > 0;
@@ -144,10 +139,8 @@ CycleStart refined(const CycleStart& start, Index intervals) {
     reference += shape * in_units(along, frame.scale);
   }
   const OrbitMesh mesh = frame.mesh.equidistributed(reference, frame.range, intervals);
-  CycleStart result = cycle_from_orbit(from.shared_field(), mesh, frame.mesh.carried(reference, mesh), 1,
-                                       start.guess.parameters, from.periods(), from.is_doubled());
-  result.guess = start.guess;
-  result.both_ways = start.both_ways;
+  OrbitStart result{from.about(mesh, frame.mesh.carried(reference, mesh), start.guess.parameters),
+                    start.guess, start.both_ways};
   result.guess.unknowns = carried(mesh, start.guess.unknowns);
   if (has_direction) result.guess.direction = carried(mesh, start.guess.direction);
   result.guess.regime = {};

@@ -43,6 +43,24 @@ Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& s
   return weights.reshaped() / square;
 }
 
+/// Eliminates the first columns from the others, with pivots of all rows below those before.
+void eliminate(Matrix& matrix, Index columns) {
+  for (Index k = 0; k < columns; ++k) {
+    const Index below = matrix.rows() - k - 1;
+    double* const column = matrix.col(k).data() + k;
+    const double* const largest = std::max_element(
+        column, column + below + 1, [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const Index exchanged = largest - column;
+    std::swap(column[0], column[exchanged]);
+    for (Index j = k + 1; j < matrix.cols(); ++j) {
+      double* const other = matrix.col(j).data() + k;
+      std::swap(other[0], other[exchanged]);
+      const double factor = other[0] / column[0];
+      for (Index i = 1; i <= below; ++i) other[i] -= factor * column[i];
+    }
+  }
+}
+
 }  // namespace
 
 /// What is found of the field at the Gauss points of an interval.
@@ -88,13 +106,29 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   Vector scale(orbit.rows());
   Vector unused(p.size());
   scales(*field_, orbit, p, scale, unused);
-  OrbitFrame frame{
-      mesh, scale, ranges(orbit, scale), has_duration_ ? phase_weights(mesh, orbit, scale) : Vector(), {}};
+  OrbitFrame frame{mesh, scale, {}, ranges(orbit, scale), {}, {}};
+  frame.ends = end_scale(frame, orbit, p);
+  if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
   set_apart(frame, part_apart(mesh, orbit));
   if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
   return last_frame();
+}
+
+Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const {
+  const Index n = field_->size();
+  Vector values(n);
+  Matrix by_left(n, n);
+  Matrix by_right(n, n);
+  if (!end_conditions(orbit.col(0), orbit.rightCols(1), p, {&values, &by_left, &by_right, nullptr}))
+    return Vector::Ones(n);
+  const Vector change = by_left.cwiseAbs()
+                            .cwiseMax(by_right.cwiseAbs())
+                            .cwiseProduct(frame.scale.transpose().replicate(n, 1))
+                            .rowwise()
+                            .maxCoeff();
+  return (change.array() > 0).select(change, 1);
 }
 
 void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
@@ -198,8 +232,8 @@ bool OrbitProblem::at_point(const OrbitFrame& frame, const Vector& u, const Vect
                             Index interval, Index point, bool derivatives, Scratch& scratch) const {
   const CollocationRule& rule = frame.mesh.rule();
   const auto within = orbit(u).middleCols(interval * degree(), degree() + 1);
-  scratch.place.noalias() = within * rule.values().row(point).transpose();
-  scratch.changes.col(point).noalias() = within * rule.derivatives().row(point).transpose();
+  scratch.place = within.lazyProduct(rule.values().row(point).transpose());
+  scratch.changes.col(point) = within.lazyProduct(rule.derivatives().row(point).transpose());
   const double s = frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(point);
   const auto i = static_cast<std::size_t>(point);
   FieldValues wanted{&scratch.velocity, nullptr, nullptr, nullptr};
@@ -229,34 +263,33 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
   const Index m = degree();
   const CollocationRule& rule = frame.mesh.rule();
   const double h = frame.mesh.length(interval);
+  const Vector in_units = frame.scale.cwiseInverse();
   for (Index i = 0; i < m; ++i) {
     const Index first = (interval * m + i) * n;
     const auto at = static_cast<std::size_t>(i);
     if (out.residual != nullptr) {
       out.residual->segment(first, n) =
-          (scratch.changes.col(i) - h * duration * scratch.velocities.col(i)).cwiseQuotient(frame.scale);
+          (scratch.changes.col(i) - h * duration * scratch.velocities.col(i)).cwiseProduct(in_units);
     }
     if (out.parameter_jacobian != nullptr) {
-      out.parameter_jacobian->middleRows(first, n) =
-          -h * frame.scale.cwiseInverse().asDiagonal() * scratch.by_parameters[at];
+      out.parameter_jacobian->middleRows(first, n) = -h * in_units.asDiagonal() * scratch.by_parameters[at];
     }
     if (out.sparse_jacobian == nullptr) continue;
     double* values = out.sparse_jacobian->valuePtr();
     const int* starts = out.sparse_jacobian->outerIndexPtr();
     for (Index k = 0; k <= m; ++k) {
+      const bool is_second = k == 0 && interval > 0;  // the interval before comes first
+      const double weight = -h * duration * rule.values()(i, k);
       for (Index c = 0; c < n; ++c) {
-        const bool is_second = k == 0 && interval > 0;  // the interval before comes first
         double* block = values + starts[(interval * m + k) * n + c] + (is_second ? n * m : 0) + i * n;
-        for (Index row = 0; row < n; ++row) {
-          const double own = row == c ? rule.derivatives()(i, k) : 0;
-          block[row] =
-              (own - h * duration * rule.values()(i, k) * scratch.by_unknowns[at](row, c)) / frame.scale(row);
-        }
+        const double* by_unknown = scratch.by_unknowns[at].data() + c * n;
+        for (Index row = 0; row < n; ++row) block[row] = weight * by_unknown[row] * in_units(row);
+        block[c] += rule.derivatives()(i, k) * in_units(c);
       }
     }
     if (!has_duration_) continue;
     double* block = values + starts[size() - 1] + first;
-    for (Index row = 0; row < n; ++row) block[row] = -h * scratch.velocities(row, i) / frame.scale(row);
+    for (Index row = 0; row < n; ++row) block[row] = -h * scratch.velocities(row, i) * in_units(row);
   }
 }
 
@@ -273,7 +306,7 @@ bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, con
   const EndConditions wanted{&values, derivatives ? &by_left : nullptr, derivatives ? &by_right : nullptr,
                              derivatives ? &by_parameters : nullptr};
   if (!end_conditions(u.head(n), u.segment(last, n), p, wanted)) return false;
-  const auto in_units = frame.scale.cwiseInverse().asDiagonal();
+  const auto in_units = frame.ends.cwiseInverse().asDiagonal();
   if (out.residual != nullptr) {
     out.residual->segment(ends, n) = in_units * values;
     if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes())) - frame.phase_value;
@@ -362,24 +395,22 @@ bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& reg
   const Index m = degree();
   const double length = duration(u, p);
   Scratch scratch(n, p.size(), m);
-  Matrix left(n * m, n);
-  Matrix inner(n * m, n * m);
+  Matrix all(n * m, n * (m + 1));  // of the inner nodes, then of the left end and of the right one
   out.resize(static_cast<std::size_t>(intervals()));
   for (Index j = 0; j < intervals(); ++j) {
     for (Index i = 0; i < m; ++i) {
       if (!at_point(at, u, p, length, j, i, true, scratch)) return false;
+      const Matrix& by_unknowns = scratch.by_unknowns[static_cast<std::size_t>(i)];
       for (Index k = 0; k <= m; ++k) {
-        const Matrix block = rule.derivatives()(i, k) * Matrix::Identity(n, n) -
-                             at.mesh.length(j) * length * rule.values()(i, k) *
-                                 scratch.by_unknowns[static_cast<std::size_t>(i)];
-        if (k == 0) {
-          left.middleRows(i * n, n) = block;
-        } else {
-          inner.block(i * n, (k - 1) * n, n, n) = block;
-        }
+        const Index place = k < m ? (k + m - 1) % m : m;
+        auto block = all.block(i * n, place * n, n, n);
+        block = -at.mesh.length(j) * length * rule.values()(i, k) * by_unknowns;
+        block.diagonal().array() += rule.derivatives()(i, k);
       }
     }
-    out[static_cast<std::size_t>(j)] = -inner.partialPivLu().solve(left).bottomRows(n);
+    eliminate(all, n * (m - 1));
+    const auto left = all.middleCols(n * (m - 1), n).bottomRows(n);
+    out[static_cast<std::size_t>(j)] = -all.rightCols(n).bottomRows(n).partialPivLu().solve(left);
   }
   return true;
 }

@@ -25,7 +25,7 @@ void BorderedSolver::set_jacobian(const CondensedJacobian& /*jacobian*/, const V
   throw std::logic_error("set_jacobian: another solver was given a condensed Jacobian");
 }
 
-double BorderedSolver::permutation_sign(const int* image, std::vector<char>& seen) {
+double permutation_sign(const int* image, std::vector<char>& seen) {
   std::fill(seen.begin(), seen.end(), char{0});
   double sign = 1;
   for (std::size_t start = 0; start < seen.size(); ++start) {

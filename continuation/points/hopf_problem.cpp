@@ -2,98 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
+#include <vector>
 
 #include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/points/hopf_form.hpp"
 
 namespace arcslip::continuation {
 
-HopfProblem::HopfProblem(const Problem& base, Index active)
-    : ExtendedProblem(base, active, 2),
-      solver_(make_bordered_solver(2 * base.size(), 2, false)),
-      column_(spread(2 * base.size(), 1)),
-      row_(spread(2 * base.size(), 2)),
-      doubled_(Matrix::Zero(2 * base.size(), 2 * base.size())),
-      second_(base),
-      right_(2 * base.size() + 2),
-      left_{right_, right_} {
-  if (base.sparse()) throw std::invalid_argument("HopfProblem: only for dense problems");
-}
+HopfProblem::HopfProblem(const Problem& base, Index active) : PairProblem(base, active, base.size()) {}
 
-bool HopfProblem::solve_borders(double kappa) const {
-  const Index n = base().size();
-  doubled_.topLeftCorner(n, n) = at_.jacobian();
-  doubled_.bottomRightCorner(n, n) = at_.jacobian();
-  doubled_.topRightCorner(n, n).diagonal().setConstant(kappa);
-  doubled_.bottomLeftCorner(n, n).diagonal().setConstant(-1);
-  solver_->set_jacobian(doubled_, Vector::Ones(2 * n));
-  solver_->columns() << column_.head(n), -kappa * column_.tail(n), column_.tail(n), column_.head(n);
-  solver_->rows() << row_.head(n).transpose(), -kappa * row_.tail(n).transpose(), row_.tail(n).transpose(),
-      row_.head(n).transpose();
-  solver_->corner().setZero();
-  if (solver_->factor() == 0) return false;
-  right_.setUnit(2 * n);
-  solver_->solve(right_);
-  for (Index j = 0; j < 2; ++j) {
-    left_[j].setUnit(2 * n + j);
-    solver_->solve_transposed(left_[j]);
+void HopfProblem::fill(BorderedSolver& solver, double /*a*/, double b, const Vector& scales) const {
+  if (at_.sparse()) {
+    fill_sparse(solver, b, scales);
+    return;
   }
-  return right_.allFinite() && left_[0].allFinite() && left_[1].allFinite();
+  doubled_.setZero(2 * count_, 2 * count_);
+  doubled_.topLeftCorner(count_, count_) = at_.jacobian();
+  doubled_.bottomRightCorner(count_, count_) = at_.jacobian();
+  doubled_.topRightCorner(count_, count_).diagonal().setConstant(b);
+  doubled_.bottomLeftCorner(count_, count_).diagonal().setConstant(-1);
+  solver.set_jacobian(doubled_, scales);
 }
 
-bool HopfProblem::adapt(const BasePoint& point) {
-  if (!ExtendedProblem::adapt(point)) return false;
-  const Index n = base().size();
-  const double size = at_.jacobian().cwiseAbs().rowwise().sum().maxCoeff() + 1;
-  for (int i = 0; i < 3; ++i) {  // inverse iteration, with the conjugates of both null vectors
-    if (!solve_borders(point.extras(0))) return false;
-    column_ << left_[1].segment(n, n), -left_[1].head(n);
-    column_ *= size / column_.norm();
-    row_ << right_.head(n), -right_.segment(n, n);
-    row_.normalize();
-  }
-  column_ *= steepness(point);
-  return true;
-}
-
-void HopfProblem::each_border(const std::function<void(double*, Index)>& use) {
-  ExtendedProblem::each_border(use);
-  use(column_.data(), column_.size());
-  use(row_.data(), row_.size());
-  use(&second_.memory(), 1);
-}
-
-double HopfProblem::strain() const {
-  const Index n = base().size();
-  return std::max(right_.head(2 * n).norm(), left_[0].head(2 * n).norm() * column_.norm());
-}
-
-bool HopfProblem::conditions(const BasePoint& point, Vector& values, Matrix* gradients) const {
-  if (!solve_borders(point.extras(0))) return false;
-  const Index n = base().size();
-  values = right_.tail(2);
-  if (gradients == nullptr) return true;
-  const Vector none = Vector::Zero(point.parameters.size());
-  const Vector real = right_.head(n);
-  const Vector imaginary = right_.segment(n, n);
-  const Vector by_kappa = imaginary - column_.tail(n) * right_(2 * n + 1);
-  gradients->setZero();
-  Matrix weights(n, 2);
-  Matrix columns;
-  for (const bool first : {true, false}) {
-    for (Index j = 0; j < 2; ++j) weights.col(j) = left_[j].segment(first ? 0 : n, n);
-    if (!second_.contract(point.unknowns, point.parameters, point.regime, weights, first ? real : imaginary,
-                          none, columns)) {
-      return false;
+void HopfProblem::fill_sparse(BorderedSolver& solver, double b, const Vector& scales) const {
+  const SparseMatrix& jacobian = at_.sparse_jacobian();
+  const auto n = static_cast<int>(count_);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(2 * (jacobian.nonZeros() + count_)));
+  for (int column = 0; column < n; ++column) {
+    for (SparseMatrix::InnerIterator entry(jacobian, column); entry; ++entry) {
+      const auto row = static_cast<int>(entry.row());
+      entries.emplace_back(row, column, entry.value());
+      entries.emplace_back(n + row, n + column, entry.value());
     }
-    gradients->leftCols(columns.rows()) -= columns.transpose();
+    entries.emplace_back(column, n + column, b);
+    entries.emplace_back(n + column, column, -1);
   }
-  for (Index j = 0; j < 2; ++j)
-    (*gradients)(j, columns.rows()) =
-        left_[j](2 * n) * row_.tail(n).dot(imaginary) - left_[j].head(n).dot(by_kappa);
-  return true;
+  SparseMatrix doubled(2 * count_, 2 * count_);
+  doubled.setFromTriplets(entries.begin(), entries.end());
+  solver.set_jacobian(doubled, scales);
 }
 
 std::vector<Observable> HopfProblem::observables() const {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "numbers.hpp"
+#include "field_values.hpp"
 
 namespace arcslip::problems {
 
@@ -19,23 +19,7 @@ FormulaField::FormulaField(const FormulaSystem& system) : equations_(right_hand_
 
 bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
                             const continuation::FieldValues& out) const {
-  const Index n = size();
-  Numbers at{t};
-  at.insert(at.end(), u.begin(), u.end());
-  at.insert(at.end(), p.begin(), p.end());
-  const bool differentiated =
-      out.by_unknowns != nullptr || out.by_parameters != nullptr || out.by_time != nullptr;
-  Numbers values = room(n);
-  Numbers gradients = room(differentiated ? n * std::ssize(at) : 0);
-  if (!(differentiated ? equations_.evaluate(at.data(), values.data(), gradients.data())
-                       : equations_.evaluate(at.data(), values.data())))
-    return false;
-  if (out.velocity != nullptr) *out.velocity = Eigen::Map<const Vector>(values.data(), n);
-  const Eigen::Map<const Rows> rows(gradients.data(), differentiated ? n : 0, std::ssize(at));
-  if (out.by_unknowns != nullptr) *out.by_unknowns = rows.middleCols(1, n);
-  if (out.by_parameters != nullptr) *out.by_parameters = rows.rightCols(p.size());
-  if (out.by_time != nullptr) *out.by_time = rows.leftCols(1);
-  return true;
+  return evaluate_field(equations_, t, u, p, out);
 }
 
 double FormulaField::period(const Vector& p, Vector* by_parameters) const {

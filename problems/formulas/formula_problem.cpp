@@ -35,6 +35,7 @@ Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, i
     set.refused.clear();
     set.definitions.push_back({time_name, "0"});
   }
+  if (system.interval) set.definitions.push_back({system.interval->variable, system.interval->from.text});
   for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
   return compile(set);
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/problems/formulas/formula_boundary.hpp"
 #include "arcslip/problems/formulas/formula_field.hpp"
 #include "arcslip/problems/library/model.hpp"
 
@@ -23,9 +24,19 @@ class Names {
     for (const Named& one : all) add(one.name, one.place.empty() ? one.name : one.place);
   }
 
+  /// The place and, of each unknown, its values at both ends.
+  void add(const FormulaInterval& interval, const std::vector<Formula>& unknowns) {
+    const std::string& place = interval.place.empty() ? interval.variable : interval.place;
+    add(interval.variable, place, interval.variable == time_name ? "" : why_no_name(interval.variable));
+    for (const Formula& unknown : unknowns) {
+      for (const char* end : {"_left", "_right"}) add(unknown.name + end, unknown.name + end, "");
+    }
+  }
+
  private:
-  void add(const std::string& name, const std::string& place) {
-    std::string why = why_no_name(name);
+  void add(const std::string& name, const std::string& place) { add(name, place, why_no_name(name)); }
+
+  void add(const std::string& name, const std::string& place, std::string why) {
     if (why.empty() && std::count(columns.begin(), columns.end(), name) > 0)
       why = fmt::format("results have {} already; expected another name", name);
     const auto [known, is_new] = places_.try_emplace(name, place);
@@ -43,6 +54,7 @@ std::string title_of(const FormulaSystem& system) {
   switch (system.kind) {
     case FormulaKind::flow: return fmt::format("a flow of {}", names);
     case FormulaKind::forced: return fmt::format("a forced flow of {}", names);
+    case FormulaKind::boundary: return fmt::format("a boundary value problem of {}", names);
     case FormulaKind::algebraic: return fmt::format("equations in {}", names);
     case FormulaKind::map:
       return fmt::format("a map of {}{}", names,
@@ -71,6 +83,31 @@ void add_cycles(const std::shared_ptr<const continuation::Field>& field, const T
   };
 }
 
+/// Its problem, guess and what it sets out from.
+void add_boundary(const std::shared_ptr<const FormulaBoundary>& field, LibraryModel& model) {
+  model.boundary = [field](const LibraryModel::Values& values, const continuation::OrbitOptions& options) {
+    const Index count = std::ssize(field->parameter_names());
+    const Vector all = parameters_of(values, count + field->free());
+    const Vector p = all.head(count);
+    const auto guess = [&](double s) {
+      Vector u;
+      if (!field->guess(s, all.tail(field->free()), p, u))
+        throw std::invalid_argument("the guess of the start has no value at the parameters of the start");
+      return u;
+    };
+    return continuation::boundary_start(field, guess, p, options);
+  };
+  model.build = [start = model.boundary](const LibraryModel::Values& values) {
+    const auto problem = start(values, {}).problem;
+    return std::make_unique<continuation::BoundaryProblem>(
+        dynamic_cast<const continuation::BoundaryProblem&>(*problem));
+  };
+  model.guess = [start = model.boundary](const continuation::Problem& /*problem*/,
+                                         const LibraryModel::Values& values) {
+    return start(values, {}).guess;
+  };
+}
+
 }  // namespace
 
 void check_names(const FormulaSystem& system) {
@@ -79,6 +116,7 @@ void check_names(const FormulaSystem& system) {
   names.add(system.equations);
   names.add(system.definitions);
   names.add(system.observables);
+  if (system.interval) names.add(*system.interval, system.equations);
   for (const Formula& start : system.start) {
     const bool known = std::any_of(system.equations.begin(), system.equations.end(),
                                    [&](const Formula& one) { return one.name == start.name; });
@@ -90,6 +128,7 @@ void check_names(const FormulaSystem& system) {
 Tape start_of(const FormulaSystem& system) {
   FormulaSet set;
   for (const FormulaParameter& parameter : system.parameters) set.variables.push_back(parameter.name);
+  if (system.interval) set.definitions.push_back({system.interval->variable, system.interval->from.text});
   for (const Formula& equation : system.equations) {
     const auto given = std::find_if(system.start.begin(), system.start.end(),
                                     [&](const Formula& one) { return one.name == equation.name; });
@@ -100,9 +139,13 @@ Tape start_of(const FormulaSystem& system) {
 
 LibraryModel model_of(const FormulaSystem& system) {
   LibraryModel model{"[model]", title_of(system), {}, {}, {}};
-  for (const FormulaParameter& parameter : system.parameters)
+  for (const FormulaParameter& parameter : free_ones_last(system))
     model.settings.push_back(any_value(parameter.name, parameter.value, ""));
   check_names(system);
+  if (system.kind == FormulaKind::boundary) {
+    add_boundary(std::make_shared<const FormulaBoundary>(system), model);
+    return model;
+  }
   const Tape start = start_of(system);
   if (system.kind == FormulaKind::forced) {
     model.is_driven = true;

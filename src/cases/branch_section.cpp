@@ -146,7 +146,11 @@ void read_from_point(CaseBranch& branch, const TomlSection& section) {
 }
 
 void check_all(const CaseBranch& branch, const TomlSection& section) {
-  if (branch.all_solutions) section.require("start", "the value of the parameter to find all solutions at");
+  if (!branch.all_solutions) return;
+  section.require("start", "the value of the parameter to find all solutions at");
+  const problems::LibraryModel* model = branch.problem.model.get();
+  if (model != nullptr && (model->is_driven || model->boundary))
+    section.fail("all_solutions", "not of orbits, which begin with the one next to a guess");
 }
 
 void read_extrema(CaseBranch& branch, const TomlSection& section) {

@@ -15,6 +15,8 @@ using continuation::CycleProblem;
 using continuation::CycleStart;
 using continuation::EquilibriumField;
 using continuation::Field;
+using continuation::OrbitProblem;
+using continuation::OrbitStart;
 using continuation::TimeBudget;
 using Clock = std::chrono::steady_clock;
 
@@ -25,11 +27,12 @@ std::shared_ptr<const Field> field_of(const std::shared_ptr<const continuation::
 }
 
 /// As results have them; the time that they took is shared.
-std::vector<TracedBranch> told(const Request& request, std::vector<CycleBranch> branches,
+template <class OneBranch>
+std::vector<TracedBranch> told(const Request& request, std::vector<OneBranch> branches,
                                Clock::time_point begun) {
   const std::chrono::duration<double> seconds = Clock::now() - begun;
   std::vector<TracedBranch> traced;
-  for (CycleBranch& one : branches) {
+  for (OneBranch& one : branches) {
     Built built;
     built.problem = one.problem;
     traced.push_back({request, std::move(built), nullptr, std::move(one.branch),
@@ -42,6 +45,14 @@ std::vector<TracedBranch> told(const Request& request, std::vector<CycleBranch> 
 
 const CycleProblem* cycles_of(const TracedBranch& traced) {
   return traced.curve ? nullptr : dynamic_cast<const CycleProblem*>(traced.base.problem.get());
+}
+
+const OrbitProblem* orbits_of(const TracedBranch& traced) {
+  return traced.curve ? nullptr : dynamic_cast<const OrbitProblem*>(traced.base.problem.get());
+}
+
+bool is_boundary(const CaseBranch& request) {
+  return request.problem.model != nullptr && request.problem.model->boundary;
 }
 
 bool asks_for_cycles(const CaseBranch& request) {
@@ -91,6 +102,28 @@ std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Sub
     return {unstarted(request, ended, error.what())};
   }
   return told(request, std::move(branches), begun);
+}
+
+std::vector<TracedBranch> trace_boundary(const Request& request, const Subject& subject,
+                                         const TimeBudget& time, const continuation::Observer& observer) {
+  const Clock::time_point begun = Clock::now();
+  problems::LibraryModel::Values values;
+  for (const Setting& setting : request->problem.model->settings) {
+    const bool varies = setting.name == request->options.parameter;
+    values.push_back(varies ? request->start.value_or(request->options.from)
+                            : fixed_value(request->problem, setting.name));
+  }
+  OrbitStart start;
+  try {
+    start = request->problem.model->boundary(values, request->cycles.options);
+  } catch (const std::invalid_argument& error) {
+    return {unstarted(request, subject, error.what())};
+  }
+  start.both_ways = request->start.has_value();
+  const continuation::TraceOptions options = time.rest();
+  if (request->switching)
+    return told(request, trace_connected_orbits(start, options, request->cycles.options, observer), begun);
+  return told(request, std::vector{trace_orbits(start, options, request->cycles.options, observer)}, begun);
 }
 
 }  // namespace arcslip

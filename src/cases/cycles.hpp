@@ -1,6 +1,6 @@
 #pragma once
 
-// Cycles of flows, in what a case asks for.
+// Cycles of flows and boundary value problems, in what a case asks for.
 
 #include "arcslip/cases/runs.hpp"
 
@@ -8,6 +8,12 @@ namespace arcslip {
 
 /// The problem of a branch whose solutions are cycles; null of others and of curves.
 const continuation::CycleProblem* cycles_of(const TracedBranch& traced);
+
+/// The same of all whose solutions are orbits: cycles, and solutions of boundary value problems.
+const continuation::OrbitProblem* orbits_of(const TracedBranch& traced);
+
+/// Whether the branch is one of a boundary value problem.
+bool is_boundary(const CaseBranch& request);
 
 /// Whether the branch is one of cycles from its start on: by `settle`, or of a system that depends on time.
 bool asks_for_cycles(const CaseBranch& request);
@@ -25,5 +31,10 @@ std::vector<TracedBranch> cycles_leaving(const std::vector<TracedBranch>& traced
 std::vector<TracedBranch> trace_settled_cycles(const std::shared_ptr<const CaseBranch>& request,
                                                const Subject& subject, const continuation::TimeBudget& time,
                                                const continuation::Observer& observer);
+
+/// The branch of a boundary value problem from its guess; with `switching` all that can be reached from it.
+std::vector<TracedBranch> trace_boundary(const std::shared_ptr<const CaseBranch>& request,
+                                         const Subject& subject, const continuation::TimeBudget& time,
+                                         const continuation::Observer& observer);
 
 }  // namespace arcslip

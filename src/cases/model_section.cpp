@@ -1,6 +1,7 @@
 #include "cases/model_section.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,71 @@ void read_equations(FormulaSystem& system, const TomlSection& section) {
   if (system.equations.empty()) section.mismatch("equations", expected);
 }
 
+/// Formulas without names, as strings or numbers.
+template <class Member>
+auto formula_list(const char* key, const char* expected, Member member) {
+  return [=](FormulaSystem& system, const TomlSection& section) {
+    const toml::array* array = section.require(key, expected).as_array();
+    if (array == nullptr) section.mismatch(key, expected);
+    for (const toml::node& node : *array) {
+      const std::string name = fmt::format("{}[{}]", key, (system.*member).size());
+      (system.*member).push_back({name, text_of(section, {name, &node}), section.name(name)});
+    }
+  };
+}
+
+void read_interval(FormulaSystem& system, const TomlSection& section) {
+  const char* const expected = "a table of one name with both its ends, as { x = [0, 1] }";
+  section.require("interval", expected);
+  const TomlSection table = section.inside("interval", expected);
+  const toml::table& given = *table.table();
+  const toml::array* ends = given.size() == 1 ? given.begin()->second.as_array() : nullptr;
+  if (ends == nullptr || ends->size() != 2) section.mismatch("interval", expected);
+  const std::string name(given.begin()->first.str());
+  const auto end = [&](std::size_t i) {
+    const std::string place = fmt::format("{}[{}]", name, i);
+    return Formula{place, text_of(table, {place, ends->get(i)}), table.name(place)};
+  };
+  system.interval = {name, end(0), end(1), table.name(name)};
+}
+
+void read_free(FormulaSystem& system, const TomlSection& section) {
+  std::vector<std::string> names;
+  for (const FormulaParameter& parameter : system.parameters) names.push_back(parameter.name);
+  system.free =
+      section.texts("free", names, fmt::format("an array of parameters among {}", fmt::join(names, ", ")));
+  for (auto one = system.free.begin(); one != system.free.end(); ++one) {
+    if (std::find(system.free.begin(), one, *one) != one)
+      section.fail("free", fmt::format("it has {} twice", *one));
+  }
+}
+
+/// What conditions are on, and they.
+std::vector<ModelKey> boundary_keys() {
+  const auto of_boundary = only(
+      "only of kind = \"boundary\"",
+      [](const FormulaSystem& system, const TomlSection&) { return system.kind == FormulaKind::boundary; });
+  return {ModelKey::special(
+              "interval", "table of two numbers or formulas",
+              "what the equations are differentiated by, and its ends, by parameters: { x = [0, 1] }",
+              read_interval, required, of_boundary),
+          ModelKey::special(
+              "conditions", "list of formulas",
+              "that vanish, by parameters and values at the ends, `u_left` and `u_right` of each "
+              "unknown u",
+              formula_list("conditions", "an array of formulas as strings", &FormulaSystem::conditions),
+              required, of_boundary),
+          ModelKey::special(
+              "integrals", "list of formulas", "whose integrals over the interval vanish: conditions as well",
+              formula_list("integrals", "an array of formulas as strings", &FormulaSystem::integrals),
+              of_boundary, otherwise("none")),
+          ModelKey::special(
+              "free", "list of names",
+              "parameters that are found beside the unknowns, one by each condition more; their values "
+              "are guesses",
+              read_free, of_boundary, otherwise("none"))};
+}
+
 const KeyTable<FormulaSystem>& model_keys() {
   const auto is_map = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind == FormulaKind::map;
@@ -87,19 +153,22 @@ const KeyTable<FormulaSystem>& model_keys() {
   const auto is_flow = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind == FormulaKind::flow || system.kind == FormulaKind::forced;
   };
-  const auto is_not_forced = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind != FormulaKind::forced;
+  const auto has_points = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind != FormulaKind::forced && system.kind != FormulaKind::boundary;
   };
   static const KeyTable<FormulaSystem> keys{
-      {ModelKey::choice("kind", &FormulaSystem::kind,
-                        {{"flow", FormulaKind::flow},
-                         {"forced", FormulaKind::forced},
-                         {"map", FormulaKind::map},
-                         {"algebraic", FormulaKind::algebraic}},
-                        "what the equations are: u' = f with its equilibria and cycles, u' = f with the time "
-                        "t in f and its "
-                        "cycles, u -> f and its fixed points, or f = 0 without stability",
-                        ""),
+      {ModelKey::choice(
+           "kind", &FormulaSystem::kind,
+           {{"flow", FormulaKind::flow},
+            {"forced", FormulaKind::forced},
+            {"map", FormulaKind::map},
+            {"algebraic", FormulaKind::algebraic},
+            {"boundary", FormulaKind::boundary}},
+           "what the equations are: u' = f with its equilibria and cycles, u' = f with the time "
+           "t in f and its "
+           "cycles, u -> f and its fixed points, f = 0 without stability, or u' = f with conditions at the "
+           "ends of an interval",
+           ""),
        ModelKey::special(
            "period", "formula", "of f in t, by parameters",
            [](FormulaSystem& system, const TomlSection& section) {
@@ -130,10 +199,13 @@ const KeyTable<FormulaSystem>& model_keys() {
        ModelKey::special("observables", "table of formulas",
                          "columns beside the unknowns, whose extrema may be looked for",
                          formulas("observables", &FormulaSystem::observables),
-                         only("not of kind = \"forced\"", is_not_forced)),
-       ModelKey::special("start", "table of formulas or numbers",
-                         "a guess of the unknowns where the branch begins, by parameters",
-                         formulas("start", &FormulaSystem::start), otherwise("0 of each"))}};
+                         only("not of kind = \"forced\" or \"boundary\"", has_points)),
+       ModelKey::special(
+           "start", "table of formulas or numbers",
+           "a guess of the unknowns where the branch begins, by parameters and what is between the "
+           "ends of an interval",
+           formulas("start", &FormulaSystem::start), otherwise("0 of each"))},
+      boundary_keys()};
   return keys;
 }
 

@@ -58,6 +58,7 @@ std::vector<continuation::Guess> solutions_around(const Subject& subject, const 
 std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
                                          const TimeBudget& time, const continuation::Observer& observer) {
   const continuation::Problem& problem = *subject.built.problem;
+  if (is_boundary(*request)) return trace_boundary(request, subject, time, observer);
   if (asks_for_cycles(*request)) return trace_settled_cycles(request, subject, time, observer);
   std::vector<Branch> branches;
   const auto rest = [&] {

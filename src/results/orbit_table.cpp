@@ -4,29 +4,32 @@
 
 #include <iterator>
 
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "cases/cycles.hpp"
 
 namespace arcslip {
 
-using continuation::CycleProblem;
+using continuation::OrbitProblem;
 
 std::string orbits_header(const TracedBranch& traced) {
-  std::string text = "branch,point,type,t";
-  if (const CycleProblem* problem = cycles_of(traced)) {
-    for (const std::string& name : problem->field().names()) text += "," + name;
+  std::string text = "branch,point,type";
+  if (const OrbitProblem* problem = orbits_of(traced)) {
+    std::vector<std::string> names = problem->field().names();
+    names.resize(static_cast<std::size_t>(problem->told()));
+    text += "," + problem->time_name();
+    for (const std::string& name : names) text += "," + name;
   }
   return text + "\n";
 }
 
 std::string orbit_rows(std::size_t number, const TracedBranch& traced) {
-  const CycleProblem* problem = cycles_of(traced);
+  const OrbitProblem* problem = orbits_of(traced);
   fmt::memory_buffer text;
   if (problem == nullptr) return "";
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const continuation::BranchPoint& point = traced.branch.points[i];
     if (point.type == continuation::PointType::regular) continue;
-    const auto orbit = problem->orbit(point.unknowns);
+    const auto orbit = problem->orbit(point.unknowns).topRows(problem->told());
     const Vector times = problem->times(point.unknowns, point.parameters, point.regime);
     for (Index node = 0; node < orbit.cols(); ++node) {
       const auto out = std::back_inserter(text);

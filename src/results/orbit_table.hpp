@@ -1,6 +1,6 @@
 #pragma once
 
-// orbits.csv: the orbits at the special points of branches of cycles.
+// orbits.csv: the orbits at the special points of branches of cycles and of boundary value problems.
 
 #include <string>
 
@@ -8,10 +8,10 @@
 
 namespace arcslip {
 
-/// The first line, for the cycles of a case.
+/// The first line, for the orbits of a case.
 std::string orbits_header(const TracedBranch& traced);
 
-/// A row for each node of each orbit, over one period; nothing of what has none.
+/// A row for each node of each orbit, from end to end; nothing of what has none.
 std::string orbit_rows(std::size_t number, const TracedBranch& traced);
 
 }  // namespace arcslip

@@ -54,10 +54,10 @@ void add_units(const ProblemRequest& problem, ordered_json& summary) {
                       {"energy_J", scale.energy(1)}};
 }
 
-/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, of cycles,
+/// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, of orbits,
 /// which orbits.csv has, and of so many that nobody would read them.
 ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
-  if (traced.curve || cycles_of(traced) != nullptr || point.unknowns.size() > most_stored_unknowns)
+  if (traced.curve || orbits_of(traced) != nullptr || point.unknowns.size() > most_stored_unknowns)
     return nullptr;
   ordered_json parameters;
   const std::vector<std::string> names = traced.base.problem->parameter_names();

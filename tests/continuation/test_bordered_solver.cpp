@@ -233,3 +233,54 @@ TEST_CASE("A sparse Jacobian may lack as much rank as there are borders") {
     CHECK((x - expected).norm() < 1e-10 * expected.norm());  // conditions up to 1e5
   }
 }
+
+TEST_CASE("Chains of blocks are solved as a dense matrix is, however much solutions grow along them") {
+  const Index n = GENERATE(1, 2, 3, 5);  // unknowns at each end of a block
+  const Index inner = GENERATE(0, 1, 4);
+  const double decades = GENERATE(0.0, 1.0, 4.0);  // by which they grow or decay in each block
+  const bool separated = GENERATE(false, true);    // conditions at one end each, or of both
+  const Index blocks = 12;
+  const Index rows = n + inner;
+  const Index size = rows * blocks + n;
+  CAPTURE(n, inner, decades, separated);
+  Matrix whole = Matrix::Zero(size + 1, size + 1);
+  for (Index j = 0; j < blocks; ++j) {
+    auto block = whole.block(j * rows, j * rows, rows, rows + n);
+    block = 0.3 * Matrix::Random(rows, rows + n);
+    for (Index i = 0; i < inner; ++i) block(i, n + i) += 2;
+    for (Index i = 0; i < n; ++i) {  // the first ones grow
+      const double step = std::pow(10.0, i < n / 2 ? decades : -decades);
+      block(inner + i, i) = -step;
+      block(inner + i, rows + i) = 1;
+    }
+  }
+  for (Index i = 0; i < n; ++i) {
+    const Index row = rows * blocks + i;
+    if (!separated || i >= n / 2) whole(row, i) = 1;  // those that decay are given where they begin
+    if (!separated || i < n / 2) whole(row, rows * blocks + i) = separated ? 1 : -1;
+  }
+  whole.col(size) = Vector::Random(size + 1);
+  whole.row(size) = Vector::Random(size + 1);
+  const auto dense = make_bordered_solver(size, 1, false);
+  const auto sparse = make_bordered_solver(size, 1, true);
+  fill(*dense, whole, false);
+  fill(*sparse, whole, true);
+  CHECK(sparse->factor() == dense->factor());
+  continuation::LogProduct expected;
+  continuation::LogProduct found;
+  dense->multiply_determinant(expected);
+  sparse->multiply_determinant(found);
+  CHECK(std::abs(found.log() - expected.log()) < 1e-9 * (1 + std::abs(expected.log())));
+  const Vector solution = Vector::Random(size + 1);
+  const auto check = [&](const Matrix& matrix, Vector x) {  // backward error, by rows
+    const Vector right = matrix * solution;
+    const Vector sizes = matrix.cwiseAbs() * x.cwiseAbs() + right.cwiseAbs();
+    CHECK(((matrix * x - right).array() / sizes.array()).abs().maxCoeff() < 1e-12);
+  };
+  Vector x = whole * solution;
+  sparse->solve(x);
+  check(whole, x);
+  x = whole.transpose() * solution;
+  sparse->solve_transposed(x);
+  check(whole.transpose(), x);
+}

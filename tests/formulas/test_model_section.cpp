@@ -211,8 +211,8 @@ TEST_CASE("Mistakes in formulas are told on one line, with their place in the fi
        "has its values from [branch]", ""},
       {"[model.parameters]", "[model]\niterate = 2\n[model.parameters]",
        ":3:11: ", "model.iterate: ", "only of maps", ""},
-      {"[model.parameters]", "[model]\nkind = \"flux\"\n[model.parameters]",
-       ":3:8: ", "model.kind: ", "\"flow\" or \"forced\" or \"map\" or \"algebraic\"", "got \"flux\""}};
+      {"[model.parameters]", "[model]\nkind = \"flux\"\n[model.parameters]", ":3:8: ", "model.kind: ",
+       "\"flow\" or \"forced\" or \"map\" or \"algebraic\" or \"boundary\"", "got \"flux\""}};
   for (const Mistake& mistake : mistakes)
     check_message(error_in(replaced(brusselator, mistake.from, mistake.to)), mistake);
   CHECK(error_in(brusselator, {"model.equations.x=\"A - q\""}) ==

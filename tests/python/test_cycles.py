@@ -1,5 +1,7 @@
 """Cycles from Python: arcslip.trace_cycles and Branch.orbit."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -91,3 +93,35 @@ def test_mistakes_are_told():
     branch = arcslip.trace(arcslip.Model({"x": "a - x"}, {"a": 0}), range=(0, 1))
     with pytest.raises(ValueError, match="orbit: only of branches of cycles"):
         branch.orbit(0)
+
+
+def test_a_function_of_time_is_as_its_formula_says():
+    def oscillator(t, u, p):
+        return np.array([u[1], np.cos(p["W"] * t) - 2 * p["D"] * u[1] - u[0]])
+
+    (branch,) = arcslip.trace_cycles(
+        oscillator, [0, 0], {"W": 0.5, "D": 0.1}, "W", range=(0.5, 2), period="2*pi/W", extrema_of=["q_max"],
+        functions={"unknowns": ["q", "v"]},
+    )
+    W = branch["W"]
+    np.testing.assert_allclose(branch["q_max"], 1 / np.hypot(1 - W**2, 0.2 * W), rtol=1e-6)
+    assert [point["W"] for point in branch.special if point["type"] == "peak"] == pytest.approx([np.sqrt(1 - 0.02)], abs=1e-6)
+    assert branch.derivatives["parameter_jacobian"] == "complex step"
+    numbers = arcslip.trace_cycles(
+        lambda t, u, w: np.array([u[1], math.cos(w * t) - 0.2 * u[1] - u[0]]), [0, 0], 0.5, "W", range=(0.5, 2), period="2*pi/W"
+    )[0]
+    np.testing.assert_allclose(numbers["u0_max"], 1 / np.hypot(1 - numbers["W"] ** 2, 0.2 * numbers["W"]), rtol=1e-6)
+    with pytest.raises(ValueError, match='period: unknown name "w"'):
+        arcslip.trace_cycles(oscillator, [0, 0], {"W": 0.5, "D": 0.1}, "W", range=(0.5, 2), period="2*pi/w")
+    with pytest.raises(TypeError, match="period: only of a function"):
+        arcslip.trace_cycles(arcslip.Model({"x": "a - x"}, {"a": 1}), range=(0, 1), period=1)
+
+
+def test_a_fault_in_a_function_of_time_is_raised():
+    def fails(t, u, p):
+        if p > 1.2 and t > 1:
+            raise RuntimeError("late")
+        return np.cos(p * t) - u
+
+    with pytest.raises(RuntimeError, match="late"):
+        arcslip.trace_cycles(fails, [0.0], 0.5, "W", range=(0.5, 2), period="2*pi/W")

@@ -2,6 +2,7 @@
 
 // Wrong input, and what the message about it must say.
 
+#include <concepts>
 #include <string>
 
 #include "arcslip/keys/input_error.hpp"
@@ -15,7 +16,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 /// The message of the InputError that `read` ends with.
-template <class Read>
+template <std::invocable Read>
 std::string error_of(const Read& read) {
   try {
     read();

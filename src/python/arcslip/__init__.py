@@ -17,7 +17,7 @@ from ._element import Element
 from ._model import Model
 from ._problem import Problem
 from ._structure import Structure
-from ._trace import solve_all, trace, trace_all, trace_cycles
+from ._trace import solve_all, trace, trace_all, trace_boundary, trace_cycles
 
 __all__ = [
     "Branch",
@@ -38,5 +38,6 @@ __all__ = [
     "study",
     "trace",
     "trace_all",
+    "trace_boundary",
     "trace_cycles",
 ]

@@ -84,6 +84,7 @@ def trace_cycles(
     range: tuple[float, float] = (0.0, 1.0),
     *,
     settle: float | None = None,
+    period: str | float | None = None,
     follow: bool = True,
     intervals: int = 20,
     degree: int = 5,
@@ -92,6 +93,20 @@ def trace_cycles(
     max_branches: int = 50,
     progress: _Progress | None = None,
     functions: Mapping[str, Any] | None = None,
+    **options: Any,
+) -> list[Branch]: ...
+def trace_boundary(
+    problem: Model,
+    p0: _Parameters | None = None,
+    parameter: str | None = None,
+    range: tuple[float, float] = (0.0, 1.0),
+    *,
+    follow: bool = False,
+    intervals: int = 20,
+    degree: int = 5,
+    orbit_tolerance: float = 1e-6,
+    max_branches: int = 50,
+    progress: _Progress | None = None,
     **options: Any,
 ) -> list[Branch]: ...
 def solve_all(
@@ -135,10 +150,14 @@ class Model(Problem):
         definitions: Mapping[str, str | float] | None = None,
         observables: Mapping[str, str | float] | None = None,
         *,
-        kind: Literal["flow", "forced", "map", "algebraic"] = "flow",
+        kind: Literal["flow", "forced", "map", "algebraic", "boundary"] = "flow",
         iterate: int = 1,
         period: str | float | None = None,
         angles: Sequence[str] = (),
+        interval: Mapping[str, tuple[str | float, str | float]] | None = None,
+        conditions: Sequence[str | float] = (),
+        integrals: Sequence[str | float] = (),
+        free: Sequence[str] = (),
     ) -> None: ...
     def residual(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
     def jacobian(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...

@@ -159,7 +159,7 @@ class Branch(_Columns):
         return self._core.checkpoint
 
     def orbit(self, point):
-        """The cycle at a point of a branch of cycles, one period of it.
+        """The orbit at a point of a branch: one period of a cycle, or the solution of a boundary value problem.
 
         Parameters
         ----------
@@ -169,10 +169,10 @@ class Branch(_Columns):
         Returns
         -------
         dict of numpy.ndarray
-            "t" from 0 to T and the unknowns by name, at the nodes of the mesh.
+            "t" from 0 to T, or what the interval is of, and the unknowns by name, at the nodes of the mesh.
         """
-        times, values, names = _core.orbit_of(self._core, self._row(point))
-        return {"t": times, **{name: values[:, i] for i, name in enumerate(names)}}
+        time, times, values, names = _core.orbit_of(self._core, self._row(point))
+        return {time: times, **{name: values[:, i] for i, name in enumerate(names)}}
 
     def multipliers(self, point):
         """The Floquet multipliers of a cycle, without that of its own velocity, complex, shape (n - 1,) or (n,).

@@ -5,11 +5,12 @@ import numpy as np
 from . import _core
 from ._problem import Problem
 
-_KINDS = ("flow", "forced", "map", "algebraic")
+_KINDS = ("flow", "forced", "map", "algebraic", "boundary")
 
 
 class Model(Problem):
-    """u' = f(u, p), u' = f(t, u, p), u -> f(u, p) or f(u, p) = 0, with f as formulas, like `[model]` of case files.
+    """u' = f(u, p), u' = f(t, u, p), u -> f(u, p), f(u, p) = 0 or a boundary value problem, with f as formulas, like
+    `[model]` of case files.
 
     It stands where a `Problem` may. Derivatives, the second ones too, are exact, and nothing is called in Python while
     a branch is traced. `trace` needs neither u0 nor p0 then: a branch begins at the first value of its range, with the
@@ -27,15 +28,23 @@ class Model(Problem):
         Formulas by names that equations and observables may use, in any order.
     observables : dict, optional
         Formulas by names: further columns.
-    kind : {"flow", "forced", "map", "algebraic"}
+    kind : {"flow", "forced", "map", "algebraic", "boundary"}
         A flow has equilibria, Hopf points and cycles, one that is forced cycles alone, a map fixed points and period
-        doublings.
+        doublings. A boundary value problem is for `trace_boundary`.
     period : str or number, optional
         Of what is forced: the period of f in the time t, as a formula of the parameters.
     angles : sequence of str
         Unknowns of which whole turns, 2 pi, do not matter: cycles of a flow may go round.
     iterate : int
         Of a map: the points that are fixed after so many steps, at most 100.
+    interval : dict, optional
+        Of a boundary value problem what f may depend on, with both its ends, numbers or formulas of the parameters:
+        {"x": (0, 1)}. `start` may depend on it as well.
+    conditions, integrals : sequence of str
+        Formulas that vanish: of the parameters and of `u_left` and `u_right` of each unknown u; and those whose
+        integral over the interval vanishes. As many as there are unknowns and free parameters.
+    free : sequence of str
+        Parameters that these conditions set, from guesses in `parameters`.
 
     Attributes
     ----------
@@ -48,7 +57,7 @@ class Model(Problem):
         A formula cannot be read: which one, where, and what was expected.
     """
 
-    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=()):
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=(), interval=None, conditions=(), integrals=(), free=()):
         if kind not in _KINDS:
             raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
         if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
@@ -71,6 +80,7 @@ class Model(Problem):
             _texts("start", start),
             None if period is None else _texts("model", {"period": period})[0][1],
             list(angles),
+            _conditions(kind, self.values, interval, conditions, integrals, free),
         )
         self.kind = kind
         self.iterate = int(iterate)
@@ -114,6 +124,25 @@ class Model(Problem):
         if first is not None and parameter in p and parameter not in given:
             p[parameter] = float(first)
         return (self._formulas.start([float(value) for value in p.values()]) if u0 is None else u0), p
+
+
+def _conditions(kind, parameters, interval, conditions, integrals, free):
+    """What conditions are on, and they; None of kinds that have none."""
+    given = {"interval": interval, "conditions": conditions, "integrals": integrals, "free": free}
+    if kind != "boundary":
+        for name, value in given.items():
+            if value:
+                raise ValueError(f'{name}: only of kind "boundary", got {value!r}')
+        return None
+    if not isinstance(interval, dict) or len(interval) != 1 or len(next(iter(interval.values()))) != 2:
+        raise ValueError(f'interval: expected one name with both its ends, as {{"x": (0, 1)}}, got {interval!r}')
+    ((variable, ends),) = interval.items()
+    for i, name in enumerate(free):
+        if name not in parameters or name in free[:i]:
+            raise ValueError(f"free[{i}]: expected each parameter once, of {', '.join(parameters)}, got {name!r}")
+    texts = [[text for _, text in _texts(name, dict(enumerate(given[name])))] for name in ("conditions", "integrals")]
+    ends = [text for _, text in _texts(f"interval.{variable}", dict(enumerate(ends)))]
+    return ((str(variable), *ends), *texts, list(free))
 
 
 def _number(name, value):

@@ -62,6 +62,7 @@ class Problem:
     eigenvalues = None
     borders = None
     beyond = None
+    _active = ()  # parameters by which derivatives are taken beside the one that is continued
 
     def __init__(self, residual=None, **given):
         if residual is not None:
@@ -90,13 +91,14 @@ class Prepared:
         self.problem = problem
         self.u0 = _unknowns(u0)
         self.form, self.names, self.p0, self.parameter = _parameters(problem, p0, parameter)
+        self.active = [self.parameter, *problem._active]
         self.regime = regime
         self._check_start()
         self._prepare_observables()
         self.derivatives = {
             "jacobian": self._source(problem.jacobian, lambda z: self._residual(z, self.p0), self.u0),
             "parameter_jacobian": self._source(
-                problem.parameter_jacobian, self._residual_of_parameter, self.p0[[self.names.index(self.parameter)]]
+                problem.parameter_jacobian, self._residual_of_parameter, self._active_values()
             ),
         }
         self.core = _core.Problem(
@@ -126,7 +128,7 @@ class Prepared:
             "form": self.form,
             "unknowns": self.unknowns,
             "observables": self.observed,
-            "active": [self.parameter],
+            "active": self.active,
             "sparse": bool(problem.sparse),
             "equilibrium": bool(problem.equilibrium),
             "switches": int(problem.switches) if problem.borders is not None else 0,
@@ -156,9 +158,13 @@ class Prepared:
     def _residual_of_parameter(self, value):
         return self._residual(self.u0, self._with(value))
 
-    def _with(self, value):
-        p = self.p0.astype(np.result_type(value))
-        p[self.names.index(self.parameter)] = value[0]
+    def _active_values(self):
+        return self.p0[[self.names.index(name) for name in self.active]]
+
+    def _with(self, values):
+        p = self.p0.astype(np.result_type(values))
+        for name, value in zip(self.active, values):
+            p[self.names.index(name)] = value
         return p
 
     def _observe(self, u, p):
@@ -212,9 +218,34 @@ class Prepared:
 
     def _source_of_both(self, function):
         both = _takes_complex(lambda z: function(z, self.p0), self.u0) and _takes_complex(
-            lambda value: function(self.u0, self._with(value)), self.p0[[self.names.index(self.parameter)]], or_real=True
+            lambda values: function(self.u0, self._with(values)), self._active_values(), or_real=True
         )
         return "complex step" if both else "central differences"
+
+
+def driven(function, p0, parameter, functions):
+    """A field f(t, u, p) as a Problem with the time for its last parameter, and its p0."""
+    if not callable(function) or isinstance(function, Problem):
+        raise TypeError(f"period: only of a function f(t, u, p), as a Model has its own; got {function!r}")
+    if "parameter_jacobian" in functions:
+        raise TypeError("parameter_jacobian: not of a function of time, whose derivatives by time would be missing")
+    form, names, values, _ = _parameters(Problem(**{"parameters": functions.get("parameters", ())}), p0, parameter)
+    if "t" in names:
+        raise ValueError("p0: t is the time; expected another name")
+
+    def of_time(given):
+        def called(u, p):
+            own = {name: p[name] for name in names}
+            numbers = list(own.values())
+            return given(p["t"], u, own if form == "dict" else numbers[0] if form == "number" else np.array(numbers))
+
+        return called
+
+    parts = {name: of_time(part) if name == "jacobian" else part for name, part in functions.items()}
+    problem = Problem(of_time(function), **parts)
+    problem._active = ("t",)
+    ordinary = 0.3  # where derivatives are tried out: at 0 those of loads may vanish
+    return problem, {**dict(zip(names, values.tolist())), "t": ordinary}
 
 
 def _takes_complex(function, z, or_real=False):

@@ -4,7 +4,7 @@ import warnings
 
 from . import _core
 from ._branch import Branch
-from ._problem import Prepared, Problem
+from ._problem import Prepared, Problem, driven
 
 _LIMITS = {"max_points", "max_seconds", "interrupted"}
 _OWN_ENDS = {"left_regime", "infinite_period"}
@@ -154,13 +154,13 @@ def trace_all(
 
 
 def trace_cycles(
-    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, follow=True, intervals=20, degree=5,
-    orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, period=None, follow=True, intervals=20,
+    degree=5, orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
 ):
     """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
 
     Without `settle` those that leave the Hopf points of the branch of equilibria next to u0, each once. A Model of kind
-    "forced" has no equilibria: its cycles have the period of the load.
+    "forced", and a function f(t, u, p) with a `period`, has no equilibria: its cycles have the period of the load.
 
     Parameters
     ----------
@@ -169,6 +169,8 @@ def trace_cycles(
     settle : float, optional
         Begin with the cycle that the motion from u0 has come to after this time. Of what is forced fifty periods if it
         is not given.
+    period : str or number, optional
+        Of a function f(t, u, p) its period in the time t, as a formula of the parameters: "2*pi/W".
     follow : bool
         Follow what is met at branch points and period doublings as well.
     intervals, degree : int
@@ -186,30 +188,81 @@ def trace_cycles(
     list of Branch
         With the columns "T", and "x_max", "x_min" of each unknown x; see `Branch.orbit`, `Branch.multipliers`.
     """
-    if not isinstance(problem, Problem):
+    is_driven = period is not None
+    if is_driven:
+        problem, p0 = driven(problem, p0, parameter, functions or {})
+        functions = None
+    elif not isinstance(problem, Problem):
         functions = {"equilibrium": True, **(functions or {})}
     problem = _problem(problem, functions or {})
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
-    prepared = Prepared(problem, u0, p0, parameter, 0)
+    prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
     forced = getattr(problem, "kind", "") == "forced"
-    if not (forced or problem.equilibrium):
+    if not (forced or is_driven or problem.equilibrium):
         raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
     if settle is not None and not float(settle) > 0:
         raise ValueError(f"settle: expected a number > 0, got {settle!r}")
-    held = {
+    held = _held(intervals, degree, orbit_tolerance, doublings, max_branches)
+    formulas = problem._formulas if forced else None
+    cores = _core.trace_cycles(
+        prepared.core, formulas, prepared.u0, prepared.p0, settle, None if period is None else str(period), bool(follow),
+        how, options, held, progress
+    )
+    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
+def trace_boundary(
+    problem, p0=None, parameter=None, range=(0.0, 1.0), *, follow=False, intervals=20, degree=5, orbit_tolerance=1e-6,
+    max_branches=50, progress=None, **options
+):
+    """Trace solutions of a boundary value problem, by collocation on meshes that follow them.
+
+    Parameters
+    ----------
+    problem : Model
+        Of kind "boundary".
+    p0, parameter, range, progress
+        As `trace` takes them.
+    follow : bool
+        Follow what is met at branch points as well.
+    intervals, degree, orbit_tolerance, max_branches
+        As `trace_cycles` takes them.
+    **options
+        Limits and what is looked for, as `trace` takes them.
+
+    Returns
+    -------
+    list of Branch
+        With the columns "u_max", "u_min", "u_left" and "u_right" of each unknown u, "norm", and the parameters that are
+        free; see `Branch.orbit`.
+    """
+    if getattr(problem, "kind", "") != "boundary":
+        raise ValueError(f'problem: expected a Model of kind "boundary", got {problem!r}')
+    u0, p0 = problem._begin(None, p0, parameter, range[0])
+    prepared = Prepared(problem, u0, p0, parameter, 0)
+    options["parameter"] = prepared.parameter
+    how, options["range"] = _way(prepared, range)
+    held = _held(intervals, degree, orbit_tolerance, 0, max_branches)
+    cores = _core.trace_boundary(
+        prepared.core, problem._formulas, prepared.p0, bool(follow), how, options, held, progress
+    )
+    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
+def _held(intervals, degree, tolerance, doublings, max_branches):
+    return {
         "intervals": int(intervals),
         "degree": int(degree),
-        "tolerance": float(orbit_tolerance),
+        "tolerance": float(tolerance),
         "doublings": int(doublings),
         "max_branches": int(max_branches),
     }
-    formulas = problem._formulas if forced else None
-    cores = _core.trace_cycles(
-        prepared.core, formulas, prepared.u0, prepared.p0, settle, bool(follow), how, options, held, progress
-    )
-    return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
+
+
+def _first_but_time(p0, is_driven):
+    return next(iter(p0)) if is_driven and len(p0) == 2 else None
 
 
 def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, parameter=None, **functions):

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "arcslip/continuation/path/interpolation.hpp"
 #include "arcslip/continuation/path/polyline.hpp"
+#include "cases/cycles.hpp"
 #include "results/branch_columns.hpp"
 
 namespace arcslip::python {
@@ -63,9 +63,10 @@ py::dict sampled(const BranchHandle& handle, const std::vector<continuation::Sam
 
 template <class Samples>
 py::dict sampled_by(const BranchHandle& handle, const Samples& samples) {
-  if (dynamic_cast<const continuation::CycleProblem*>(handle.traced().base.problem.get()) != nullptr)
+  if (orbits_of(handle.traced()) != nullptr)
     throw py::value_error(
-        "samples of cycles are not taken: their unknowns lie on meshes of their own; see orbit");
+        "samples of cycles and other orbits are not taken: their unknowns lie on meshes of their own; see "
+        "orbit");
   if (handle.branch().points.size() < 2)
     throw py::value_error("a branch of fewer than two points has nothing between them");
   return handle.heard([&] {

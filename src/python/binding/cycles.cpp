@@ -3,6 +3,7 @@
 #include "arcslip/continuation/cycles/settled_cycle.hpp"
 #include "cases/cycles.hpp"
 #include "python/binding/formulas.hpp"
+#include "python/binding/timed_field.hpp"
 #include "python/binding/trace_options.hpp"
 #include "python/binding/tracing.hpp"
 
@@ -36,32 +37,70 @@ std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const
   return {continuation::trace_cycles(start, options, cycles, observer)};
 }
 
-Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
-                     const py::handle& u, const py::handle& p, const std::optional<double>& settle,
-                     bool follow, const std::string& how, const py::dict& given, const py::dict& held,
-                     const py::object& progress) {
-  continuation::TraceOptions options;
-  set_options(given, problem, options);
-  continuation::CycleOptions cycles;
-  cycles.intervals = held["intervals"].cast<Index>();
-  cycles.degree = held["degree"].cast<int>();
-  cycles.tolerance = held["tolerance"].cast<double>();
-  cycles.doublings = held["doublings"].cast<int>();
-  cycles.max_branches = held["max_branches"].cast<std::size_t>();
-  const continuation::Guess guess = guess_of(*problem, u, p, py::int_(0));
-  std::shared_ptr<const continuation::Field> forced;
-  if (!formulas.is_none()) forced = formulas.cast<const Formulas&>().forced;
-  const auto branches = in_engine(options, progress, [&](const auto& observer) {
-    return traced_cycles(field_of(problem, forced), *problem, guess, settle, follow, how == "both", options,
-                         cycles, observer);
-  });
+continuation::OrbitOptions held_on(const py::dict& held) {
+  continuation::OrbitOptions orbits;
+  orbits.intervals = held["intervals"].cast<Index>();
+  orbits.degree = held["degree"].cast<int>();
+  orbits.tolerance = held["tolerance"].cast<double>();
+  orbits.doublings = held["doublings"].cast<int>();
+  orbits.max_branches = held["max_branches"].cast<std::size_t>();
+  return orbits;
+}
+
+template <class OneBranch>
+Handles handles_of(const std::shared_ptr<PythonProblem>& problem, const continuation::TraceOptions& options,
+                   const std::vector<OneBranch>& branches) {
   Handles handles;
-  for (const continuation::CycleBranch& one : branches) {
+  for (const OneBranch& one : branches) {
     TracedBranch traced = traced_of(problem, options, one.branch);
     traced.base.problem = one.problem;
     handles.push_back(std::make_shared<BranchHandle>(std::move(traced), problem));
   }
   return handles;
+}
+
+Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
+                     const py::handle& u, const py::handle& p, const std::optional<double>& settle,
+                     const std::optional<std::string>& period, bool follow, const std::string& how,
+                     const py::dict& given, const py::dict& held, const py::object& progress) {
+  continuation::TraceOptions options;
+  set_options(given, problem, options);
+  const continuation::CycleOptions cycles = held_on(held);
+  continuation::Guess guess = guess_of(*problem, u, p, py::int_(0));
+  std::shared_ptr<const continuation::Field> forced;
+  if (!formulas.is_none()) forced = formulas.cast<const Formulas&>().forced;
+  if (period) {
+    forced = std::make_shared<const TimedField>(problem, *period);
+    guess.parameters.conservativeResize(guess.parameters.size() - 1);
+  }
+  const auto branches = in_engine(options, progress, [&](const auto& observer) {
+    return traced_cycles(field_of(problem, forced), *problem, guess, settle, follow, how == "both", options,
+                         cycles, observer);
+  });
+  return handles_of(problem, options, branches);
+}
+
+/// The branch of a boundary value problem from its guess and, with `follow`, all that can be reached from it.
+Handles trace_boundary(const std::shared_ptr<PythonProblem>& problem, const Formulas& formulas,
+                       const py::handle& p, bool follow, const std::string& how, const py::dict& given,
+                       const py::dict& held, const py::object& progress) {
+  continuation::TraceOptions options;
+  set_options(given, problem, options);
+  const continuation::OrbitOptions orbits = held_on(held);
+  const std::vector<std::string>& names = problem->traits().parameters;
+  Vector values(std::ssize(names));
+  take(p, "p0", values);
+  problems::LibraryModel::Values settings;
+  for (const Setting& setting : formulas.boundary->settings)
+    settings.push_back(values(continuation::index_of(names, setting.name)));
+  continuation::OrbitStart start = formulas.boundary->boundary(settings, orbits);
+  continuation::index_of(start.problem->parameter_names(), options.parameter);
+  start.both_ways = how == "both";
+  const auto branches = in_engine(options, progress, [&](const auto& observer) {
+    if (follow) return trace_connected_orbits(start, options, orbits, observer);
+    return std::vector{trace_orbits(start, options, orbits, observer)};
+  });
+  return handles_of(problem, options, branches);
 }
 
 /// Throws py::value_error that begins with what is asked for of others than cycles.
@@ -71,12 +110,17 @@ const continuation::CycleProblem& cycles_in(const BranchHandle& handle, const ch
   return *cycles;
 }
 
-/// The orbit of a point: times, then unknowns x times.
+/// The orbit of a point: what its times are called, these, unknowns x times, their names.
 py::tuple orbit_of(const BranchHandle& handle, std::size_t i) {
-  const continuation::CycleProblem& cycles = cycles_in(handle, "orbit");
+  const continuation::OrbitProblem* orbits = orbits_of(handle.traced());
+  if (orbits == nullptr)
+    throw py::value_error("orbit: only of branches of cycles and of boundary value problems");
   const continuation::BranchPoint& point = handle.point(i);
-  return py::make_tuple(give(cycles.times(point.unknowns, point.parameters, point.regime)),
-                        give(Matrix(cycles.orbit(point.unknowns))), cycles.field().names());
+  std::vector<std::string> names = orbits->field().names();
+  names.resize(static_cast<std::size_t>(orbits->told()));
+  return py::make_tuple(orbits->time_name(),
+                        give(orbits->times(point.unknowns, point.parameters, point.regime)),
+                        give(Matrix(orbits->orbit(point.unknowns).topRows(orbits->told()))), names);
 }
 
 /// The Floquet multipliers of a point as their logarithms.
@@ -91,6 +135,7 @@ py::array log_multipliers_of(const BranchHandle& handle, std::size_t i) {
 
 void bind_cycles(py::module_& module) {
   module.def("trace_cycles", trace_cycles);
+  module.def("trace_boundary", trace_boundary);
   module.def("orbit_of", orbit_of);
   module.def("log_multipliers_of", log_multipliers_of);
 }

@@ -1,5 +1,6 @@
 #include "python/binding/formulas.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "python/binding/arrays.hpp"
@@ -19,13 +20,39 @@ std::vector<Formula> formulas_of(const std::string& name, const Texts& texts) {
 
 FormulaKind kind_named(const std::string& name) {
   if (name == "forced") return FormulaKind::forced;
+  if (name == "boundary") return FormulaKind::boundary;
   return name == "map" ? FormulaKind::map : name == "flow" ? FormulaKind::flow : FormulaKind::algebraic;
+}
+
+/// What conditions are on, as Model gives it: (variable, from, to), conditions, integrals, free parameters.
+using Ends = std::tuple<std::string, std::string, std::string>;
+using Conditions =
+    std::tuple<Ends, std::vector<std::string>, std::vector<std::string>, std::vector<std::string>>;
+
+std::vector<Formula> listed(const std::string& name, const std::vector<std::string>& texts) {
+  std::vector<Formula> formulas;
+  for (const std::string& text : texts) {
+    const std::string place = fmt::format("{}[{}]", name, formulas.size());
+    formulas.push_back({place, text, place});
+  }
+  return formulas;
+}
+
+void set_conditions(const Conditions& given, FormulaSystem& system) {
+  const auto& [ends, conditions, integrals, free] = given;
+  const auto& [variable, from, to] = ends;
+  const std::string place = "interval." + variable;
+  system.interval = {variable, {variable, from, place + "[0]"}, {variable, to, place + "[1]"}, place};
+  system.conditions = listed("conditions", conditions);
+  system.integrals = listed("integrals", integrals);
+  system.free = free;
 }
 
 Formulas made(const std::string& kind, int iterate,
               const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
               const Texts& equations, const Texts& observables, const Texts& start,
-              const std::optional<std::string>& period, const std::vector<std::string>& angles) {
+              const std::optional<std::string>& period, const std::vector<std::string>& angles,
+              const std::optional<Conditions>& conditions) {
   FormulaSystem system{.kind = kind_named(kind), .iterate = iterate};
   system.angles = angles;
   if (period) system.period = Formula{"period", *period};
@@ -36,7 +63,13 @@ Formulas made(const std::string& kind, int iterate,
   system.start = formulas_of("start", start);
   std::shared_ptr<const problems::FormulaField> forced;
   if (system.kind == FormulaKind::forced) forced = std::make_shared<const problems::FormulaField>(system);
-  return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system)};
+  std::optional<problems::LibraryModel> boundary;
+  if (conditions) {
+    set_conditions(*conditions, system);
+    boundary = problems::model_of(system);
+  }
+  return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system),
+          boundary};
 }
 
 /// What it is called with, as the problem takes it.

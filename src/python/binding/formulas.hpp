@@ -14,9 +14,11 @@ namespace py = pybind11;
 
 /// A system with its guess of the start.
 struct Formulas {
-  std::shared_ptr<const problems::FormulaProblem> problem;  ///< of what is forced at t = 0
-  std::shared_ptr<const problems::FormulaField> forced;     ///< else null
-  Tape start;                                               ///< of the unknowns, by parameters
+  std::shared_ptr<const problems::FormulaProblem>
+      problem;                                           ///< of what is forced at t = 0, else at the left end
+  std::shared_ptr<const problems::FormulaField> forced;  ///< else null
+  Tape start;                                            ///< of the unknowns, by parameters
+  std::optional<problems::LibraryModel> boundary;        ///< of a boundary value problem
 };
 
 void bind_formulas(py::module_& module);

@@ -3,19 +3,9 @@
 // Branches of cycles, on meshes that follow them.
 
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
-#include "arcslip/continuation/path/trace.hpp"
+#include "arcslip/continuation/cycles/orbit_branch.hpp"
 
 namespace arcslip::continuation {
-
-/// On what orbits are held.
-struct CycleOptions {
-  Index intervals = 20;           ///< N to begin with
-  int degree = 5;                 ///< m
-  double tolerance = 1e-6;        ///< on the estimated error of orbits, relative to how far their unknowns go
-  Index most_intervals = 2560;    ///< a branch that asks for more has ended
-  int doublings = 3;              ///< how often a period is doubled, of cascades without end
-  std::size_t max_branches = 50;  ///< all of them together
-};
 
 /// A cycle to set out from: the guess is one of the problem's.
 struct CycleStart {
@@ -34,17 +24,9 @@ std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& fie
 std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
                                               const BranchPoint& doubling);
 
-/// The other branch of cycles through a branch point; none where it is not found.
-std::optional<CycleStart> cycle_from_branch_point(const CycleProblem& problem, const std::string& parameter,
-                                                  const BranchPoint& point,
-                                                  const Tolerances& tolerances = {});
-
 /// A cycle close to an orbit: as its values at nodes tell, ends equal, over a time T.
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                             double duration, const Vector& p, int periods = 1, bool doubled = false);
-
-/// The same start on so many intervals.
-CycleStart refined(const CycleStart& start, Index intervals);
 
 /// A branch and what its points are solutions of: their regimes are this problem's frames.
 struct CycleBranch {
@@ -52,12 +34,14 @@ struct CycleBranch {
   Branch branch;
 };
 
-/// As `trace` does it, from a guess with a direction along it, or along it and against it; else from its
-/// parameter towards `to`, or both ways.
+/// That of orbits which are cycles.
+CycleBranch cycle_branch(OrbitBranch branch);
+
+/// As `trace_orbits` does it.
 CycleBranch trace_cycles(const CycleStart& start, const TraceOptions& options,
                          const CycleOptions& cycles = {}, const Observer& observer = {});
 
-/// A branch and all that can be reached from it through branch points and period doublings, each once.
+/// As `trace_connected_orbits` does it.
 std::vector<CycleBranch> trace_connected_cycles(const CycleStart& start, const TraceOptions& options,
                                                 const CycleOptions& cycles = {},
                                                 const Observer& observer = {});

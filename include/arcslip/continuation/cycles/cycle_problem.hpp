@@ -26,8 +26,11 @@ class CycleProblem : public OrbitProblem {
   int periods() const { return periods_; }
   const Vector& winding() const { return winding_; }  ///< w, n
   bool is_doubled() const { return doubled_; }
-  /// Where `apart` vanishes, as the end of a sentence.
-  std::string end_of_kind() const;
+  std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
+                                      const Vector& p) const override {
+    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, periods_, doubled_);
+  }
+  std::string end_of_kind() const override;
 
   /// ln(mu) of the multipliers; empty where there are none. What a thread was told last is known when it asks
   /// again.
@@ -57,9 +60,6 @@ class CycleProblem : public OrbitProblem {
  private:
   struct Last;
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
-
-  struct Extremum;
-  Extremum extremum(const Vector& u, const Regime& regime, Index unknown, double sign) const;
 
   int periods_;
   bool doubled_;

@@ -21,10 +21,20 @@
 
 namespace arcslip::continuation {
 
+/// Values g of conditions on both ends of an orbit, as many as the field has unknowns, and their derivatives;
+/// those that are null are not wanted.
+struct EndConditions {
+  Vector* values;         ///< n
+  Matrix* by_left;        ///< n x n
+  Matrix* by_right;       ///< n x n
+  Matrix* by_parameters;  ///< n x number of parameters
+};
+
 /// What is fixed while a stretch of a branch is traced.
 struct OrbitFrame {
   OrbitMesh mesh;
   Vector scale;  ///< n, of the unknowns of the field
+  Vector ends;   ///< n, of the conditions at the ends: how far these change as unknowns do by their scale
   Vector range;  ///< n, how far these go along the orbit
   Vector phase;  ///< n x nodes: weights of the condition that keeps the orbit from sliding along itself; or
                  ///< empty
@@ -60,7 +70,19 @@ class OrbitProblem : public Problem {
   double duration(const Vector& u, const Vector& p, Vector* by_parameters = nullptr) const;
 
   /// When the nodes are reached, 0 to T.
-  Vector times(const Vector& u, const Vector& p, const Regime& regime) const;
+  virtual Vector times(const Vector& u, const Vector& p, const Regime& regime) const;
+
+  /// What these are times of, and how many of the field's unknowns, from the first on, are told: the others
+  /// are there for conditions.
+  virtual std::string time_name() const { return "t"; }
+  virtual Index told() const { return field_->size(); }
+
+  /// The same for another orbit, at parameters p.
+  virtual std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
+                                              const Vector& p) const = 0;
+
+  /// Where `apart` vanishes, as the end of a sentence; empty where it never does.
+  virtual std::string end_of_kind() const { return {}; }
 
   /// Largest estimated error of an orbit, relative to how far its unknowns go.
   double mesh_error(const Vector& u, const Regime& regime) const;
@@ -93,14 +115,6 @@ class OrbitProblem : public Problem {
   std::string describe(const Regime& regime) const override;
 
  protected:
-  /// Values g of the n conditions, and their derivatives; those that are null are not wanted.
-  struct EndConditions {
-    Vector* values;         ///< n
-    Matrix* by_left;        ///< n x n
-    Matrix* by_right;       ///< n x n
-    Matrix* by_parameters;  ///< n x number of parameters
-  };
-
   /// `begin` is to follow.
   OrbitProblem(std::shared_ptr<const Field> field, bool has_duration);
 
@@ -124,6 +138,7 @@ class OrbitProblem : public Problem {
   static constexpr Index frame_digits = 4;
 
   static void set_apart(OrbitFrame& frame, const Matrix& part);
+  Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
   void build_pattern();
   [[nodiscard]] bool at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
                               Index interval, Index point, bool derivatives, Scratch& scratch) const;

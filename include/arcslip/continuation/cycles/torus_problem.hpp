@@ -3,25 +3,19 @@
 // Neimark-Sacker points of cycles, from which tori leave, as an extended problem.
 
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
-#include "arcslip/continuation/points/extended_problem.hpp"
-#include "arcslip/continuation/problem/second_derivative.hpp"
+#include "arcslip/continuation/points/pair_problem.hpp"
 
 namespace arcslip::continuation {
 
-/// Cycles with a pair of multipliers z of modulus 1: v' = T f_u v with v(1) = z v(0) has a solution. With
-/// numbers x + z y, where z^2 = 2 kappa z - 1,
-///
-///   [J_z  b] [v]   [0]
-///   [c^T  0] [g] = [1],    g = 0 (both its parts),    e_0 = kappa = cos(theta),   z = e^(j theta),
-///
-/// J_z the Jacobian of the cycle without T and phase, with z u(0) in place of u(0) in u(1) = u(0). It stays
-/// regular where kappa = 1 or -1; beyond these the pair is real, z and 1/z.
-class TorusProblem : public ExtendedProblem {
+/// Cycles with a pair of multipliers z of modulus 1, z^2 = 2 kappa z - 1: v' = T f_u v with v(1) = z v(0) has
+/// a solution. Its matrix is the Jacobian of the cycle without T and phase, with z u(0) in place of u(0) in
+/// u(1) = u(0); e_0 = kappa = cos(theta), z = e^(j theta). It stays regular where kappa = 1 or -1; beyond
+/// these the pair is real, z and 1/z.
+class TorusProblem : public PairProblem {
  public:
   /// `active` becomes an unknown. The base is kept by reference.
   TorusProblem(const CycleProblem& base, Index active);
 
-  [[nodiscard]] bool adapt(const BasePoint& point) override;
   /// There the pair meets at 1 or at -1.
   std::optional<PointType> last_of_curve() const override { return PointType::double_multiplier; }
   std::vector<PointType> test_types() const override {
@@ -33,24 +27,15 @@ class TorusProblem : public ExtendedProblem {
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
  protected:
-  bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
-  void each_border(const std::function<void(double*, Index)>& use) override;
-  double strain() const override;
-  long own_evaluations() const override { return second_.evaluations(); }
+  ByKappa sum(double kappa) const override { return {2 * kappa, 2}; }
+  ByKappa product(double /*kappa*/) const override { return {1, 0}; }
+  void fill(BorderedSolver& solver, double a, double b, const Vector& scales) const override;
+  Vector turned(const Vector& x) const override;
 
  private:
-  [[nodiscard]] bool solve_borders(double kappa) const;
-  void assemble(double kappa) const;
+  bool is_turned(Index row, Index column) const;  // by z
 
-  Index unknowns_;                          // of the field
-  Index count_;                             // of J_z
-  std::unique_ptr<BorderedSolver> solver_;  // real form, two parts and two borders
-  Vector column_;                           // b, its two parts
-  Vector row_;                              // c
-  mutable SparseMatrix doubled_;
-  mutable SecondDerivative second_;
-  mutable Vector right_;    // (v, g), two parts each
-  mutable Vector left_[2];  // of the two parts of g
+  Index unknowns_;  // of the field
 };
 
 }  // namespace arcslip::continuation

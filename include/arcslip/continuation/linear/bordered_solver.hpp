@@ -53,14 +53,14 @@ class BorderedSolver {
   /// All blocks zero. Neither number may be negative.
   BorderedSolver(Index size, Index borders);
 
-  /// Sign of the permutation i -> image[i] of as many numbers as `seen`, which is work space.
-  static double permutation_sign(const int* image, std::vector<char>& seen);
-
  private:
   Matrix columns_;
   Matrix rows_;
   Matrix corner_;
 };
+
+/// Sign of the permutation i -> image[i] of as many numbers as `seen`, which is work space.
+double permutation_sign(const int* image, std::vector<char>& seen);
 
 /// A solver for n = `size` unknowns; throws std::invalid_argument for a negative number of either.
 std::unique_ptr<BorderedSolver> make_bordered_solver(Index size, Index borders, bool sparse);

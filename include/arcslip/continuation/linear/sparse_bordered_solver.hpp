@@ -1,10 +1,11 @@
 #pragma once
 
-// Sparse bordered systems, by KLU [Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36].
+// Sparse bordered systems: by fronts where dense arithmetic pays, else by single entries.
 
 #include <memory>
 
 #include "arcslip/continuation/linear/bordered_solver.hpp"
+#include "arcslip/continuation/linear/sparse_factors.hpp"
 
 namespace arcslip::continuation {
 
@@ -14,13 +15,13 @@ namespace arcslip::continuation {
 /// enough for a J singular to within rounding, and one step of iterative refinement, at 4 % of a
 /// factorisation of 10^5 unknowns, gives back the digits that the smaller pivots cost.
 ///
-/// Factors with the pivots of the last factorisation where these still serve, which saves a quarter of the
-/// time; then nothing is allocated.
+/// Fronts are used where they cost no more than six times the multiplications of KLU's order; where their
+/// pivots do not serve, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots of its
+/// last factorisation still serve.
 class SparseBorderedSolver final : public BorderedSolver {
  public:
   /// For n = `size` unknowns; neither number may be negative.
   SparseBorderedSolver(Index size, Index borders);
-  ~SparseBorderedSolver() override;
 
   /// The dense one throws.
   using BorderedSolver::set_jacobian;
@@ -36,12 +37,10 @@ class SparseBorderedSolver final : public BorderedSolver {
   void solve_transposed(Vector& right_hand_side) override;
 
  private:
-  struct Factors;
-
   bool same_pattern(const SparseMatrix& jacobian) const;
   void set_pattern(const SparseMatrix& jacobian);
   void set_borders();
-  bool scale_rows();
+  bool scale_rows(double border_weight);
   void solve_refined(bool transposed);
 
   SparseMatrix matrix_;  // whole; its rows are multiplied by row_scale_ in scaled_
@@ -50,7 +49,10 @@ class SparseBorderedSolver final : public BorderedSolver {
   Vector right_hand_side_;
   Vector solution_;
   Vector residual_;
-  std::unique_ptr<Factors> factors_;
+  std::vector<int> order_;  // of elimination, with the least fill
+  std::unique_ptr<SparseFactors> frontal_;
+  std::unique_ptr<SparseFactors> klu_;
+  SparseFactors* factors_ = nullptr;  // which of them
 };
 
 }  // namespace arcslip::continuation

@@ -6,6 +6,7 @@
 //   forced     u' = f(t, u, p)   cycles, see formula_field.hpp; here f at t = 0
 //   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers have |mu| < 1
 //   algebraic  f(u, p) = 0       without stability
+//   boundary   u' = f(x, u, p)   with conditions, see formula_boundary.hpp
 //
 // Derivatives, the second ones too, are exact.
 
@@ -20,13 +21,21 @@
 namespace arcslip::problems {
 
 /// What the formulas are the right-hand side of.
-enum class FormulaKind { flow, forced, map, algebraic };
+enum class FormulaKind { flow, forced, map, algebraic, boundary };
 
 /// A number that formulas have by its name.
 struct FormulaParameter {
   std::string name;        ///< a word
   double value = 0;        ///< finite
   std::string place = {};  ///< what messages call it; empty: its name
+};
+
+/// What a boundary value problem is on: its ends are formulas of parameters.
+struct FormulaInterval {
+  std::string variable;    ///< x
+  Formula from;            ///< a
+  Formula to;              ///< b
+  std::string place = {};  ///< what messages call it; empty: the variable
 };
 
 /// The system as it is written.
@@ -40,6 +49,12 @@ struct FormulaSystem {
   std::optional<Formula> period = {};             ///< of what is forced, by parameters
   std::vector<std::string> angles = {};           ///< unknowns of which whole turns, 2 pi, do not matter
   std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
+
+  // of boundary value problems; start may have x here
+  std::optional<FormulaInterval> interval = {};
+  std::vector<Formula> conditions = {};  ///< g, by `u_left` and `u_right` of each unknown u and parameters
+  std::vector<Formula> integrals = {};   ///< h
+  std::vector<std::string> free = {};    ///< parameters that conditions set
 };
 
 /// Refuses names that mean two things. Throws FormulaError.

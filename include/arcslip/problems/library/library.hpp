@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "arcslip/continuation/cycles/orbit_branch.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/setting.hpp"
@@ -27,6 +28,8 @@ struct LibraryModel {
   /// A guess of a solution at the values' parameters, good where the case file's branch is meant to start.
   std::function<continuation::Guess(const continuation::Problem&, const Values&)> guess;
   bool is_driven = false;  ///< whether it depends on time: its solutions are cycles
+  /// Of a boundary value problem what it sets out from, on meshes of one's choice; null of others.
+  std::function<continuation::OrbitStart(const Values&, const continuation::OrbitOptions&)> boundary = {};
 };
 
 /// All of them, in alphabetical order.

@@ -1,0 +1,120 @@
+#include <klu.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+
+#include "arcslip/continuation/linear/bordered_solver.hpp"
+#include "arcslip/continuation/linear/sparse_factors.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+// Of a diagonal entry over the largest of its column, where it is taken as a pivot: a hundredth of that, as
+// is the rule, lets entries grow so much that solutions along orbits with multipliers of 1e-30 lose all
+// digits.
+constexpr double least_pivot = 0.1;
+constexpr double least_growth = 1e-3;  // of the pivots' growth when they were chosen
+constexpr double most_fill = 2;  // over the least: pivots that fill more were a makeshift, which is not kept
+
+/// Owns what KLU allocates.
+class KluFactors final : public SparseFactors {
+ public:
+  KluFactors(SparseMatrix& pattern, std::vector<int>& order)
+      : seen_(static_cast<std::size_t>(pattern.rows())) {
+    klu_defaults(&common_);
+    common_.btf = 0;  // the borders couple everything to one block
+    common_.scale = -1;
+    common_.tol = least_pivot;
+    symbolic_ = klu_analyze_given(static_cast<int>(pattern.rows()), pattern.outerIndexPtr(),
+                                  pattern.innerIndexPtr(), order.data(), order.data(), &common_);
+    if (symbolic_ == nullptr) check_memory();
+  }
+  ~KluFactors() override {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+  KluFactors(const KluFactors&) = delete;
+  KluFactors& operator=(const KluFactors&) = delete;
+
+  double factor(SparseMatrix& matrix) override {
+    if (factor_with_old_pivots(matrix)) {
+      const double result = sign();
+      if (result != 0) return result;
+    }
+    return factor_with_new_pivots(matrix) ? sign() : 0;
+  }
+
+  void multiply_determinant(LogProduct& product) const override {
+    const auto* pivots = static_cast<const double*>(numeric_->Udiag);
+    for (int i = 0; i < numeric_->n; ++i) product *= pivots[i];
+  }
+
+  void solve(Vector& x) override { klu_solve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_); }
+  void solve_transposed(Vector& x) override {
+    klu_tsolve(symbolic_, numeric_, numeric_->n, 1, x.data(), &common_);
+  }
+
+ private:
+  void check_memory() const {
+    if (common_.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (common_.status < 0)
+      throw std::length_error("sparse factorisation: more entries than indices can count");
+  }
+
+  bool factor_with_new_pivots(SparseMatrix& matrix) {
+    klu_free_numeric(&numeric_, &common_);
+    numeric_ =
+        klu_factor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, &common_);
+    check_memory();
+    if (numeric_ == nullptr || common_.status != KLU_OK) return false;
+    least_fill_ = least_fill_ > 0 ? std::min(least_fill_, fill()) : fill();
+    chosen_growth_ = growth(matrix);
+    permutations_sign_ = permutation_sign(numeric_->Pnum, seen_) * permutation_sign(symbolic_->Q, seen_);
+    return true;
+  }
+
+  bool factor_with_old_pivots(SparseMatrix& matrix) {
+    if (numeric_ == nullptr || fill() > most_fill * least_fill_) return false;
+    const int done = klu_refactor(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(),
+                                  symbolic_, numeric_, &common_);
+    return done != 0 && common_.status == KLU_OK && growth(matrix) >= least_growth * chosen_growth_;
+  }
+
+  double fill() const { return static_cast<double>(numeric_->lnz) + static_cast<double>(numeric_->unz); }
+
+  /// Reciprocal growth of the entries in the elimination: small where the pivots are bad.
+  double growth(SparseMatrix& matrix) {
+    klu_rgrowth(matrix.outerIndexPtr(), matrix.innerIndexPtr(), matrix.valuePtr(), symbolic_, numeric_,
+                &common_);
+    return common_.rgrowth;
+  }
+
+  double sign() const {
+    const auto* pivots = static_cast<const double*>(numeric_->Udiag);
+    double sign = permutations_sign_;
+    for (int i = 0; i < numeric_->n; ++i) {
+      if (pivots[i] == 0 || !std::isfinite(pivots[i])) return 0;
+      if (pivots[i] < 0) sign = -sign;
+    }
+    return sign;
+  }
+
+  klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+  double chosen_growth_ = 1;
+  double least_fill_ = 0;
+  double permutations_sign_ = 1;
+  std::vector<char> seen_;  // of a permutation
+};
+
+}  // namespace
+
+std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order) {
+  return std::make_unique<KluFactors>(pattern, order);
+}
+
+}  // namespace arcslip::continuation

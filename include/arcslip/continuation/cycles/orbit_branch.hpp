@@ -1,0 +1,58 @@
+#pragma once
+
+// Branches of orbits, cycles and others, on meshes that follow them.
+
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/path/trace.hpp"
+
+namespace arcslip::continuation {
+
+/// On what orbits are held.
+struct OrbitOptions {
+  Index intervals = 20;           ///< N to begin with
+  int degree = 5;                 ///< m
+  double tolerance = 1e-6;        ///< on the estimated error of orbits, relative to how far their unknowns go
+  Index most_intervals = 2560;    ///< a branch that asks for more has ended
+  int doublings = 3;              ///< how often a period is doubled, of cascades without end
+  std::size_t max_branches = 50;  ///< all of them together
+};
+
+using CycleOptions = OrbitOptions;
+
+/// An orbit to set out from: the guess is one of the problem's.
+struct OrbitStart {
+  std::shared_ptr<OrbitProblem> problem;
+  Guess guess;
+  bool both_ways = false;  ///< along a direction and against it, or to both ends of the range
+};
+
+/// One close to an orbit: as its values at the nodes of the problem's first frame tell.
+OrbitStart start_from(std::shared_ptr<OrbitProblem> problem, const Matrix& orbit, double duration,
+                      const Vector& p);
+
+/// The other branch through a branch point; none where it is not found.
+std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, const std::string& parameter,
+                                                  const BranchPoint& point,
+                                                  const Tolerances& tolerances = {});
+
+/// The same start on so many intervals.
+OrbitStart refined(const OrbitStart& start, Index intervals);
+
+/// A branch and what its points are solutions of: their regimes are this problem's frames.
+struct OrbitBranch {
+  std::shared_ptr<const OrbitProblem> problem;
+  Branch branch;
+};
+
+/// As `trace` does it, from a guess with a direction along it, or along it and against it; else from its
+/// parameter towards `to`, or both ways.
+OrbitBranch trace_orbits(const OrbitStart& start, const TraceOptions& options,
+                         const OrbitOptions& orbits = {}, const Observer& observer = {});
+
+/// A branch and all that can be reached from it through branch points and, of cycles, period doublings, each
+/// once.
+std::vector<OrbitBranch> trace_connected_orbits(const OrbitStart& start, const TraceOptions& options,
+                                                const OrbitOptions& orbits = {},
+                                                const Observer& observer = {});
+
+}  // namespace arcslip::continuation

@@ -1,0 +1,20 @@
+#pragma once
+
+// What is told of orbits: the largest and the smallest value of each unknown, `x_max` and `x_min`, and
+// `norm`, the root of the mean of |u|^2 over the orbit.
+
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+
+namespace arcslip::continuation {
+
+/// Those of the unknowns that the problem tells, in the order above.
+std::vector<Observable> orbit_observables(const OrbitProblem& problem);
+
+/// Their values.
+Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime);
+
+/// That of one of them, and its derivatives by u, which come as zeros.
+double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index which,
+                         Vector& gradient);
+
+}  // namespace arcslip::continuation

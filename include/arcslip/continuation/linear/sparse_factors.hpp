@@ -1,0 +1,47 @@
+#pragma once
+
+// What a sparse bordered system is factored by.
+
+#include <memory>
+#include <vector>
+
+#include "arcslip/continuation/linear/log_product.hpp"
+#include "arcslip/types.hpp"
+
+namespace arcslip::continuation {
+
+/// Factors of square matrices of one pattern, whose entries are about 1 in each row but for the borders' last
+/// rows, which are kept for the end.
+class SparseFactors {
+ public:
+  virtual ~SparseFactors() = default;
+
+  /// The sign of the determinant; 0 if the matrix is singular or not finite, or needs pivots of another
+  /// order. Throws std::bad_alloc or std::length_error where the factors do not fit into memory or their
+  /// indices.
+  virtual double factor(SparseMatrix& matrix) = 0;
+
+  /// By the size of the determinant.
+  virtual void multiply_determinant(LogProduct& product) const = 0;
+
+  /// Whether entries hardly grew in the elimination, so that solutions need no refinement.
+  virtual bool is_exact() const { return false; }
+
+  virtual void solve(Vector& x) = 0;             ///< x <- A^{-1} x, after `factor` has returned a sign
+  virtual void solve_transposed(Vector& x) = 0;  ///< x <- A^{-T} x
+};
+
+/// By KLU [Davis & Palamadai Natarajan, ACM TOMS 37 (2010) 36], with rows and columns in this order but for
+/// the exchanges of rows that pivots need. Takes the pivots of the last factorisation where these still
+/// serve, which saves a quarter of the time. Throws as `factor` does.
+std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vector<int>& order);
+
+/// By fronts [Irons, Int. J. Numer. Meth. Engng 2 (1970) 5]: rows enter a dense matrix in the order of their
+/// first columns, and columns that no later row has are eliminated, with pivots from the largest entries of
+/// these rows. The rows that are nearly full and those of the borders are eliminated from and stay. Made for
+/// the chains of blocks that discretisations of lines and of periodic orbits give: what is left of a block
+/// goes into the next one, so that growth along the chain is met by pivots of both. Null where it would cost
+/// more than `most` multiplications.
+std::unique_ptr<SparseFactors> make_frontal_factors(const SparseMatrix& pattern, Index borders, double most);
+
+}  // namespace arcslip::continuation
