@@ -12,21 +12,8 @@ using namespace arcslip::testing;
 
 TEST_CASE("Relaxation oscillations that grow at one parameter value are no homoclinic orbits", "[cycles]") {
   // FitzHugh's and Nagumo's nerve: with (v, w, I) so is (-v, 7/4 - w, 7/4 - I) a cycle
-  const auto all = traced_of(R"case(
-[model.parameters]
-I = 0
-[model.equations]
-v = "v - v^3/3 - w + I"
-w = "0.08*(v + 0.7 - 0.8*w)"
-[model.start]
-v = -1.2
-w = -0.62
-[branch]
-parameter = "I"
-from = 0
-to = 2
-switching = true
-)case");
+  const Run run("nerve_cycles");
+  const auto& all = run.traced;
   const auto hopf = all_values_at(all, PointType::hopf, "I");
   REQUIRE(hopf.size() == 2);
   CHECK_THAT(hopf[0] + hopf[1], WithinAbs(1.75, 1e-12));
@@ -38,4 +25,19 @@ switching = true
   REQUIRE(folds.size() == 2);
   CHECK_THAT(folds[0] + folds[1], WithinAbs(1.75, 1e-8));
   CHECK_THAT(folds[0], WithinAbs(0.3241785, 1e-7));
+}
+
+TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to rest on their way",
+          "[cycles]") {
+  const Run run("coupled_pendula");
+  const auto all = cycles_of(run.traced);
+  REQUIRE(all.size() == 4);
+  // AUTO-07p: 0.179163 and 0.331445, 0.175511; all digits by degree 7 on 80 intervals
+  check_values(values_at(all[0], PointType::period_doubling, "I"), {0.179163776}, 2e-9);
+  check_values(values_at(all[1], PointType::branch_point, "I"), {0.331445241, 0.175511713}, 2e-9);
+  check_values(values_at(all[1], PointType::fold, "I"), {0.399074389, 0.158594857}, 2e-9);
+  check_values(values_at(all[3], PointType::fold, "I"), {0.173029639, 0.173029639}, 2e-9);
+  for (const TracedBranch& one : all) CHECK(one.branch.stop == Stop::infinite_period);
+  const BranchPoint& start = all[0].branch.points.front();  // rotations settle turns away from their guess
+  CHECK(std::abs(value(all[0], start, "phi_1_max")) < 2 * pi);
 }
