@@ -50,7 +50,7 @@ const filled = (columns, rows) => columns.filter((column) => rows.some((row) => 
 // ---- A run ----
 
 const stops = { reached_end: "whole", left_range: "back over its first value", closed_loop: "closed", own_image: "on its own image", requested: "as asked for",
-  left_regime: "on a border" };
+  left_regime: "on a border", infinite_period: "period without end" };
 const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(2)) : value);
 
 function branchTable({ summary: { branches, case: input } }) {

@@ -45,13 +45,16 @@ class Carrier {
   Regime regime_;
 };
 
-/// How far along a branch the frame of its last point serves.
+/// How far along a branch the frame of its last point serves. On a branch point it has to: others cannot be
+/// corrected there.
 class MeshWatch {
  public:
   MeshWatch(OrbitProblem& problem, const OrbitOptions& options) : problem_(problem), options_(options) {}
 
-  bool serves(const BranchPoint& point) const {
+  bool serves(const BranchPoint& point) {
     constexpr double grip = 0.5;
+    if (point.type == PointType::branch_point) singular_ = point.arclength;
+    if (point.arclength == singular_) return true;
     return problem_.mesh_error(point.unknowns, point.regime) <= options_.tolerance &&
            problem_.phase_grip(point.unknowns, point.regime) > grip;
   }
@@ -70,6 +73,7 @@ class MeshWatch {
  private:
   OrbitProblem& problem_;
   const OrbitOptions& options_;
+  double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
 };
 
 /// Thrown where more intervals are needed and there may be more.
@@ -92,8 +96,8 @@ bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const Trace
   return true;
 }
 
-/// Tells where the period grows while the parameter no longer changes: where an orbit comes ever nearer to an
-/// equilibrium.
+/// Tells where the period grows while the parameter no longer changes, and the orbit all but rests on its
+/// way: where it comes ever nearer to an equilibrium. Relaxation oscillations grow as fast, without rest.
 class GrowthWatch {
  public:
   GrowthWatch(const OrbitProblem& problem, const TraceOptions& options)
@@ -104,6 +108,8 @@ class GrowthWatch {
   bool goes_on(const BranchPoint& point) {
     constexpr double grown = 1.05;
     constexpr double nearly = 1e-9;  // of the parameter, whose distance from its limit falls with e^-T
+    constexpr int many = 30;         // points: where rounding hides how an orbit goes on
+    constexpr double rest = 1e-2;  // of the mean speed: that from an equilibrium falls with e^(-T/2) at least
     if (!problem_.has_duration()) return true;
     Vector unknowns(problem_.size());
     Vector scale(point.parameters.size());
@@ -114,8 +120,10 @@ class GrowthWatch {
     if (!(std::abs(value - value_) <= same) || period < period_) {
       value_ = value;
       period_ = period;
+      points_ = 0;
     }
-    return period < grown * period_;
+    return (period < grown * period_ && ++points_ < many) ||
+           problem_.least_speed(point.unknowns, point.parameters, point.regime) > rest;
   }
 
   /// A sentence.
@@ -132,6 +140,7 @@ class GrowthWatch {
   Index parameter_;
   double value_ = std::numeric_limits<double>::quiet_NaN();
   double period_ = 0;
+  int points_ = 0;  // since then
 };
 
 /// Ends a branch where its cycles become simpler ones, by an event.
@@ -201,7 +210,7 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
   }
   kind.tell(branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
-    branch.stop = Stop::left_regime;
+    branch.stop = Stop::infinite_period;
     branch.explanation = growth.told();
     branch.checkpoint.reset();
   }

@@ -78,11 +78,13 @@ class OrbitNetwork {
       }
     }
     const auto* cycles = dynamic_cast<const CycleProblem*>(traced.problem.get());
-    if (cycles != nullptr && traced.branch.stop == Stop::left_regime) {
-      const BranchPoint& last = traced.branch.points.back();
+    const auto keep_end = [&](const BranchPoint& end) {
       const double rounds = cycles->is_doubled() ? 2 : 1;
-      ends_.push_back({last.parameters, traced.problem->duration(last.unknowns, last.parameters) / rounds});
-    }
+      ends_.push_back({end.parameters, traced.problem->duration(end.unknowns, end.parameters) / rounds});
+    };
+    if (cycles != nullptr && traced.branch.first_stop == Stop::left_regime)
+      keep_end(traced.branch.points.front());
+    if (cycles != nullptr && traced.branch.stop == Stop::left_regime) keep_end(traced.branch.points.back());
     found_.push_back(std::move(traced));
   }
 

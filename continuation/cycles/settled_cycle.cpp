@@ -134,7 +134,11 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
   }
   for (Index i = 0; i < orbit.rows(); ++i) {  // both ends meet, but for whole turns
     double gap = orbit(i, orbit.cols() - 1) - orbit(i, 0);
-    if (const double turn = field->turn(i); turn > 0) gap = std::remainder(gap, turn);
+    const double turn = field->turn(i);
+    if (turn > 0) {
+      gap = std::remainder(gap, turn);
+      orbit.row(i).array() -= turn * std::round(orbit.row(i).mean() / turn);
+    }
     for (Index node = 0; node < fine.nodes(); ++node) orbit(i, node) -= gap * fine.place(node);
   }
   const OrbitMesh mesh = fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);

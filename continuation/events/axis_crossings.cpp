@@ -45,13 +45,19 @@ class AxisSearch {
   }
 
  private:
-  /// As was counted, where the step begins on the axis; else the values themselves tell.
+  /// As was counted, where the step begins on the axis; else the values themselves tell. On a branch point
+  /// one of them vanishes, as well as that is located.
   Index unstable_at_start() const {
     const Index both = std::min(at_end_.size(), static_cast<Index>(here_.size()));
     double way = 0;
     for (Index i = 0; i < both; ++i)
       way = std::max(way, std::abs(at_end_(i).real() - here_[static_cast<std::size_t>(i)]));
-    const double near = std::max(step_.tolerances.rough * largest_, step_.tolerances.coincides * way);
+    double least = way;
+    double near = std::max(step_.tolerances.rough * largest_, step_.tolerances.coincides * way);
+    if (std::isinf(step_.stepper.step().here.log_determinant)) {
+      for (const double rate : here_) least = std::min(least, std::abs(rate));
+      near = std::max(near, 2 * least);
+    }
     const auto above = [&](double bound) {
       return std::count_if(here_.begin(), here_.end(), [=](double rate) { return rate > bound; });
     };

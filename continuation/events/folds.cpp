@@ -5,14 +5,39 @@
 namespace arcslip::continuation {
 namespace {
 
+/// Whether the parameter has stood still up to where the step begins, and may have turned before.
+bool has_stood(const StepSearch& search) {
+  const Step& step = search.stepper.step();
+  const double begin = step.parameter_rate_from();
+  const int before = search.signs.parameter;
+  return sign_of_rate(search.stepper, begin) == 0 && before * begin <= 0 && !step.past.empty() &&
+         before * sign_of_rate(search.stepper, step.past.front().rate / step.here.scale.tail(1)(0)) >= 0;
+}
+
+/// Whether the step begins on a fold.
+bool has_turned(const StepSearch& search) {
+  const std::vector<PastPoint>& past = search.stepper.step().past;
+  return !past.empty() && search.signs.parameter * sign_of(past.front().rate) < 0;
+}
+
 /// Two in one step, the second of which turns the parameter back, show in how far it has come; but from where
-/// the branch turns itself, as at a pitchfork, the way there is not told by a slope.
+/// the branch turns itself, as at a pitchfork, the way there is not told by a slope. A parameter that has
+/// stood still but for rounding has turned where it moves again; of one that turns on a fold again nothing
+/// but rounding is told.
 void search_folds(StepSearch& step) {
   if (step.stepper.is_regular()) return;
   const int before = step.signs.parameter;
-  const double after = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
-  const bool turns = before * sign_of(after) < 0 || (before != 0 && step.stepper.step().may_turn_twice());
-  step.note(folds, PointType::fold, 0, step.turn(Readings::rate, before, turns));
+  const double rate = step.at_upper(Readings::rate, step.stepper.step().parameter_rate_to());
+  const int after = step.is_whole() ? sign_of_rate(step.stepper, rate) : sign_of(rate);
+  const bool turns = before * after < 0 || (before * after > 0 && step.stepper.step().may_turn_twice());
+  if (before * after < 0 && has_stood(step)) {
+    step.note(folds, PointType::fold, 0, Zero{Zero::State::found, 0});
+    return;
+  }
+  const Zero zero = step.turn(Readings::rate, before, turns);
+  const bool is_here = zero.state == Zero::State::found &&
+                       zero.s <= step.tolerances.just_passed * step.stepper.step().distance;
+  if (!(is_here && (before * after > 0 || has_turned(step)))) step.note(folds, PointType::fold, 0, zero);
 }
 
 void pass_fold(const Event& event, const Passage& passage) {

@@ -10,6 +10,7 @@ std::string_view to_string(Stop stop) {
     case Stop::requested: return "requested";
     case Stop::left_range: return "left_range";
     case Stop::left_regime: return "left_regime";
+    case Stop::infinite_period: return "infinite_period";
     case Stop::unbounded: return "unbounded";
     case Stop::max_points: return "max_points";
     case Stop::time_limit: return "time_limit";
@@ -33,7 +34,8 @@ std::optional<Stop> stop_named(std::string_view name) {
 
 bool is_end(Stop stop) {
   return stop == Stop::reached_end || stop == Stop::left_range || stop == Stop::closed_loop ||
-         stop == Stop::own_image || stop == Stop::requested || stop == Stop::left_regime;
+         stop == Stop::own_image || stop == Stop::requested || stop == Stop::left_regime ||
+         stop == Stop::infinite_period;
 }
 
 bool is_unfinished(Stop stop) { return stop == Stop::interrupted || stop == Stop::time_limit; }

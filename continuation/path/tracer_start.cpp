@@ -50,10 +50,7 @@ void Tracer::start(const Guess& guess, double forward) {
   watch_.look(stepper_.here());
   watch_.begin();
   state_.signs = signs_at_start(stepper_, watch_);
-  // A branch that starts on a fold or turns at a branch point has no sign there but that of rounding.
-  if (std::abs(stepper_.parameter_slope(Hold::tangent)) < options_.tolerances.no_rate)
-    state_.signs.parameter = 0;
-  // Nor has the eigenvalue that vanishes at a branch point.
+  // The eigenvalue that vanishes at a branch point has no sign but that of rounding.
   if (std::isinf(stepper_.here().log_determinant)) state_.signs.unstable = -1;
   state_.start = stepper_.here();
   store(PointType::start);

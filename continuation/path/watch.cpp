@@ -6,6 +6,10 @@
 
 namespace arcslip::continuation {
 
+int sign_of_rate(const Stepper& stepper, double rate) {
+  return std::abs(rate) < stepper.tolerances().no_rate ? 0 : sign_of(rate);
+}
+
 int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor) {
   const double size = stepper.monitors().size_of(observable, monitor.value);
   return std::abs(monitor.slope) <= 1e-14 * size ? 0 : sign_of(monitor.slope);
@@ -106,7 +110,7 @@ std::optional<std::size_t> Watch::piece_of(std::size_t function) const {
 
 Signs signs_at_start(const Stepper& stepper, const Watch& watch) {
   Signs signs;
-  signs.parameter = sign_of(stepper.parameter_slope(Hold::tangent));
+  signs.parameter = sign_of_rate(stepper, stepper.parameter_slope(Hold::tangent));
   for (std::size_t i = 0; i < static_cast<std::size_t>(stepper.monitors().tracked_count()); ++i)
     signs.observables.push_back(sign_of_slope(stepper, i, stepper.at_here()[i]));
   for (const double value : watch.functions()) signs.functions.push_back(sign_of(value));
@@ -118,7 +122,7 @@ void update(Signs& signs, const Stepper& stepper, const Watch& watch, bool at_ev
   const auto take = [at_event](int& sign, int now) {
     if (now != 0 && !(at_event && sign != 0)) sign = now;
   };
-  take(signs.parameter, sign_of(stepper.parameter_slope(Hold::tangent)));
+  take(signs.parameter, sign_of_rate(stepper, stepper.parameter_slope(Hold::tangent)));
   for (std::size_t i = 0; i < signs.observables.size(); ++i)
     take(signs.observables[i], sign_of_slope(stepper, i, stepper.at_here()[i]));
   for (std::size_t i = 0; i < signs.functions.size(); ++i)

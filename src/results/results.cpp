@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "arcslip/assembly/structures.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
@@ -114,6 +115,28 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
   special["lyapunov"] = form->lyapunov;
 }
 
+/// Of a cycle, the largest first; where a torus leaves it, by how much this turns in each period.
+void add_multipliers(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
+  const continuation::CycleProblem* cycles = cycles_of(traced);
+  if (cycles == nullptr) return;
+  ComplexVector logs = cycles->log_multipliers(point.unknowns, point.parameters, point.regime);
+  std::sort(logs.begin(), logs.end(), [](const Complex& a, const Complex& b) {
+    return std::pair(-a.real(), -a.imag()) < std::pair(-b.real(), -b.imag());
+  });
+  ordered_json multipliers = ordered_json::array();
+  for (const Complex& log : logs) {
+    const Complex multiplier = std::exp(log);
+    multipliers.push_back({multiplier.real(), multiplier.imag()});
+  }
+  special["multipliers"] = std::move(multipliers);
+  if (point.type != PointType::neimark_sacker || logs.size() == 0) return;
+  const auto crosses = std::min_element(logs.begin(), logs.end(), [](const Complex& a, const Complex& b) {
+    const auto off = [](const Complex& log) { return std::abs(log.real()) + (log.imag() > 0 ? 0 : pi); };
+    return off(a) < off(b);
+  });
+  special["angle"] = crosses->imag();
+}
+
 ordered_json special_points(const TracedBranch& traced) {
   Columns columns(traced);
   const Lost lost(traced);
@@ -131,6 +154,7 @@ ordered_json special_points(const TracedBranch& traced) {
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
     lost.add(point, special);
     add_hopf_form(traced, point, special);
+    add_multipliers(traced, point, special);
     if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));
   }

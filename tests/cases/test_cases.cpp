@@ -29,10 +29,10 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
       INFO(one.branch.explanation);
       const bool is_of_cycles =
           dynamic_cast<const continuation::CycleProblem*>(one.base.problem.get()) != nullptr;
-      CHECK((one.branch.complete() || (is_of_cycles && one.branch.stop == Stop::left_regime)));
+      CHECK((one.branch.complete() || (is_of_cycles && is_end(one.branch.stop))));
       const Stop first = one.branch.first_stop.value_or(Stop::reached_end);  // of what is traced both ways
       CHECK((first == Stop::reached_end || first == Stop::left_range || first == Stop::left_regime ||
-             first == Stop::requested));
+             first == Stop::infinite_period || first == Stop::requested));
       CHECK(one.branch.points.size() > 1);
       double worst = 0;
       for (const BranchPoint& point : one.branch.points)

@@ -120,12 +120,12 @@ TEST_CASE("Cycles end on orbits between equilibria, at a parameter that is told"
   const Run lorenz("lorenz_cycles");
   const auto homoclinic = cycles_of(lorenz.traced);
   REQUIRE(homoclinic.size() == 1);
-  CHECK(homoclinic[0].branch.stop == Stop::left_regime);
+  CHECK(homoclinic[0].branch.stop == Stop::infinite_period);
   CHECK_THAT(homoclinic[0].branch.points.back().parameters(0), WithinAbs(13.926557407, 2e-8));
   const Run predator("predator_cycles");
   const auto saddles = cycles_of(predator.traced);
   REQUIRE(saddles.size() == 1);
-  CHECK(saddles[0].branch.stop == Stop::left_regime);
+  CHECK(saddles[0].branch.stop == Stop::infinite_period);
   // between the saddles (1, 0) and (0, 0); AUTO-07p's cycle of T = 36 lies at 0.707941
   CHECK_THAT(saddles[0].branch.points.back().parameters(0), WithinAbs(0.70807, 5e-5));
 }

@@ -201,7 +201,7 @@ TEST_CASE("Lorenz' cycles end on his homoclinic orbit", "[cycles]") {
       cycles_of(lorenz(), Eigen::Vector3d(4.9, 4.9, 9), Eigen::Vector3d(10, 8.0 / 3, 10), options);
   REQUIRE(all.size() == 1);
   const Branch& branch = all[0].branch;
-  CHECK(branch.stop == Stop::left_regime);
+  CHECK(branch.stop == Stop::infinite_period);
   const BranchPoint& last = branch.points.back();
   // [Sparrow, The Lorenz Equations, Springer 1982: 13.926]; by shooting along the unstable manifold
   CHECK_THAT(last.parameters(0), WithinAbs(13.926557407, 2e-8));
@@ -261,7 +261,7 @@ TEST_CASE("An angle that goes round has the period of its closed form", "[cycles
       settled_cycle(std::make_shared<Rotor>(flow), Eigen::Vector2d(0.3, 0), Vector::Constant(1, 2), 60);
   CHECK(start.problem->winding() == Eigen::Vector2d(two_pi, 0));
   const CycleBranch traced = trace_cycles(start, over("a", 2, 0.9));
-  CHECK(traced.branch.stop == Stop::left_regime);
+  CHECK(traced.branch.stop == Stop::infinite_period);
   REQUIRE(traced.branch.points.size() > 5);
   for (const BranchPoint& point : traced.branch.points) {
     const double a = point.parameters(0);

@@ -87,6 +87,10 @@ class OrbitProblem : public Problem {
   /// Largest estimated error of an orbit, relative to how far its unknowns go.
   double mesh_error(const Vector& u, const Regime& regime) const;
 
+  /// The least speed on its way, relative to that which goes as far as the unknowns go in the time: the
+  /// largest of their entries.
+  double least_speed(const Vector& u, const Vector& p, const Regime& regime) const;
+
   /// How nearly the condition on the phase is one on the orbit's own phase: 1 for that of the frame, 0 where
   /// it tells nothing.
   double phase_grip(const Vector& u, const Regime& regime) const;

@@ -52,7 +52,7 @@ struct [[nodiscard]] Branch {
 
   /// Whether the branch was traced to its end: out of the range at either side, back to its start as a closed
   /// loop, or as far as `stop_after` asked.
-  bool complete() const { return is_end(stop) && stop != Stop::left_regime; }
+  bool complete() const { return is_end(stop) && stop != Stop::left_regime && stop != Stop::infinite_period; }
 };
 
 }  // namespace arcslip::continuation

@@ -15,6 +15,10 @@ namespace arcslip::continuation {
 /// 1, 0 or -1.
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
 
+/// Sign of the parameter's rate along a branch, 0 below rounding of tangents: where the parameter stands
+/// still it turns by that alone.
+int sign_of_rate(const Stepper& stepper, double rate);
+
 /// Sign of an observable's derivative, 0 below rounding of the observable; `monitor` is its own.
 int sign_of_slope(const Stepper& stepper, std::size_t observable, const Monitor& monitor);
 
