@@ -47,6 +47,7 @@ class BoundaryProblem : public OrbitProblem {
   Vector times(const Vector& u, const Vector& p, const Regime& regime) const override;
   std::string time_name() const override { return boundary_->place_name(); }
   Index told() const override { return boundary_->told(); }
+  bool may_rest() const override { return true; }
 
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
