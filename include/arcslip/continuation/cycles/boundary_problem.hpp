@@ -37,6 +37,7 @@ class BoundaryField : public Field {
 /// at both ends, `x_left` and `x_right`.
 class BoundaryProblem : public OrbitProblem {
  public:
+  /// Begins with a frame for this orbit, all of the field's unknowns at the nodes of the mesh.
   BoundaryProblem(std::shared_ptr<const BoundaryField> field, const OrbitMesh& mesh, const Matrix& orbit,
                   const Vector& p);
 
