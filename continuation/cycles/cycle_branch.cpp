@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "arcslip/continuation/points/branch_point_problem.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -78,6 +81,30 @@ class MeshWatch {
 
 /// Thrown where more intervals are needed and there may be more.
 struct TooCoarse {};
+
+/// Refuses a mesh on which what leaves branch points is not held as well as the orbits themselves are.
+void require_departures(const OrbitProblem& problem, const Branch& branch, const TraceOptions& options,
+                        const OrbitOptions& orbits) {
+  if (!problem.may_rest() || 2 * problem.intervals() > orbits.most_intervals) return;
+  BranchPointProblem conditions(problem, index_of(problem.parameter_names(), options.parameter));
+  for (const BranchPoint& point : branch.points) {
+    if (point.type != PointType::branch_point) continue;
+    if (!conditions.adapt({point.unknowns, point.parameters, point.regime, Vector::Zero(1)})) continue;
+    const OrbitFrame& frame = problem.frame(point.regime);
+    const Matrix ways = conditions.null_space();
+    for (Index j = 0; j < ways.cols(); ++j) {
+      const Matrix change = problem.orbit(ways.col(j));
+      if (frame.mesh.errors(change, ranges(change, frame.scale)).maxCoeff() > orbits.tolerance)
+        throw TooCoarse{};
+    }
+  }
+}
+
+bool is_at_rest(const OrbitProblem& problem, const BranchPoint& point) {
+  if (!problem.may_rest()) return false;
+  const Matrix orbit = problem.orbit(point.unknowns);
+  return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
+}
 
 /// Puts a branch on a mesh that fits where it stands; false if no mesh of as many intervals does.
 bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
@@ -185,17 +212,21 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
   bool worn = false;
   bool told = false;
   bool grows = false;
+  bool rests = false;
   const TimeBudget time(options);
   const Observer watching = [&](const BranchPoint& point) {
     told = observer && !observer(point);
     worn = !meshes.serves(point);
     grows = !growth.goes_on(point);
-    return !told && !worn && !grows;
+    rests = !options.branch_point_pairs && is_at_rest(problem, point);
+    return !told && !worn && !grows && !rests;
   };
   Branch branch = begin(options, watching);
-  while (branch.stop == Stop::interrupted && worn && !told && !grows) {
-    worn = false;
-    if (!renew(problem, meshes, branch, options)) {
+  while (branch.stop == Stop::interrupted && (worn || rests) && !told && !grows) {
+    if (rests)
+      options.branch_point_pairs = true;  // as nothing bends, steps grow beyond what lies between two
+    rests = false;
+    if (std::exchange(worn, false) && !renew(problem, meshes, branch, options)) {
       if (2 * problem.intervals() <= orbits.most_intervals) throw TooCoarse{};
       branch.stop = Stop::no_value;
       branch.explanation = fmt::format(
@@ -208,6 +239,7 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
     rest.max_seconds = time.rest().max_seconds;
     branch = go_on_with(problem, std::move(branch), rest, watching);
   }
+  require_departures(problem, branch, options, orbits);
   kind.tell(branch);
   if (branch.stop == Stop::interrupted && grows && !told) {
     branch.stop = Stop::infinite_period;

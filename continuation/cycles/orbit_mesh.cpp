@@ -5,6 +5,13 @@
 
 namespace arcslip::continuation {
 
+Vector ranges(const Matrix& orbit, const Vector& scale) {
+  constexpr double least = 1e-3;
+  const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
+  const double largest = range.maxCoeff();
+  return largest > 0 ? range.cwiseMax(least * largest).cwiseProduct(scale) : scale;
+}
+
 double OrbitMesh::place(Index node) const {
   const Index j = std::min(node / rule_.degree(), intervals() - 1);
   return borders_(j) + length(j) * rule_.nodes()(node - j * rule_.degree());

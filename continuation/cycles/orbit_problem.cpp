@@ -17,14 +17,6 @@ void scales(const Field& field, const Eigen::Ref<const Matrix>& orbit, const Vec
   field.scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, unknowns, parameters);
 }
 
-/// How far each unknown goes along an orbit; of those that hardly move as far as others do.
-Vector ranges(const Matrix& orbit, const Vector& scale) {
-  constexpr double least = 1e-3;
-  const Vector range = (orbit.rowwise().maxCoeff() - orbit.rowwise().minCoeff()).cwiseQuotient(scale);
-  const double largest = range.maxCoeff();
-  return largest > 0 ? range.cwiseMax(least * largest).cwiseProduct(scale) : scale;
-}
-
 /// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
 Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
   const CollocationRule& rule = mesh.rule();

@@ -37,6 +37,7 @@ class BoundaryField : public Field {
 /// at both ends, `x_left` and `x_right`.
 class BoundaryProblem : public OrbitProblem {
  public:
+  /// Begins with a frame for this orbit, all of the field's unknowns at the nodes of the mesh.
   BoundaryProblem(std::shared_ptr<const BoundaryField> field, const OrbitMesh& mesh, const Matrix& orbit,
                   const Vector& p);
 
@@ -47,6 +48,7 @@ class BoundaryProblem : public OrbitProblem {
   Vector times(const Vector& u, const Vector& p, const Regime& regime) const override;
   std::string time_name() const override { return boundary_->place_name(); }
   Index told() const override { return boundary_->told(); }
+  bool may_rest() const override { return true; }
 
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;

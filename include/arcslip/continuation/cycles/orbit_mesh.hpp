@@ -49,4 +49,8 @@ class OrbitMesh {
   Vector borders_;
 };
 
+/// How far each unknown goes along an orbit; of those that hardly move, in units of `scale`, a thousandth of
+/// what the others do.
+Vector ranges(const Matrix& orbit, const Vector& scale);
+
 }  // namespace arcslip::continuation

@@ -91,6 +91,10 @@ class OrbitProblem : public Problem {
   /// largest of their entries.
   double least_speed(const Vector& u, const Vector& p, const Regime& regime) const;
 
+  /// Whether its orbits may be at rest and tell nothing of the shape in which branches leave them: these are
+  /// held on the mesh as well, and two branch points in one step are looked for.
+  virtual bool may_rest() const { return false; }
+
   /// How nearly the condition on the phase is one on the orbit's own phase: 1 for that of the frame, 0 where
   /// it tells nothing.
   double phase_grip(const Vector& u, const Regime& regime) const;
