@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::continuation {
 namespace {
@@ -113,6 +114,18 @@ double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Reg
   for (Index k = 0; k < found.weights.size(); ++k)
     gradient((found.first + k) * problem.field().size() + which / 2) = found.weights(k);
   return found.value;
+}
+
+double OrbitProblem::least_speed(const Vector& u, const Vector& p, const Regime& regime) const {
+  const double length = duration(u, p);
+  const Vector at = times(u, p, regime);
+  Vector velocity(field_->size());
+  double least = std::numeric_limits<double>::infinity();
+  for (Index node = 0; node < nodes(); ++node) {
+    if (!field_->evaluate(at(node), orbit(u).col(node), p, {&velocity})) continue;
+    least = std::min(least, length * velocity.cwiseQuotient(frame(regime).range).lpNorm<Eigen::Infinity>());
+  }
+  return least;
 }
 
 }  // namespace arcslip::continuation

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace arcslip::continuation {
@@ -165,19 +164,6 @@ Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regim
 double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
   return at.mesh.errors(orbit(u), at.range).maxCoeff();
-}
-
-double OrbitProblem::least_speed(const Vector& u, const Vector& p, const Regime& regime) const {
-  const double length = duration(u, p);
-  const Vector at = times(u, p, regime);
-  const Vector far = ranges(orbit(u), frame(regime).scale);
-  Vector velocity(field_->size());
-  double least = std::numeric_limits<double>::infinity();
-  for (Index node = 0; node < nodes(); ++node) {
-    if (!field_->evaluate(at(node), orbit(u).col(node), p, {&velocity})) continue;
-    least = std::min(least, length * velocity.cwiseQuotient(far).lpNorm<Eigen::Infinity>());
-  }
-  return least;
 }
 
 double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {

@@ -41,3 +41,14 @@ TEST_CASE("Coupled pendula go round as AUTO-07p has it, to where they come to re
   const BranchPoint& start = all[0].branch.points.front();  // rotations settle turns away from their guess
   CHECK(std::abs(value(all[0], start, "phi_1_max")) < 2 * pi);
 }
+
+TEST_CASE("A nerve's cycles fold and double their period next to one another", "[cycles]") {
+  const Run run("hodgkin_huxley");
+  check_values(all_values_at(run.traced, PointType::hopf, "I"), {9.779338, 154.526334}, 1e-7);
+  const auto all = cycles_of(run.traced);
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::left_regime);
+  // by degree 7 on 80 intervals with a tolerance of 1e-9
+  check_values(values_at(all[0], PointType::fold, "I"), {7.84624712, 7.92168549, 6.26422127}, 1e-8);
+  check_values(values_at(all[0], PointType::period_doubling, "I"), {7.8492374, 7.92167768}, 1e-8);
+}
