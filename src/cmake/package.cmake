@@ -62,7 +62,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-matplotlib)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libboost-dev, libeigen3-dev, libfmt-dev, libmetis-dev, libopenblas-dev, libspectra-dev, libsqlite3-dev, libsuitesparse-dev, libsuperlu-dev, nlohmann-json3-dev")
+    "libboost-dev, libeigen3-dev, libfmt-dev, libmetis-dev, libopenblas-dev, libsqlite3-dev, libsuitesparse-dev, libsuperlu-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA "${package_folder}/postinst;${package_folder}/prerm")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "continuation of vibrations damped by dry friction")
 set(CPACK_PACKAGE_DESCRIPTION "Traces the forced response of structures with dry friction through
