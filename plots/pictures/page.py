@@ -49,7 +49,7 @@ def area_entry(text, colour):
 
 
 class Key:
-    """The names of curves in columns, then what lines and symbols tell, in lines filled one after the other."""
+    """The names of curves in columns, then what lines and symbols tell, in few lines of about the same length."""
 
     def __init__(self, named, told, width, measure):
         self.measure = measure
@@ -61,12 +61,7 @@ class Key:
         columns = max(1, int((self.width + GAP) / column)) if self.named else 1
         self.name_lines = math.ceil(len(self.named) / columns)
         self.columns = math.ceil(len(self.named) / self.name_lines) if self.named else 1  # lines of the same length
-        self.lines = [[]]
-        for entry in self.told:
-            if self.lines[-1] and self._length([*self.lines[-1], entry]) > self.width:
-                self.lines.append([])
-            self.lines[-1].append(entry)
-        self.lines = [line for line in self.lines if line]
+        self.lines = self._balanced()
         self.height = (self.name_lines + len(self.lines)) * style.LINE + 0.08
 
     def _width(self, entry):
@@ -74,6 +69,22 @@ class Key:
 
     def _length(self, entries):
         return sum(self._width(entry) + GAP for entry in entries) - GAP
+
+    def _filled(self, width):
+        """What is told in lines up to so long."""
+        lines = [[]]
+        for entry in self.told:
+            if lines[-1] and self._length([*lines[-1], entry]) > width:
+                lines.append([])
+            lines[-1].append(entry)
+        return [line for line in lines if line]
+
+    def _balanced(self):
+        """The same in as few lines as there may be, none much longer than the others."""
+        widest = self._filled(self.width)
+        lengths = {self._length(self.told[i:j]) for i in range(len(self.told)) for j in range(i + 1, len(self.told) + 1)}
+        balanced = (self._filled(length) for length in sorted(lengths) if length <= self.width)
+        return next((lines for lines in balanced if len(lines) == len(widest)), widest)
 
     def _cut(self, entry):
         """One that is too long for the page ends with an ellipsis."""
