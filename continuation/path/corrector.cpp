@@ -250,13 +250,12 @@ double Corrector::log_determinant() const {
   return determinant(factored_scale_).log();
 }
 
-/// Where a parameter multiplies many rows of a sparse problem at once, the product of their lengths runs
-/// through hundreds of decades: it is taken out, but for nearly full rows, such as conditions on null
-/// vectors.
+/// Where a parameter multiplies many right-hand sides of a large equilibrium at once, as a length does, the
+/// product of the rows' lengths runs through hundreds of decades: it is taken out, but for nearly full rows.
 LogProduct Corrector::determinant(const Vector& scale) const {
   LogProduct size;
   solver_->multiply_determinant(size);
-  if (!linearization_.sparse()) return size;
+  if (!linearization_.sparse() || !problem_.is_equilibrium()) return size;
   const SparseMatrix& jacobian = linearization_.sparse_jacobian();
   squares_ = (linearization_.parameter_jacobian().col(parameter_) * scale(size_)).cwiseAbs2();
   counts_.setZero(size_);

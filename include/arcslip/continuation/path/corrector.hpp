@@ -125,7 +125,7 @@ class Corrector {
   bool nearly_singular();
 
   /// Sign of det [J F_p; normal^T] as last factored, in units of the origin's scale, and the logarithm of its
-  /// size, of a sparse problem over the lengths of its rows.
+  /// size, of a sparse equilibrium over the lengths of its rows.
   double orientation() const { return border_sign_; }
   double log_determinant() const;
 
