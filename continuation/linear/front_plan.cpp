@@ -30,10 +30,9 @@ class Planner {
   Planner(const SparseMatrix& pattern, Index borders)
       : pattern_(pattern), size_(static_cast<int>(pattern.rows())) {
     const Rows rows(pattern);
-    const double mean = static_cast<double>(pattern.nonZeros()) / size_;
-    const double nearly_full = std::max(32.0, 4 * mean);
+    const Index most = most_of_a_row(pattern);
     for (int i = 0; i < size_; ++i) {
-      const bool stays = i >= size_ - borders || rows.count[number(i)] > nearly_full;
+      const bool stays = i >= size_ - borders || rows.count[number(i)] > most;
       (stays ? staying_ : plan_.row_order).push_back(i);
     }
     std::stable_sort(plan_.row_order.begin(), plan_.row_order.end(),
@@ -175,6 +174,10 @@ class Planner {
 };
 
 }  // namespace
+
+Index most_of_a_row(const SparseMatrix& matrix) {
+  return std::max<Index>(32, 4 * matrix.nonZeros() / std::max<Index>(matrix.rows(), 1));
+}
 
 FrontPlan plan_fronts(const SparseMatrix& pattern, Index borders, double most) {
   return Planner(pattern, borders).run(most);

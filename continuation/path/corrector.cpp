@@ -1,8 +1,9 @@
 #include "arcslip/continuation/path/corrector.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "arcslip/continuation/linear/front_plan.hpp"
 
 namespace arcslip::continuation {
 
@@ -18,6 +19,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       options_(options),
       tolerance_(options.tolerance),
       linearization_(problem),
+      takes_lengths_out_(problem.sparse() && problem.is_equilibrium()),
       solver_(linearization_.make_solver(1)),
       correction_(size_ + 1),
       direction_(size_ + 1),
@@ -81,7 +83,7 @@ bool Corrector::evaluate(CurvePoint& point) {
 
 bool Corrector::factor(const Vector& scale, const Vector& normal) {
   ++work_.factorizations;
-  factored_scale_ = scale;
+  if (takes_lengths_out_) factored_scale_ = scale;
   linearization_.fill(*solver_, scale);
   solver_->columns() = linearization_.parameter_jacobian().col(parameter_) * scale(size_);
   solver_->rows() = normal.head(size_).transpose();
@@ -255,7 +257,7 @@ double Corrector::log_determinant() const {
 LogProduct Corrector::determinant(const Vector& scale) const {
   LogProduct size;
   solver_->multiply_determinant(size);
-  if (!linearization_.sparse() || !problem_.is_equilibrium()) return size;
+  if (!takes_lengths_out_) return size;
   const SparseMatrix& jacobian = linearization_.sparse_jacobian();
   squares_ = (linearization_.parameter_jacobian().col(parameter_) * scale(size_)).cwiseAbs2();
   counts_.setZero(size_);
@@ -266,9 +268,9 @@ LogProduct Corrector::determinant(const Vector& scale) const {
       ++counts_(entry.row());
     }
   }
-  const Index nearly_full = std::max<Index>(32, 4 * jacobian.nonZeros() / std::max<Index>(size_, 1));
+  const Index most = most_of_a_row(jacobian);
   for (Index row = 0; row < size_; ++row) {
-    if (counts_(row) <= nearly_full) size /= std::sqrt(squares_(row));
+    if (counts_(row) <= most) size /= std::sqrt(squares_(row));
   }
   return size;
 }

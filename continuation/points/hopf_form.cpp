@@ -48,10 +48,9 @@ class Operator {
 
   ComplexVector eigenvalues(const Vector& numbers, bool transposed, ComplexMatrix& vectors) const {
     if (is_sparse_) {
-      constexpr Index looked_at = 20;
       const auto matrix = sparse(numbers);
       return nearest_eigenvalues(transposed ? SparseMatrix(matrix.transpose()) : SparseMatrix(matrix),
-                                 looked_at, &vectors);
+                                 eigenvalues_looked_at, &vectors);
     }
     const auto matrix = numbers.reshaped(size_, size_);
     return continuation::eigenvalues(transposed ? Matrix(matrix.transpose()) : Matrix(matrix), &vectors);

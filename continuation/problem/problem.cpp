@@ -28,11 +28,10 @@ bool Problem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime
   if (!is_equilibrium()) return false;
   Evaluation out;
   if (sparse()) {
-    constexpr Index looked_at = 20;
     SparseMatrix entries(size(), size());
     out.sparse_jacobian = &entries;
     if (!continuation::evaluate(*this, u, p, regime, out)) return false;
-    values = nearest_eigenvalues(entries, looked_at);
+    values = nearest_eigenvalues(entries, eigenvalues_looked_at);
     return values.size() > 0 && values.allFinite();
   }
   Matrix jacobian(size(), size());

@@ -22,10 +22,10 @@ bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
   return evaluate_field(equations_, t, u, p, out);
 }
 
-double FormulaField::period(const Vector& p, Vector* by_parameters) const {
+double period_of(const Tape& tape, const Vector& p, Vector* by_parameters) {
   double value = 0;
   Numbers gradient = room(p.size());
-  const bool known = period_.evaluate(p.data(), &value, gradient.data());
+  const bool known = tape.evaluate(p.data(), &value, gradient.data());
   if (by_parameters != nullptr) *by_parameters = Eigen::Map<const Vector>(gradient.data(), p.size());
   return known && value > 0 ? value : std::nan("");
 }

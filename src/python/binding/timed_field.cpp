@@ -35,14 +35,6 @@ bool TimedField::evaluate(double t, const Vector& u, const Vector& p,
   return true;
 }
 
-double TimedField::period(const Vector& p, Vector* by_parameters) const {
-  double value = 0;
-  Vector gradient(p.size());
-  const bool known = period_.evaluate(p.data(), &value, gradient.data());
-  if (by_parameters != nullptr) *by_parameters = gradient;
-  return known && value > 0 ? value : std::nan("");
-}
-
 void TimedField::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   Vector all(p.size() + 1);
   problem_->scale(u, with_time(p, 0), unknowns, all);

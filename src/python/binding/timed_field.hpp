@@ -4,6 +4,7 @@
 
 #include "arcslip/continuation/cycles/field.hpp"
 #include "arcslip/formulas/tape.hpp"
+#include "arcslip/problems/formulas/formula_field.hpp"
 #include "python/binding/python_problem.hpp"
 
 namespace arcslip::python {
@@ -20,7 +21,9 @@ class TimedField : public continuation::Field {
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const continuation::FieldValues& out) const override;
   bool is_periodic() const override { return true; }
-  double period(const Vector& p, Vector* by_parameters) const override;
+  double period(const Vector& p, Vector* by_parameters) const override {
+    return problems::period_of(period_, p, by_parameters);
+  }
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override;
 
  private:

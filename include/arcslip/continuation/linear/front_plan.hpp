@@ -32,6 +32,9 @@ struct FrontPlan {
   double multiplications = 0;
 };
 
+/// Rows with more entries than this are nearly full, as conditions on all unknowns are.
+Index most_of_a_row(const SparseMatrix& matrix);
+
 /// For matrices of this pattern, of which the last `borders` rows stay to the end, as do those that are
 /// nearly full. Without fronts where the rows of one do not suffice for its columns, or where all cost more
 /// than `most` multiplications.

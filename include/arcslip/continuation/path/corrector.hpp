@@ -149,6 +149,7 @@ class Corrector {
   double residual_size_ = 1;
   double tolerance_;  // on the largest entry of F
   Linearization linearization_;
+  bool takes_lengths_out_;  // of rows, from determinants
   std::unique_ptr<BorderedSolver> solver_;
   Work work_;
   double contraction_ = 0;

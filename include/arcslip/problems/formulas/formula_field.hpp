@@ -9,6 +9,9 @@
 
 namespace arcslip::problems {
 
+/// T(p) by its tape, with its derivatives where they are wanted; nan where it has no value above 0.
+double period_of(const Tape& tape, const Vector& p, Vector* by_parameters);
+
 /// The equations above.
 class FormulaField : public continuation::Field {
  public:
@@ -22,8 +25,9 @@ class FormulaField : public continuation::Field {
                               const continuation::FieldValues& out) const override;
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
   bool is_periodic() const override { return true; }
-  /// nan where it has no value above 0.
-  double period(const Vector& p, Vector* by_parameters) const override;
+  double period(const Vector& p, Vector* by_parameters) const override {
+    return period_of(period_, p, by_parameters);
+  }
 
  private:
   std::vector<std::string> names_;
