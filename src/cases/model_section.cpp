@@ -117,6 +117,18 @@ void read_free(FormulaSystem& system, const TomlSection& section) {
   }
 }
 
+void read_period(FormulaSystem& system, const TomlSection& section) {
+  section.require("period", "a formula as a string, or a number");
+  system.period = {"period", text_of(section, {"period", section.table()->get("period")}),
+                   section.name("period")};
+}
+
+void read_angles(FormulaSystem& system, const TomlSection& section) {
+  std::vector<std::string> names;
+  for (const Formula& equation : system.equations) names.push_back(equation.name);
+  system.angles = section.texts("angles", names, "an array of unknowns");
+}
+
 /// What conditions are on, and they.
 std::vector<ModelKey> boundary_keys() {
   const auto of_boundary = only(
@@ -169,14 +181,8 @@ const KeyTable<FormulaSystem>& model_keys() {
            "cycles, u -> f and its fixed points, f = 0 without stability, or u' = f with conditions at the "
            "ends of an interval",
            ""),
-       ModelKey::special(
-           "period", "formula", "of f in t, by parameters",
-           [](FormulaSystem& system, const TomlSection& section) {
-             section.require("period", "a formula as a string, or a number");
-             system.period = {"period", text_of(section, {"period", section.table()->get("period")}),
-                              section.name("period")};
-           },
-           required, only("only of kind = \"forced\"", is_forced)),
+       ModelKey::special("period", "formula", "of f in t, by parameters", read_period, required,
+                         only("only of kind = \"forced\"", is_forced)),
        ModelKey("iterate", &FormulaSystem::iterate, within(1, problems::most_iterates),
                 "k: the points that are fixed after k steps of the map", only("only of maps", is_map)),
        ModelKey::special("parameters", "table of numbers",
@@ -187,15 +193,9 @@ const KeyTable<FormulaSystem>& model_keys() {
                          formulas("definitions", &FormulaSystem::definitions)),
        ModelKey::special("equations", "table of formulas", "f for each unknown, by its name, in their order",
                          read_equations, required),
-       ModelKey::special(
-           "angles", "list of names",
-           "unknowns of which whole turns, 2 pi, do not matter: cycles may go round",
-           [](FormulaSystem& system, const TomlSection& section) {
-             std::vector<std::string> names;
-             for (const Formula& equation : system.equations) names.push_back(equation.name);
-             system.angles = section.texts("angles", names, "an array of unknowns");
-           },
-           only("only of flows", is_flow), otherwise("none")),
+       ModelKey::special("angles", "list of names",
+                         "unknowns of which whole turns, 2 pi, do not matter: cycles may go round",
+                         read_angles, only("only of flows", is_flow), otherwise("none")),
        ModelKey::special("observables", "table of formulas",
                          "columns beside the unknowns, whose extrema may be looked for",
                          formulas("observables", &FormulaSystem::observables),
