@@ -13,6 +13,8 @@ namespace {
 constexpr double margin = 0.5;       // of the end values, that the cubic has to keep from zero
 constexpr double foretold = 0.03;    // of a value: what the cubic may err by where it is relied upon
 constexpr int most_places = 40;      // of one search
+constexpr int deep = 7;              // times that the way is halved: a function that there still jumps has a
+                                     // corner or a jump and else no feature
 constexpr double safety = 2.5;       // on what a polynomial through earlier values leaves a function to do
 constexpr double rounded = 3e-14;    // of the larger end value: nothing, where two zeros are one
 constexpr double negligible = 1e-7;  // the same between places that are not told apart
@@ -60,6 +62,31 @@ Extrema extrema_of(const Cubic& f) {
     if (x > 0 && x < 1) found.x[static_cast<std::size_t>(found.count++)] = x;
   }
   return found;
+}
+
+/// Whether it has one sign at both places and neither tangent comes near to zero in between.
+bool tangents_keep_away(const Node& p, const Node& q) {
+  const auto keeps = [&](const Node& end) {
+    return std::abs(end.slope) * (q.s - p.s) < margin * std::abs(end.value);
+  };
+  return p.value * q.value > 0 && keeps(p) && keeps(q);
+}
+
+/// Whether values of one sign, and the middle's slope, are what a cubic through the logarithms of the end
+/// values foretells: of a function that fades by orders of magnitude.
+bool fades(const Node& p, const Node& middle, const Node& q) {
+  if (!(p.value * q.value > 0 && p.value * middle.value > 0)) return false;
+  const auto logarithm = [](const Node& node) {
+    return Node{node.s, std::log(std::abs(node.value)), node.slope / node.value};
+  };
+  const Node from = logarithm(p);
+  const Node to = logarithm(q);
+  const double w = q.s - p.s;
+  const Cubic f = cubic_between(from, to);
+  const double x = (middle.s - p.s) / w;
+  const double slope = f.b + x * (2 * f.c + 3 * x * f.d);
+  return std::abs(f(x) - logarithm(middle).value) <= foretold &&
+         std::abs(slope - w * logarithm(middle).slope) <= foretold * (4 + std::abs(slope));
 }
 
 /// The least of the end values that have the sign of `value`.
@@ -125,6 +152,7 @@ class Subdivision {
     trusted = trusted || is_straight(cubic_between(p, q), p, q);
     const bool changes = p.value * q.value < 0;
     if (trusted && zeros != Zeros::unclear) return found(zeros == Zeros::one, p, q);
+    if (depth >= deep && tangents_keep_away(p, q)) return found(false, p, q);
     if (q.s - p.s <= least_) return at_bottom(changes, p, q);
     const double x = place(p, q, depth);
     std::optional<Node> middle = node_near(p, q, x);
@@ -134,6 +162,7 @@ class Subdivision {
     if (!lowest_ || std::abs(middle->value) < std::abs(lowest_->value)) lowest_ = middle;
     const double size = changes ? std::max(std::abs(p.value), std::abs(q.value)) : std::abs(middle->value);
     const double error = std::abs(middle->value - cubic_between(p, q)((middle->s - p.s) / (q.s - p.s)));
+    if (fades(p, *middle, q)) return found(false, p, q);
     trusted = trusted || (zeros != Zeros::unclear && error <= foretold * size);
     const FirstZero first = between(p, *middle, trusted, depth + 1);
     return first.kind == FirstZero::Kind::none ? between(*middle, q, trusted, depth + 1) : first;

@@ -121,7 +121,7 @@ Zero ZeroSearch::first_of_pieces(const PiecewiseFunction& of, int sign, bool two
 
 /// What lies ahead of a corner has to be begun with the derivatives there.
 Zero ZeroSearch::just_behind_corner(double s, double to, int before, std::size_t which) {
-  constexpr double least_way = 1e-9;  // relative to the step
+  constexpr double least_way = 1e-11;  // relative to the step: growth rates go with the root of it
   for (double way = least_way * to; s + way < to; way *= 4) {
     const std::optional<double> value = readings_.value(which, s + way);
     if (value && sign_of(*value) == -before) return {Zero::State::found, s + way};

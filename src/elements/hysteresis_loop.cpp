@@ -22,9 +22,11 @@ HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
 /// How far beyond a turning point the motion has changed by `room`.
 double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
   const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
+  const OddMotion::Departure departure(motion_, from);
   return bracketed_newton(
       [&](double step) {
-        return std::pair(motion_.change(from, step) - room, motion_.slopes(from + step).first);
+        const OddMotion::Departure::Way way = departure.after(step);
+        return std::pair(way.change - room, way.slope);
       },
       guess < longest ? guess : 0.5 * longest, 0.0, longest, room > 0);
 }

@@ -9,6 +9,7 @@
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;

@@ -10,7 +10,8 @@ namespace arcslip {
 /// I_m = int e^{jm theta} dtheta over an arc, to rounding however short the arc is.
 inline Complex arc_integral(double begin, double width, int m) {
   if (m == 0) return width;
-  return std::polar(1.0, m * (begin + 0.5 * width)) * (2 * std::sin(0.5 * m * width) / m);
+  const double half = 0.5 * m * width;
+  return std::polar(1.0, m * begin) * std::polar(1.0, half) * (2 * std::sin(half) / m);
 }
 
 /// All of these.
@@ -19,12 +20,15 @@ class ArcIntegrals {
   /// For |m| <= highest < 4 most_harmonics.
   ArcIntegrals(double begin, double width, int highest) {
     const double half = 0.5 * width;
-    const Complex turn = std::polar(1.0, begin + half);
+    const Complex half_turn = std::polar(1.0, half);
+    const Complex turn = std::polar(1.0, begin) * half_turn;  // of short arcs, too
     Complex power = 1;
-    values_[0] = 2 * half;
+    Complex half_power = 1;
+    values_[0] = width;
     for (int m = 1; m <= highest; ++m) {
       power *= turn;
-      values_[static_cast<std::size_t>(m)] = power * (2 * std::sin(m * half) / m);
+      half_power *= half_turn;
+      values_[static_cast<std::size_t>(m)] = power * (2 * half_power.imag() / m);  // 2 sin(m half)/m
     }
   }
 

@@ -50,8 +50,26 @@ class OddMotion {
   };
   Slopes slopes(double theta) const;  ///< of r at theta
 
-  /// r(theta + step) - r(theta) to the rounding of the difference, however small the step is.
-  double change(double theta, double step) const;
+  /// How the motion goes on from one theta.
+  class Departure {
+   public:
+    /// The motion is to live as long.
+    Departure(const OddMotion& motion, double theta);
+
+    /// At theta + step.
+    struct Way {
+      double change;  ///< r(theta + step) - r(theta) to the rounding of the difference, however small it is
+      double slope;   ///< dr/dtheta
+    };
+    Way after(double step) const;  ///< of any sign
+
+   private:
+    std::span<const int> orders_;
+    HarmonicVector turned_;  // r_h e^{jh theta}
+  };
+
+  /// r(theta + step) - r(theta), so.
+  double change(double theta, double step) const { return Departure(*this, theta).after(step).change; }
 
   /// Where the motion turns back, within half a period: all zeros of dr/dtheta but pairs of them closer than
   /// 1e-8. Bounds on derivatives, not samples, tell that none is left. None of a motion that is zero.
@@ -69,8 +87,6 @@ class OddMotion {
   Maximum maximum(const Angles& turns) const;
 
  private:
-  double steepest() const;
-
   std::span<const int> orders_;
   const HarmonicVector& coefficients_;
 };

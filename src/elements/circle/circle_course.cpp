@@ -143,7 +143,7 @@ double CircleCourse::leaves(double begin, double end, Complex offset) {
   for (double from = begin; from < end; from += part) {
     turns.clear();
     if (bound > 0) {
-      isolate_zeros(slope_at, bound, from, part, 1, [&](double theta) {
+      isolate_zeros(slope_at, bound, {from, from + part}, [&](double theta) {
         if (theta > begin + same && theta < end) turns.push_back(theta);
       });
     }
