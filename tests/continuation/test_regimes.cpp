@@ -5,10 +5,11 @@
 #include <sstream>
 
 #include "arcslip/continuation/events/corner.hpp"
-#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/all_solutions.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
+#include "scalar_problem.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
