@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/interval/enclosed_tape.hpp"
 #include "numbers.hpp"
 
 namespace arcslip::problems {
@@ -173,6 +174,21 @@ double FormulaProblem::observe(const Vector& u, const Vector& p, const Regime& /
   gradient.unknowns = vector_of(slopes).head(u.size());
   gradient.parameters = vector_of(slopes).tail(p.size());
   return value;
+}
+
+EnclosedMap FormulaProblem::enclosed(const Vector& p) const {
+  if (not_enclosed(equations_)) return {};
+  const bool returns = kind_ == FormulaKind::map;
+  return [tape = equations_, p, returns](const Box& u, std::vector<Interval>& values,
+                                         std::vector<Interval>& jacobian) {
+    Box at = u;
+    at.insert(at.end(), p.begin(), p.end());
+    enclose(tape, at.data(), std::ssize(u), values, jacobian);
+    for (std::size_t i = 0; returns && i < u.size(); ++i) {
+      values[i] -= u[i];
+      jacobian[i * (u.size() + 1)] -= Interval(1);
+    }
+  };
 }
 
 }  // namespace arcslip::problems

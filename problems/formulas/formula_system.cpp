@@ -157,6 +157,9 @@ LibraryModel model_of(const FormulaSystem& system) {
   model.build = [problem = FormulaProblem(system)](const LibraryModel::Values& /*values*/) {
     return std::make_unique<FormulaProblem>(problem);
   };
+  model.enclosed = [problem = FormulaProblem(system)](const LibraryModel::Values& values) {
+    return problem.enclosed(parameters_of(values, std::ssize(values)));
+  };
   model.guess = guess_at([start](const continuation::Problem& problem, const Vector& p) {
     Vector u(problem.size());
     if (!start.evaluate(p.data(), u.data()))

@@ -145,6 +145,16 @@ void read_from_point(CaseBranch& branch, const TomlSection& section) {
   branch.start = value->second;
 }
 
+/// Once for all unknowns, or for each; of how many there are nothing is known yet.
+void read_box(CaseBranch& branch, const TomlSection& section) {
+  branch.box = section.numbers("box", any_number());
+  const std::size_t count = branch.box.size();
+  bool fits = count > 0 && count % 2 == 0;
+  for (std::size_t i = 0; fits && i < count; i += 2) fits = branch.box[i] < branch.box[i + 1];
+  if (!fits)
+    section.mismatch("box", "lowest and highest value of all unknowns, or of each in turn, as [-1, 1, 0, 5]");
+}
+
 void check_all(const CaseBranch& branch, const TomlSection& section) {
   if (!branch.all_solutions) return;
   section.require("start", "the value of the parameter to find all solutions at");
@@ -269,9 +279,18 @@ std::vector<BranchKey> keys_of_ways() {
           read_from_point, not_beside_curve, only("not beside start", lacks("start")),
           only("not beside switching",
                [](const CaseBranch& branch, const TomlSection&) { return !branch.switching; })),
-      BranchKey::flag("all_solutions", &CaseBranch::all_solutions,
-                      "find all solutions at `start` by deflation and trace the branch of each",
-                      not_beside_curve, then(check_all)),
+      BranchKey::flag(
+          "all_solutions", &CaseBranch::all_solutions,
+          "find all solutions at `start`, by deflation and by branches in all parameters, say whether "
+          "these are all, and trace the branch of each",
+          not_beside_curve, then(check_all)),
+      BranchKey::special(
+          "box", "two numbers, or two for each unknown",
+          "lowest and highest unknowns between which all solutions are found, by proof where "
+          "`[model]` has formulas",
+          read_box,
+          only("only beside all_solutions",
+               [](const CaseBranch& branch, const TomlSection&) { return branch.all_solutions; })),
       BranchKey::special("extrema_of", "list of names",
                          "observables whose peaks and troughs are located; of a curve of these the one",
                          read_extrema, needed("`[\"Y\"]` of forced responses", always)),

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "arcslip/assembly/structures.hpp"
-#include "arcslip/continuation/path/newton.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
 #include "arcslip/problems/response/more_harmonics.hpp"
+#include "cases/all_solutions.hpp"
 #include "cases/curves.hpp"
 #include "cases/cycles.hpp"
 #include "cases/departures.hpp"
@@ -38,29 +38,13 @@ Built build_library(const ProblemRequest& request) {
   return {problem, guess};
 }
 
-/// All solutions that deflation finds from the guess and, of a small problem, from a box around it.
-std::vector<continuation::Guess> solutions_around(const Subject& subject, const TimeBudget& time) {
-  constexpr Index small = 50;
-  constexpr double wide = 10;  // of the problem's scale
-  const continuation::Guess& guess = subject.guess;
-  continuation::SolveAllOptions options;
-  options.go_on = [&] { return time.goes_on(); };
-  if (guess.unknowns.size() <= small) {
-    Vector scale(guess.unknowns.size());
-    Vector parameter_scale(guess.parameters.size());
-    subject.built.problem->scale(guess.unknowns, guess.parameters, scale, parameter_scale);
-    options.lower = guess.unknowns - wide * scale;
-    options.upper = guess.unknowns + wide * scale;
-  }
-  return continuation::solve_all(*subject.built.problem, {guess}, options);
-}
-
 std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
                                          const TimeBudget& time, const continuation::Observer& observer) {
   const continuation::Problem& problem = *subject.built.problem;
   if (is_boundary(*request)) return trace_boundary(request, subject, time, observer);
   if (asks_for_cycles(*request)) return trace_settled_cycles(request, subject, time, observer);
   std::vector<Branch> branches;
+  std::shared_ptr<const SolutionCount> solutions;
   const auto rest = [&] {
     continuation::TraceOptions options = time.rest();
     options.events.insert(options.events.end(), subject.built.events.begin(), subject.built.events.end());
@@ -69,7 +53,9 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   if (request->switching) {
     branches = continuation::trace_connected(problem, subject.guess, rest(), {}, observer);
   } else if (request->all_solutions) {
-    branches = continuation::trace_through(problem, solutions_around(subject, time), rest(), observer);
+    AllSolutions all = find_all_solutions(*request, subject, time);
+    branches = continuation::trace_through(problem, all.solutions, rest(), observer);
+    solutions = std::make_shared<const SolutionCount>(std::move(all.count));
   } else if (request->start) {
     branches.push_back(continuation::trace_both(problem, subject.guess, rest(), observer));
   } else {
@@ -77,7 +63,10 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   }
   std::vector<TracedBranch> traced;
   traced.reserve(branches.size());
-  for (Branch& branch : branches) traced.push_back({request, subject.built, nullptr, std::move(branch), 0});
+  for (Branch& branch : branches) {
+    traced.push_back({request, subject.built, nullptr, std::move(branch), 0});
+    traced.back().solutions = solutions;
+  }
   if (!request->switching || !may_leave_cycles(problem)) return traced;
   for (TracedBranch& one : cycles_leaving(traced, time, observer)) traced.push_back(std::move(one));
   return traced;

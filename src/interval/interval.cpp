@@ -35,11 +35,13 @@ Interval exponential_at(double x) {
   return (sum + Interval(-remainder, remainder)) * Interval(scale);
 }
 
-/// ln x = 2 artanh((x - 1)/(x + 1)), |x - 1|/(x + 1) <= 1/3.
+/// ln x = m ln 2 + 2 artanh((y - 1)/(y + 1)) of x = 2^m y, |y - 1|/(y + 1) <= 1/3.
 Interval logarithm_at(double x) {
+  static const Interval of_two(0x1.62e42fefa39efp-1, 0x1.62e42fefa39f0p-1);
   if (x < 0.5 || x > 2) {
-    const Interval value(x);
-    return {(Interval(1) - Interval(1) / value).lower(), (value - Interval(1)).upper()};
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);
+    return logarithm_at(fraction) + Interval(exponent) * of_two;
   }
   const Interval ratio = (Interval(x) - Interval(1)) / (Interval(x) + Interval(1));
   const Interval ratio_square = square(ratio);
@@ -90,6 +92,7 @@ Interval exponential(const Interval& x) {
 }
 
 Interval logarithm(const Interval& x) {
+  if (x.upper() <= 0) throw NoValue("ln of what is not positive");
   if (!(x.lower() > 0 && x.upper() < std::numeric_limits<double>::infinity()))
     throw NoEnclosure("ln of what may not be positive");
   return {logarithm_at(x.lower()).lower(), logarithm_at(x.upper()).upper()};

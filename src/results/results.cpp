@@ -20,6 +20,7 @@
 #include "cases/stored_point.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
+#include "results/solution_results.hpp"
 #include "results/stability_results.hpp"
 #include "results/verification_results.hpp"
 #include "sectors/full_receptance.hpp"
@@ -255,6 +256,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                      {"iterations", work.iterations},
                      {"rejected_steps", work.rejected_steps}};
   summary["seconds"] = traced.seconds;
+  if (traced.solutions) summary["solutions"] = solutions_to_json(*traced.solutions);
   if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
   return summary;
 }

@@ -7,6 +7,7 @@
 #include "arcslip/continuation/path/stop.hpp"
 #include "cases/unit_names.hpp"
 #include "results/answer.hpp"
+#include "results/solution_results.hpp"
 
 namespace arcslip {
 namespace {
@@ -189,6 +190,18 @@ Sentences certificates_answer(const ordered_json& branches) {
                       branches.size())};
 }
 
+/// How many solutions there are, of each search for all of them.
+Sentences solutions_answer(const ordered_json& branches) {
+  Sentences sentences;
+  for (const ordered_json& branch : branches) {
+    if (!branch.contains("solutions")) continue;
+    const ordered_json& told = branch.at("solutions");
+    std::string text = solutions_sentence(told);
+    if (sentences.empty() || sentences.back() != text) sentences.push_back(std::move(text));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 std::vector<std::string> run_answer(const ordered_json& summary) {
@@ -199,8 +212,9 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
   if (response == "forced" || response == "one_way")
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
   sentences.push_back(count_answer(branches));
-  for (const Sentences& more : {hopf_answer(branches), symmetries_answer(branches), ends_answer(branches),
-                                certificates_answer(branches)})
+  for (const Sentences& more :
+       {solutions_answer(branches), hopf_answer(branches), symmetries_answer(branches), ends_answer(branches),
+        certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
   return sentences;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "arcslip/continuation/events/corner.hpp"
-#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "catch.hpp"

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "arcslip/continuation/events/corner.hpp"
-#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/all_solutions.hpp"
 #include "branches.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"

@@ -80,10 +80,12 @@ struct CaseBranch {
   std::string named = {};              ///< the parameter as the case file has it, perhaps with a unit
   std::optional<double> start;         ///< value of the parameter from which the branch is traced both ways
   std::optional<StoredPoint> stored;   ///< in place of a first guess at `start`
-  bool all_solutions = false;          ///< one for each solution at `start` that deflated Newton finds
-  bool switching = false;              ///< follow the branches that branch points and corners lead to
-  std::optional<CurveRequest> curve;   ///< none of a branch
-  CyclesRequest cycles;                ///< of flows
+  /// Lowest and highest unknown of a box, once for all or for each; empty: by the problem's scale.
+  std::vector<double> box = {};
+  bool all_solutions = false;         ///< one for each solution at `start` that deflated Newton finds
+  bool switching = false;             ///< follow the branches that branch points and corners lead to
+  std::optional<CurveRequest> curve;  ///< none of a branch
+  CyclesRequest cycles;               ///< of flows
 };
 
 /// What a case file asks for, branch by branch.

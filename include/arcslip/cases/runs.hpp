@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "arcslip/cases/case_file.hpp"
+#include "arcslip/cases/solution_count.hpp"
 #include "arcslip/continuation/path/branch.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/problems/proof/certificate.hpp"
@@ -54,6 +55,8 @@ struct TracedBranch {
   /// What tables say of its points, where that is known already: a row for each, a column for each name, and
   /// maybe more.
   std::shared_ptr<const Matrix> told = nullptr;
+  /// Of the solutions that it was traced from, where all were asked for.
+  std::shared_ptr<const SolutionCount> solutions = nullptr;
 
   /// That of which the branch holds solutions.
   const continuation::Problem& problem() const {

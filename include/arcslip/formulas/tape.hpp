@@ -59,6 +59,12 @@ class Tape {
   Index operations() const { return std::ssize(operations_); }  ///< how many are done for all results
   bool uses(Index variable) const;                              ///< whether any result depends on it
 
+  /// What there is to do, for arithmetic of another kind: after the places of variables and constants come
+  /// those of the operations.
+  const std::vector<double>& constants() const { return constants_; }
+  const std::vector<Operation>& steps() const { return operations_; }
+  const std::vector<int>& places() const { return results_; }  ///< of the results
+
   /// Fills `values`, one for each result. False where one is not finite.
   [[nodiscard]] bool evaluate(const double* x, double* values) const;
 

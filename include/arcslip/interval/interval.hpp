@@ -22,6 +22,12 @@ class NoEnclosure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is no value at all, as of the root of a negative interval.
+class NoValue : public NoEnclosure {
+ public:
+  using NoEnclosure::NoEnclosure;
+};
+
 /// The rounding policy that Boost.Interval asks for.
 class OutwardRounding {
  public:
@@ -96,8 +102,7 @@ ComplexInterval common(const ComplexInterval& a, const ComplexInterval& b);
 /// e^x for |x| <= 700. Throws NoEnclosure beyond.
 Interval exponential(const Interval& x);
 
-/// ln x, sharp for x from 1/2 to 2, else by 1 - 1/x <= ln x <= x - 1. Throws NoEnclosure where x > 0 is not
-/// sure.
+/// ln x. Throws NoEnclosure where x > 0 is not sure, NoValue where it is not so.
 Interval logarithm(const Interval& x);
 
 /// Encloses 1/pi.

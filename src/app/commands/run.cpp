@@ -24,6 +24,7 @@
 #include "results/run_files.hpp"
 #include "results/run_progress.hpp"
 #include "results/shapes.hpp"
+#include "results/solution_results.hpp"
 #include "results/stability_results.hpp"
 #include "results/verification_results.hpp"
 
@@ -178,6 +179,8 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
     complain(fmt::format("{} (branch {}{}{})", error.what(), files.count() - 1,
                          request.values.empty() ? "" : ": ", arcslip::describe(request.values)));
   }
+  if (!traced.empty() && traced.front().solutions && !options_.quiet)
+    show(describe_solutions(request, *traced.front().solutions));
   std::optional<RingShapes> shapes;
   for (TracedBranch& one : traced) {
     {

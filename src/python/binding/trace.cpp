@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "arcslip/continuation/curves/curve.hpp"
-#include "arcslip/continuation/path/newton.hpp"
+#include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"

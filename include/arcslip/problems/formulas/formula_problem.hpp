@@ -97,6 +97,9 @@ class FormulaProblem : public continuation::Problem {
   double observe(const Vector& u, const Vector& p, const continuation::Regime& regime, Index which,
                  continuation::Gradient& gradient) const override;
 
+  /// F and dF/du at p over boxes of the unknowns; null where a formula has no enclosure.
+  EnclosedMap enclosed(const Vector& p) const;
+
  private:
   bool multipliers(const Vector& u, const Vector& p, Matrix& jacobian) const;
 

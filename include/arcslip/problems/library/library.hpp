@@ -11,6 +11,7 @@
 #include "arcslip/continuation/cycles/orbit_branch.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
+#include "arcslip/interval/zeros_in_box.hpp"
 #include "arcslip/setting.hpp"
 
 namespace arcslip::problems {
@@ -30,6 +31,8 @@ struct LibraryModel {
   bool is_driven = false;  ///< whether it depends on time: its solutions are cycles
   /// Of a boundary value problem what it sets out from, on meshes of one's choice; null of others.
   std::function<continuation::OrbitStart(const Values&, const continuation::OrbitOptions&)> boundary = {};
+  /// F and dF/du at the values over boxes of the unknowns; null where they have no enclosure.
+  std::function<EnclosedMap(const Values&)> enclosed = {};
 };
 
 /// All of them, in alphabetical order.
