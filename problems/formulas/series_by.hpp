@@ -12,7 +12,7 @@ namespace arcslip::problems {
 /// The results along u(h) by a tape of the time, where that is not null, u and p in this order: see
 /// Problem::series.
 inline bool series_by(const Tape& tape, const double* t, const Matrix& u, const Vector& p, Matrix& out) {
-  if (u.cols() > series_order + 1) return false;
+  if (u.cols() > taylor::order + 1) return false;
   std::vector<Series> at;
   if (t != nullptr) at.push_back({*t});
   for (Index i = 0; i < u.rows(); ++i) {

@@ -8,7 +8,7 @@
 namespace arcslip::taylor {
 namespace {
 
-constexpr std::size_t ends = series_order + 1;
+constexpr std::size_t ends = order + 1;
 
 Series constant(double value) {
   Series result{};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
 #include "arcslip/continuation/points/codimension_two.hpp"
 #include "arcslip/continuation/points/hopf_form.hpp"
@@ -116,6 +117,14 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
   special["lyapunov"] = form->lyapunov;
 }
 
+/// How what leaves a cycle or a fixed point of a map does so.
+void add_multiplier_form(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
+  if (traced.curve) return;
+  const auto form = continuation::multiplier_form(traced.problem(), point.type,
+                                                  {point.unknowns, point.parameters, point.regime, {}});
+  if (form) special["coefficient"] = form->coefficient;
+}
+
 /// What happens around a special point of a curve of folds or of Hopf points.
 void add_normal_form(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
   if (!traced.curve) return;
@@ -169,6 +178,7 @@ ordered_json special_points(const TracedBranch& traced) {
     lost.add(point, special);
     add_hopf_form(traced, point, special);
     add_normal_form(traced, point, special);
+    add_multiplier_form(traced, point, special);
     add_multipliers(traced, point, special);
     if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));

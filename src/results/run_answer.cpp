@@ -142,6 +142,29 @@ Sentences hopf_answer(const ordered_json& branches) {
                       super == 1 ? "is" : "are", sub)};
 }
 
+/// Where what leaves cycles is stable: "Of 2 period doublings 1 is supercritical, 1 subcritical."
+Sentences multipliers_answer(const ordered_json& branches) {
+  Sentences sentences;
+  for (const auto& [type, name] : {std::pair{"period_doubling", "period doubling"},
+                                   std::pair{"neimark_sacker", "Neimark-Sacker point"}}) {
+    std::size_t super = 0;
+    std::size_t all = 0;
+    for (const ordered_json& branch : branches) {
+      for (const ordered_json& point : branch.at("special")) {
+        if (point.at("type") != type || !point.contains("coefficient")) continue;
+        ++all;
+        if (point.at("coefficient").get<double>() < 0) ++super;
+      }
+    }
+    if (all == 1)
+      sentences.push_back(fmt::format("The {} is {}.", name, super == 1 ? "supercritical" : "subcritical"));
+    if (all > 1)
+      sentences.push_back(fmt::format("Of {} {}s {} {} supercritical, {} subcritical.", all, name, super,
+                                      super == 1 ? "is" : "are", all - super));
+  }
+  return sentences;
+}
+
 /// "At the point l2 is negative: the cycle is stable." of as many points, at some of which the number is so.
 std::string sign_answer(const char* name, const char* number, std::size_t negative, std::size_t all,
                         const char* cycle) {
@@ -242,8 +265,8 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
   sentences.push_back(count_answer(branches));
   for (const Sentences& more :
-       {hopf_answer(branches), normal_forms_answer(branches), symmetries_answer(branches),
-        ends_answer(branches), certificates_answer(branches)})
+       {hopf_answer(branches), multipliers_answer(branches), normal_forms_answer(branches),
+        symmetries_answer(branches), ends_answer(branches), certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");
   return sentences;

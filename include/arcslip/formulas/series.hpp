@@ -11,8 +11,10 @@
 
 namespace arcslip {
 
-inline constexpr int series_order = 5;
-using Series = std::array<double, series_order + 1>;
+namespace taylor {
+inline constexpr int order = 5;  ///< the highest
+}
+using Series = std::array<double, taylor::order + 1>;
 
 namespace taylor {
 
