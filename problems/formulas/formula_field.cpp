@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "field_values.hpp"
+#include "series_by.hpp"
 
 namespace arcslip::problems {
 
@@ -20,6 +21,10 @@ FormulaField::FormulaField(const FormulaSystem& system) : equations_(right_hand_
 bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
                             const continuation::FieldValues& out) const {
   return evaluate_field(equations_, t, u, p, out);
+}
+
+bool FormulaField::series(double t, const Matrix& u, const Vector& p, Matrix& out) const {
+  return series_by(equations_, &t, u, p, out);
 }
 
 double period_of(const Tape& tape, const Vector& p, Vector* by_parameters) {

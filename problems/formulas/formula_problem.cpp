@@ -7,6 +7,7 @@
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/interval/enclosed_tape.hpp"
 #include "numbers.hpp"
+#include "series_by.hpp"
 
 namespace arcslip::problems {
 namespace {
@@ -90,6 +91,12 @@ bool FormulaProblem::second(const Vector& u, const Vector& p, const Regime& /*re
                             const Vector& du, const Vector& dp, Vector& out) const {
   out.resize(u.size() + p.size());
   return equations_.second(joined(u, p).data(), w.data(), joined(du, dp).data(), out.data());
+}
+
+bool FormulaProblem::series(const Matrix& u, const Vector& p, const Regime& /*regime*/, Matrix& out) const {
+  if (!series_by(equations_, nullptr, u, p, out)) return false;
+  if (kind_ == FormulaKind::map) out -= u;
+  return true;
 }
 
 /// Those of the iterate are the eigenvalues of its Jacobian.

@@ -13,8 +13,9 @@ namespace arcslip::problems {
 namespace {
 
 /// What tables and summaries of branches have under these names.
-const std::vector<std::string> columns{"branch",     "point",    "type",  "regime", "unstable", "arclength",
-                                       "iterations", "residual", "state", "omega",  "lyapunov"};
+const std::vector<std::string> columns{"branch",    "point",       "type",       "regime", "unstable",
+                                       "arclength", "iterations",  "residual",   "state",  "omega",
+                                       "lyapunov",  "normal_form", "coefficient"};
 
 /// Keeps the names that were seen.
 class Names {

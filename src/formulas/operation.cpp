@@ -1,5 +1,6 @@
 #include "formulas/operation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -73,6 +74,14 @@ bool is_left(const Operation& operation, double a, double b) {
   return operation.kind == Operator::minimum ? a < b : a > b;
 }
 
+/// Of a^b, where b mostly stands still.
+Series series_of_power(const Series& a, const Series& b) {
+  const bool stands = std::all_of(b.begin() + 1, b.end(), [](double one) { return one == 0; });
+  if (!stands) return taylor::exp(taylor::times(b, taylor::log(a)));
+  const bool is_whole = b[0] == std::floor(b[0]) && std::abs(b[0]) <= std::numeric_limits<int>::max();
+  return is_whole ? taylor::to_integer(a, static_cast<int>(b[0])) : taylor::to_power(a, b[0]);
+}
+
 }  // namespace
 
 double value_of(const Operation& operation, double a, double b) {
@@ -110,6 +119,29 @@ Slopes slopes_of(const Operation& operation, double a, double b, double value, b
     case Operator::maximum: return is_left(operation, a, b) ? Slopes{1, 0} : Slopes{0, 1};
   }
   return {none, none};
+}
+
+Series series_of(const Operation& operation, const Series& a, const Series& b) {
+  Series sum = a;
+  switch (operation.kind) {
+    case Operator::add:
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += b[k];
+      return sum;
+    case Operator::subtract:
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] -= b[k];
+      return sum;
+    case Operator::multiply: return taylor::times(a, b);
+    case Operator::divide: return taylor::over(a, b);
+    case Operator::power: return series_of_power(a, b);
+    case Operator::fixed_power: return taylor::to_power(a, b[0]);
+    case Operator::integer_power: return taylor::to_integer(a, operation.right);
+    case Operator::function: return functions()[static_cast<std::size_t>(operation.right)].series(a);
+    case Operator::atan2: return taylor::atan2(a, b);
+    case Operator::minimum:
+    case Operator::maximum: return is_left(operation, a[0], b[0]) ? a : b;
+  }
+  sum.fill(none);
+  return sum;
 }
 
 }  // namespace arcslip

@@ -2,6 +2,7 @@
 
 // What an operation of a tape is worth, and how it changes with its operands.
 
+#include "arcslip/formulas/series.hpp"
 #include "arcslip/formulas/tape.hpp"
 
 namespace arcslip {
@@ -15,5 +16,8 @@ struct Slopes {
 /// The value of one operation, and its derivatives there, of which `second` are not always wanted.
 double value_of(const Operation& operation, double a, double b);
 Slopes slopes_of(const Operation& operation, double a, double b, double value, bool second);
+
+/// What it makes of series; nan where they have no value.
+Series series_of(const Operation& operation, const Series& a, const Series& b);
 
 }  // namespace arcslip

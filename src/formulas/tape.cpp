@@ -163,4 +163,16 @@ bool Tape::second(const double* x, const double* w, const double* dx, double* ou
   return are_finite(out, static_cast<std::size_t>(variables_));
 }
 
+bool Tape::series(const Series* x, Series* values) const {
+  std::vector<Series> slots;
+  slots.reserve(this->slots());
+  slots.assign(x, x + variables_);
+  for (const double constant : constants_) slots.push_back({constant});
+  for (const Operation& one : operations_)
+    slots.push_back(series_of(one, slots[static_cast<std::size_t>(one.left)], slots[right_of(one)]));
+  for (std::size_t i = 0; i < results_.size(); ++i) values[i] = slots[static_cast<std::size_t>(results_[i])];
+  return std::all_of(values, values + results_.size(),
+                     [](const Series& one) { return are_finite(one.data(), one.size()); });
+}
+
 }  // namespace arcslip

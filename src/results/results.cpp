@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "arcslip/assembly/structures.hpp"
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
 #include "arcslip/continuation/path/symmetric_branches.hpp"
+#include "arcslip/continuation/points/codimension_two.hpp"
 #include "arcslip/continuation/points/hopf_form.hpp"
 #include "arcslip/motion/swing.hpp"
 #include "arcslip/problems/response/harmonic_response.hpp"
@@ -116,6 +118,27 @@ void add_hopf_form(const TracedBranch& traced, const BranchPoint& point, ordered
   special["lyapunov"] = form->lyapunov;
 }
 
+/// How what leaves a cycle or a fixed point of a map does so.
+void add_multiplier_form(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
+  if (traced.curve) return;
+  const auto form = continuation::multiplier_form(traced.problem(), point.type,
+                                                  {point.unknowns, point.parameters, point.regime, {}});
+  if (form) special["coefficient"] = form->coefficient;
+}
+
+/// What happens around a special point of a curve of folds or of Hopf points.
+void add_normal_form(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
+  if (!traced.curve) return;
+  const Index second =
+      continuation::index_of(traced.base.problem->parameter_names(), traced.request->options.parameter);
+  const auto form = continuation::codimension_two_form(*traced.curve, second, point);
+  if (!form) return;
+  ordered_json& told = special["normal_form"];
+  for (const continuation::Coefficient& one : form->coefficients) told[one.name] = one.value;
+  if (point.type == PointType::cusp) told["regular"] = form->is_regular;
+  told["error"] = form->error;
+}
+
 /// Of a cycle, the largest first; where a torus leaves it, by how much this turns in each period.
 void add_multipliers(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
   const continuation::CycleProblem* cycles = cycles_of(traced);
@@ -155,6 +178,8 @@ ordered_json special_points(const TracedBranch& traced) {
     if (const std::optional<double> moved = moved_by(traced, point)) special["moved_by"] = *moved;
     lost.add(point, special);
     add_hopf_form(traced, point, special);
+    add_normal_form(traced, point, special);
+    add_multiplier_form(traced, point, special);
     add_multipliers(traced, point, special);
     if (ordered_json state = state_of(traced, point); !state.is_null()) special["state"] = std::move(state);
     listed.push_back(std::move(special));

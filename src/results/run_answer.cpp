@@ -143,6 +143,71 @@ Sentences hopf_answer(const ordered_json& branches) {
                       super == 1 ? "is" : "are", sub)};
 }
 
+/// Where what leaves cycles is stable: "Of 2 period doublings 1 is supercritical, 1 subcritical."
+Sentences multipliers_answer(const ordered_json& branches) {
+  Sentences sentences;
+  for (const auto& [type, name] : {std::pair{"period_doubling", "period doubling"},
+                                   std::pair{"neimark_sacker", "Neimark-Sacker point"}}) {
+    std::size_t super = 0;
+    std::size_t all = 0;
+    for (const ordered_json& branch : branches) {
+      for (const ordered_json& point : branch.at("special")) {
+        if (point.at("type") != type || !point.contains("coefficient")) continue;
+        ++all;
+        if (point.at("coefficient").get<double>() < 0) ++super;
+      }
+    }
+    if (all == 1)
+      sentences.push_back(fmt::format("The {} is {}.", name, super == 1 ? "supercritical" : "subcritical"));
+    if (all > 1)
+      sentences.push_back(fmt::format("Of {} {}s {} {} supercritical, {} subcritical.", all, name, super,
+                                      super == 1 ? "is" : "are", all - super));
+  }
+  return sentences;
+}
+
+/// "At the point l2 is negative: the cycle is stable." of as many points, at some of which the number is so.
+std::string sign_answer(const char* name, const char* number, std::size_t negative, std::size_t all,
+                        const char* cycle) {
+  if (all == 1)
+    return fmt::format("At the {} {} is {}: {} {}.", name, number, negative == 1 ? "negative" : "positive",
+                       cycle, negative == 1 ? "is stable" : "is unstable");
+  return fmt::format("Of {} {}s {} {} negative {}: there {} is stable.", all, name, negative,
+                     negative == 1 ? "has" : "have", number, cycle);
+}
+
+/// What is stable near points of codimension two, and which cusps are none.
+Sentences normal_forms_answer(const ordered_json& branches) {
+  std::array<std::size_t, 3> all{};
+  std::array<std::size_t, 3> so{};
+  for (const ordered_json& branch : branches) {
+    for (const ordered_json& point : branch.at("special")) {
+      if (!point.contains("normal_form")) continue;
+      const ordered_json& form = point.at("normal_form");
+      const auto count = [&](std::size_t which, bool is_so) {
+        ++all[which];
+        if (is_so) ++so[which];
+      };
+      if (form.contains("l2")) count(0, form.at("l2").get<double>() < 0);
+      if (point.at("type") == "bogdanov_takens") count(1, form.at("b").get<double>() < 0);
+      if (form.contains("regular")) count(2, form.at("regular").get<bool>());
+    }
+  }
+  Sentences sentences;
+  if (all[0] > 0)
+    sentences.push_back(
+        sign_answer("generalised Hopf point", "l2", so[0], all[0], "the outer one of the two cycles"));
+  if (all[1] > 0)
+    sentences.push_back(sign_answer("Bogdanov-Takens point", "a b", so[1], all[1], "the cycle beside it"));
+  if (so[2] < all[2])
+    sentences.push_back(
+        fmt::format("Of {} cusp{} {} not unfolded by the parameters, as where folds meet the trivial state "
+                    "of a symmetry.",
+                    all[2], all[2] == 1 ? "" : "s",
+                    all[2] - so[2] == 1 ? "one is" : fmt::format("{} are", all[2] - so[2])));
+  return sentences;
+}
+
 /// Which branches have lost symmetries of the whole ring.
 Sentences symmetries_answer(const ordered_json& branches) {
   constexpr std::size_t most = 12;
@@ -213,7 +278,8 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
   sentences.push_back(count_answer(branches));
   for (const Sentences& more :
-       {solutions_answer(branches), hopf_answer(branches), symmetries_answer(branches), ends_answer(branches),
+       {solutions_answer(branches), hopf_answer(branches), multipliers_answer(branches),
+        normal_forms_answer(branches), symmetries_answer(branches), ends_answer(branches),
         certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());
   if (summary.value("interrupted", false)) sentences.emplace_back("The run was interrupted.");

@@ -26,6 +26,15 @@ Derivatives at(const std::string& text, double x) {
   return found;
 }
 
+/// Along x + h.
+Series series_at(const std::string& text, double x) {
+  const Tape tape = compile({.variables = {"x"}, .results = {{"f", text}}});
+  const Series along{x, 1};
+  Series found{};
+  REQUIRE(tape.series(&along, &found));
+  return found;
+}
+
 void check_near(double value, double expected) {
   CHECK_THAT(value,
              Catch::Matchers::WithinRel(expected, 1e-13) || Catch::Matchers::WithinAbs(expected, 1e-14));
@@ -85,6 +94,10 @@ TEST_CASE("Derivatives of each function are those of the textbook") {
       check_near(found.value, expected.value);
       check_near(found.first, expected.first);
       check_near(found.second, expected.second);
+      const Series series = series_at(text, x);
+      check_near(series[0], expected.value);
+      check_near(series[1], expected.first);
+      check_near(2 * series[2], expected.second);
     }
   }
 }
@@ -162,5 +175,48 @@ TEST_CASE("Second derivatives of formulas are the limits of differences of gradi
       INFO(mixed.variables[j] << " at x = " << x[0]);
       CHECK_THAT(exact[j], Catch::Matchers::WithinRel(difference[j], 1e-8));
     }
+  }
+}
+
+TEST_CASE("Series of formulas are off by the sixth power of the way") {
+  const Tape tape = compile(mixed);
+  for (const std::vector<double>& x : places) {
+    const std::vector<Series> along{
+        {x[0], 0.9, -0.3, 0.2, 0.5, -0.1}, {x[1], -0.4, 0.6, 0, -0.2, 0.3}, {x[2], 1.3, 0.1, -0.4, 0.2, 0.7}};
+    std::vector<Series> found(static_cast<std::size_t>(tape.results()));
+    REQUIRE(tape.series(along.data(), found.data()));
+    const auto sum = [](const Series& one, double h) {
+      double value = 0;
+      for (std::size_t k = one.size(); k-- > 0;) value = value * h + one[k];
+      return value;
+    };
+    std::vector<std::vector<double>> errors;
+    for (const double h : {0.02, 0.01}) {
+      std::vector<double> at, values(found.size());
+      for (const Series& one : along) at.push_back(sum(one, h));
+      REQUIRE(tape.evaluate(at.data(), values.data()));
+      for (std::size_t i = 0; i < found.size(); ++i) values[i] = std::abs(values[i] - sum(found[i], h));
+      errors.push_back(values);
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      INFO(mixed.results[i].name << " at x = " << x[0]);
+      CHECK(errors[1][i] <= errors[0][i] / 50 + 1e-14 * (1 + std::abs(found[i][0])));
+    }
+  }
+}
+
+TEST_CASE("A formula has a series at zero where its derivatives exist") {
+  CHECK(series_at("x^3", 0) == Series{0, 0, 0, 1, 0, 0});
+  CHECK_THAT(series_at("tanh(x)^2", 0)[4], Catch::Matchers::WithinRel(-2.0 / 3, 1e-14));
+  const Tape hill = compile({.variables = {"x", "n"}, .results = {{"f", "x^n"}}});
+  const std::vector<Series> along{{0, 1}, {4}};
+  Series found{};
+  REQUIRE(hill.series(along.data(), &found));
+  CHECK(found == Series{0, 0, 0, 0, 1, 0});
+  for (const char* text : {"sqrt(x)", "abs(x)", "log(x)", "x^2.5", "atan2(x, x)"}) {
+    INFO(text);
+    const Tape tape = compile({.variables = {"x"}, .results = {{"f", text}}});
+    const Series zero{0, 1};
+    CHECK_FALSE(tape.series(&zero, &found));
   }
 }

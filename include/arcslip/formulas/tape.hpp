@@ -5,12 +5,14 @@
 //   v_i = f_i(v_a, v_b),  a, b < i,
 //
 // for values; backwards for gradients, by the adjoints dF/dv_a += dF/dv_i df_i/dv_a of each result; and
-// backwards with dual numbers v + h v' for second derivatives along a direction [Griewank & Walther,
-// Evaluating Derivatives, 2nd ed., SIAM 2008, ch. 3 and 5]. All are exact to rounding.
+// backwards with dual numbers v + h v' for second derivatives along a direction; and with series for higher
+// ones along a curve [Griewank & Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, ch. 3, 5 and 13]. All
+// are exact to rounding.
 
 #include <cstdint>
 #include <vector>
 
+#include "arcslip/formulas/series.hpp"
 #include "arcslip/types.hpp"
 
 namespace arcslip {
@@ -73,6 +75,9 @@ class Tape {
 
   /// w^T d/dh [dF/dx](x + h dx) at h = 0: one entry for each variable. False where one is not finite.
   [[nodiscard]] bool second(const double* x, const double* w, const double* dx, double* out) const;
+
+  /// Series of the results, by those of the variables. False where one is not finite.
+  [[nodiscard]] bool series(const Series* x, Series* values) const;
 
  private:
   std::size_t slots() const { return first_ + operations_.size(); }

@@ -32,6 +32,9 @@ class CycleProblem : public OrbitProblem {
   }
   std::string end_of_kind() const override;
 
+  [[nodiscard]] bool series(const Matrix& u, const Vector& p, const Regime& regime,
+                            Matrix& out) const override;
+
   /// ln(mu) of the multipliers; empty where there are none. What a thread was told last is known when it asks
   /// again.
   ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;

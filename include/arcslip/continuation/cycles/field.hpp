@@ -43,6 +43,12 @@ class Field {
     return false;
   }
 
+  /// f along a curve at fixed time and parameters, as Problem::series has it.
+  [[nodiscard]] virtual bool series(double /*t*/, const Matrix& /*u*/, const Vector& /*p*/,
+                                    Matrix& /*out*/) const {
+    return false;
+  }
+
   /// Of an unknown of which values that differ by this are the same, as of an angle; else 0.
   virtual double turn(Index /*unknown*/) const { return 0; }
 
@@ -75,6 +81,9 @@ class EquilibriumField : public Field {
   }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const FieldValues& out) const override;
+  [[nodiscard]] bool series(double /*t*/, const Matrix& u, const Vector& p, Matrix& out) const override {
+    return problem_->series(u, p, {}, out);
+  }
   [[nodiscard]] bool second(double t, const Vector& u, const Vector& p, const Vector& w, const Vector& du,
                             const Vector& dp, Vector& out) const override;
   void scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const override {

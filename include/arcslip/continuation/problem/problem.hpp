@@ -87,6 +87,14 @@ class Problem {
   [[nodiscard]] virtual bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
                                     const Vector& du, const Vector& dp, Vector& out) const;
 
+  /// F along a curve u(h) at fixed parameters, as the coefficients of series in h: those of u in the columns
+  /// of `u`, n x (highest order + 1), those of F in as many of `out`. False where the problem does not give
+  /// them, or none of this order: then differences of `evaluate` take their place.
+  [[nodiscard]] virtual bool series(const Matrix& /*u*/, const Vector& /*p*/, const Regime& /*regime*/,
+                                    Matrix& /*out*/) const {
+    return false;
+  }
+
   /// Whether `evaluate` fills `sparse_jacobian` in place of `jacobian`.
   virtual bool sparse() const { return false; }
 
@@ -100,6 +108,9 @@ class Problem {
   /// Whether F is the right-hand side of u' = F(u, p), so that eigenvalues of dF/du tell stability and pairs
   /// of them that cross the imaginary axis are Hopf points.
   virtual bool is_equilibrium() const { return false; }
+
+  /// Whether F(u, p) + u is a map of which the solutions are fixed points.
+  virtual bool is_map() const { return false; }
 
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
   /// takes those of an equilibrium's Jacobian, of a sparse one beyond 200 unknowns the 20 nearest to 0; a

@@ -23,6 +23,7 @@ class FormulaField : public continuation::Field {
   std::vector<std::string> parameter_names() const override { return parameters_; }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const continuation::FieldValues& out) const override;
+  [[nodiscard]] bool series(double t, const Matrix& u, const Vector& p, Matrix& out) const override;
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
   bool is_periodic() const override { return true; }
   double period(const Vector& p, Vector* by_parameters) const override {

@@ -79,7 +79,10 @@ class FormulaProblem : public continuation::Problem {
                               const continuation::Evaluation& out) const override;
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
                             const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
+  [[nodiscard]] bool series(const Matrix& u, const Vector& p, const continuation::Regime& regime,
+                            Matrix& out) const override;
   bool is_equilibrium() const override { return kind_ == FormulaKind::flow; }
+  bool is_map() const override { return kind_ == FormulaKind::map; }
 
   /// Of a map ln mu or, where mu < 0 is real, ln -mu, for each multiplier mu: zero at mu = 1 and at mu = -1.
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const continuation::Regime& regime,

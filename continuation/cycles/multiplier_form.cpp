@@ -1,0 +1,289 @@
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
+
+#include <Eigen/SparseLU>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/problem/expansion.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+using ComplexSparse = Eigen::SparseMatrix<Complex>;
+
+/// The equations of a cycle, or of a fixed point.
+class Rounds {
+ public:
+  Rounds(const Problem& problem, const Guess& at)
+      : cycles_(dynamic_cast<const CycleProblem*>(&problem)),
+        at_(problem),
+        point_(at),
+        count_(problem.size() - (cycles_ != nullptr && cycles_->has_duration() ? 1 : 0)) {
+    exists_ = at_.evaluate(at.unknowns, at.parameters, at.regime);
+  }
+
+  bool exists() const { return exists_; }
+  Index count() const { return count_; }  ///< of unknowns but for T
+  double duration() const {
+    return cycles_ == nullptr ? 1 : cycles_->duration(point_.unknowns, point_.parameters);
+  }
+
+  /// K(z), of all but T; or whole, at z = 1.
+  ComplexSparse matrix(Complex z, bool whole) const {
+    const Index size = whole ? point_.unknowns.size() : count_;
+    const SparseMatrix jacobian =
+        at_.sparse() ? at_.sparse_jacobian() : SparseMatrix(at_.jacobian().sparseView());
+    std::vector<Eigen::Triplet<Complex>> entries;
+    for (Index column = 0; column < size; ++column) {
+      for (SparseMatrix::InnerIterator entry(jacobian, column); entry && entry.row() < size; ++entry) {
+        const Complex factor = cycles_ != nullptr && is_turned(entry.row(), column) ? z : 1;
+        entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), factor * entry.value());
+      }
+      // that of a map is f' - 1
+      if (cycles_ == nullptr)
+        entries.emplace_back(static_cast<int>(column), static_cast<int>(column), 1.0 - z);
+    }
+    ComplexSparse result(size, size);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
+  /// dK/dz v
+  ComplexVector turned(const ComplexVector& v) const {
+    if (cycles_ == nullptr) return -v;
+    ComplexVector result = ComplexVector::Zero(count_);
+    for (Index column = 0; column < cycles_->field().size(); ++column) {
+      for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry; ++entry) {
+        if (entry.row() < count_ && is_turned(entry.row(), column))
+          result(entry.row()) += entry.value() * v(column);
+      }
+    }
+    return result;
+  }
+
+  /// The root of int_0^T |v|^2 dt.
+  double length(const ComplexVector& v) const {
+    if (cycles_ == nullptr) return v.norm();
+    const OrbitMesh& mesh = cycles_->frame(point_.regime).mesh;
+    const CollocationRule& rule = mesh.rule();
+    const Index n = cycles_->field().size();
+    double square = 0;
+    for (Index j = 0; j < mesh.intervals(); ++j) {
+      for (Index i = 0; i < rule.degree(); ++i) {
+        ComplexVector here = ComplexVector::Zero(n);
+        for (Index k = 0; k <= rule.degree(); ++k)
+          here += rule.values()(i, k) * v.segment((j * rule.degree() + k) * n, n);
+        square += mesh.length(j) * rule.weights()(i) * here.squaredNorm();
+      }
+    }
+    return std::sqrt(duration() * square);
+  }
+
+  /// The coefficient of h^2 or h^3 of F along a curve: 0 in what is linear.
+  bool series(Expansion& expansion, const Matrix& u, Vector& out) const {
+    Matrix all;
+    if (!expansion.along(u, point_.parameters, point_.regime, all)) return false;
+    out = all.rightCols(1);
+    return true;
+  }
+
+  const Guess& point() const { return point_; }
+
+ private:
+  bool is_turned(Index row, Index column) const {
+    const Index n = cycles_->field().size();
+    return column < n && row >= count_ - n;
+  }
+
+  const CycleProblem* cycles_;
+  Linearization at_;
+  const Guess& point_;
+  Index count_;
+  bool exists_ = false;
+};
+
+/// A factored matrix, bordered or not.
+class Factors {
+ public:
+  explicit Factors(const ComplexSparse& matrix) { factors_.compute(matrix); }
+
+  /// [matrix, b; c^H, 0]
+  Factors(const ComplexSparse& matrix, const ComplexVector& b, const ComplexVector& c) {
+    const Index n = matrix.rows();
+    ComplexSparse whole(n + 1, n + 1);
+    std::vector<Eigen::Triplet<Complex>> entries;
+    for (Index column = 0; column < n; ++column) {
+      for (ComplexSparse::InnerIterator entry(matrix, column); entry; ++entry)
+        entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), entry.value());
+      entries.emplace_back(static_cast<int>(column), static_cast<int>(n), b(column));
+      entries.emplace_back(static_cast<int>(n), static_cast<int>(column), std::conj(c(column)));
+    }
+    whole.setFromTriplets(entries.begin(), entries.end());
+    factors_.compute(whole);
+  }
+
+  ComplexVector solve(const ComplexVector& right) const {
+    if (factors_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
+    return factors_.solve(right);
+  }
+
+ private:
+  Eigen::SparseLU<ComplexSparse> factors_;
+};
+
+/// The right and the left null vector of a matrix that is singular but for how well its point is located.
+struct NullVectors {
+  ComplexVector right;
+  ComplexVector left;
+};
+NullVectors null_vectors(const ComplexSparse& matrix) {
+  const Index n = matrix.rows();
+  NullVectors found{continuation::spread(n, 1), continuation::spread(n, 2)};
+  ComplexVector unit = ComplexVector::Zero(n + 1);
+  unit(n) = 1;
+  const ComplexSparse transposed = matrix.adjoint();
+  for (int i = 0; i < 3; ++i) {  // inverse iteration
+    const ComplexVector b = found.left;
+    const ComplexVector c = found.right;
+    found.right = Factors(matrix, b, c).solve(unit).head(n).normalized();
+    found.left = Factors(transposed, c, b).solve(unit).head(n).normalized();
+  }
+  return found;
+}
+
+/// A line in the plane of v: w = h e^(j angle), or w = h.
+Matrix curve_of(const Guess& point, const ComplexVector& along, Index order) {
+  Matrix u = Matrix::Zero(point.unknowns.size(), order + 1);
+  u.col(0) = point.unknowns;
+  u.col(1).head(along.size()) = along.real();
+  return u;
+}
+
+/// The critical vectors, and what they lead to.
+class Reduction {
+ public:
+  Reduction(const Rounds& rounds, Complex multiplier) : rounds_(rounds), multiplier_(multiplier) {
+    const NullVectors found = null_vectors(rounds.matrix(multiplier, false));
+    v_ = found.right / rounds.length(found.right);
+    psi_ = found.left;
+    if (multiplier.imag() == 0) v_ /= v_(largest(v_)) / std::abs(v_(largest(v_)));
+    weight_ = multiplier * psi_.dot(rounds.turned(v_));
+  }
+
+  /// c T
+  bool real(Expansion& expansion, double& coefficient) const {
+    Matrix u = curve_of(rounds_.point(), v_, 3);
+    Vector term;
+    if (!rounds_.series(expansion, u.leftCols(3), term)) return false;
+    u.col(2) = -Factors(rounds_.matrix(1, true)).solve(term.cast<Complex>()).real();
+    if (!rounds_.series(expansion, u, term)) return false;
+    coefficient = cubic(term.cast<Complex>()).real();
+    return std::isfinite(coefficient);
+  }
+
+  /// d T
+  bool complex(Expansion& expansion, double& coefficient) const {
+    ComplexVector steady = ComplexVector::Zero(rounds_.point().unknowns.size());
+    ComplexVector turning = steady;
+    Vector term;
+    constexpr int lines = 3;
+    for (int k = 0; k < lines; ++k) {
+      const Complex way = std::polar(1.0, pi * k / lines);
+      if (!rounds_.series(expansion, curve_of(rounds_.point(), 2.0 * way * v_, 2), term)) return false;
+      steady += term / lines;
+      turning += std::pow(std::conj(way), 2) / static_cast<double>(lines) * term;
+    }
+    const Vector mean = -Factors(rounds_.matrix(1, true)).solve(steady).real();
+    const ComplexVector twice =
+        -Factors(rounds_.matrix(multiplier_ * multiplier_, false)).solve(turning.head(rounds_.count()));
+    constexpr int further = 4;
+    ComplexVector third = ComplexVector::Zero(steady.size());
+    for (int k = 0; k < further; ++k) {
+      const Complex way = std::polar(1.0, pi * k / further);
+      Matrix u = curve_of(rounds_.point(), 2.0 * way * v_, 3);
+      u.col(2) = mean;
+      u.col(2).head(twice.size()) += 2 * (way * way * twice).real();
+      if (!rounds_.series(expansion, u, term)) return false;
+      third += std::conj(way) / static_cast<double>(further) * term;
+    }
+    coefficient = cubic(third).real();
+    return std::isfinite(coefficient);
+  }
+
+ private:
+  static Index largest(const ComplexVector& v) {
+    Index place = 0;
+    v.cwiseAbs().maxCoeff(&place);
+    return place;
+  }
+  Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
+
+  const Rounds& rounds_;
+  Complex multiplier_;
+  ComplexVector v_;
+  ComplexVector psi_;
+  Complex weight_;
+};
+
+/// b T: of the whole matrix, in which T changes with w as well.
+bool at_fold(const Rounds& rounds, Expansion& expansion, double& coefficient) {
+  const NullVectors found = null_vectors(rounds.matrix(1, true));
+  ComplexVector v = found.right;
+  Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  v /= v(largest);
+  v /= rounds.length(v.head(rounds.count()));
+  Matrix u = Matrix::Zero(v.size(), 3);
+  u.col(0) = rounds.point().unknowns;
+  u.col(1) = v.real();
+  Vector term;
+  if (!rounds.series(expansion, u, term)) return false;
+  const ComplexVector psi = found.left;
+  const Complex weight = psi.head(rounds.count()).dot(rounds.turned(v.head(rounds.count())));
+  coefficient = std::abs(psi.dot(term.cast<Complex>()) / weight);
+  return std::isfinite(coefficient);
+}
+
+/// That of the pair nearest to the unit circle; 0 without one.
+Complex torus_multiplier(const Problem& problem, const Guess& at, double duration) {
+  ComplexVector values;
+  if (!problem.eigenvalues(at.unknowns, at.parameters, at.regime, values)) return 0;
+  Complex nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Complex& value : values) {
+    if (!(value.imag() > 0) || !(std::abs(value.real()) < least)) continue;
+    least = std::abs(value.real());
+    nearest = std::polar(1.0, value.imag() * duration);
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at) {
+  const bool is_cycle = dynamic_cast<const CycleProblem*>(&problem) != nullptr;
+  const bool is_known =
+      type == PointType::period_doubling || type == PointType::neimark_sacker || type == PointType::fold;
+  if (!is_known || (!is_cycle && (!problem.is_map() || problem.sparse()))) return std::nullopt;
+  const Rounds rounds(problem, at);
+  if (!rounds.exists()) return std::nullopt;
+  Complex multiplier = type == PointType::period_doubling ? -1 : 1;
+  if (type == PointType::neimark_sacker) multiplier = torus_multiplier(problem, at, rounds.duration());
+  if (multiplier == 0.0) return std::nullopt;
+  std::optional<Reduction> reduction;
+  if (type != PointType::fold) reduction.emplace(rounds, multiplier);
+  Vector numbers;
+  const Estimated found = with_best_reach(problem, numbers, [&](Expansion& expansion, Vector& out) {
+    out.resize(1);
+    if (type == PointType::fold) return at_fold(rounds, expansion, out(0));
+    return type == PointType::period_doubling ? reduction->real(expansion, out(0))
+                                              : reduction->complex(expansion, out(0));
+  });
+  if (!found.exists) return std::nullopt;
+  return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration()};
+}
+
+}  // namespace arcslip::continuation

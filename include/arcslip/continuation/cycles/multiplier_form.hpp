@@ -1,0 +1,37 @@
+#pragma once
+
+// Which way what leaves a cycle or a fixed point of a map goes where multipliers cross the unit circle: from
+// one round to the next, with w along the critical vector v,
+//
+//   period doubling   w -> -(w + c w^3)
+//   Neimark-Sacker    w -> mu (w + d w |w|^2), mu = e^(j theta)
+//   fold              w -> w + b w^2
+//
+// Of cycles these are divided by T, so that they are those of w' = c w^3, w' = j theta/T w + d w |w|^2 and w'
+// = b w^2 with int_0^T |v|^2 dt = 1 [Yu. A. Kuznetsov, W. Govaerts, E. J. Doedel, A. Dhooge, SIAM J. Numer.
+// Anal. 43 (2005) 1407]; of maps |v| = 1. Where c or Re d is below 0 what leaves is stable in the plane of v,
+// and the point is supercritical.
+//
+// They follow from the equations that hold the cycle, F(u) = 0: with v(T) = mu v(0) in place of v(T) = v(0)
+// their Jacobian is K(mu), and u + sum_a h_a w^a solves them order by order, K(mu^a) h_a = -r_a, r_a read
+// from series of F along curves. T changes with |w|^2.
+
+#include <optional>
+
+#include "arcslip/continuation/points/point_type.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
+#include "arcslip/continuation/problem/problem.hpp"
+
+namespace arcslip::continuation {
+
+struct MultiplierForm {
+  double coefficient = 0;  ///< c, Re d, or |b|, whose sign is that of v
+  double error = 0;        ///< estimated; 0 where derivatives are exact
+};
+
+/// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
+/// evaluated around it, at strong resonances mu^3 = 1, and where a torus has no angle.
+[[nodiscard]] std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type,
+                                                            const Guess& at);
+
+}  // namespace arcslip::continuation

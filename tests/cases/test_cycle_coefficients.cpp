@@ -1,0 +1,173 @@
+// Which way what leaves cycles and fixed points of maps goes: against normal forms in other coordinates.
+
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
+#include "arcslip/problems/formulas/formula_problem.hpp"
+#include "arcslip/results/results.hpp"
+#include "cycle_cases.hpp"
+
+namespace {
+
+using namespace arcslip;
+using namespace arcslip::testing;
+
+/// A cycle r = 1 of period 2 pi, where x = r cos t, y = r sin t; with terms in r and t of the `square` of
+/// what is beside it, whose equations follow.
+std::string round_cycle(const std::string& square, const std::string& definitions, const std::string& rest) {
+  return "[model.parameters]\nmu = -0.5\n[model.definitions]\nr = \"sqrt(x^2 + y^2)\"\n" + definitions +
+         "turn = \"1 + 0.4*" + square + "\"\n[model.equations]\nx = \"x*(1 - r^2 + 0.6*" + square +
+         ") - y*turn\"\ny = \"y*(1 - r^2 + 0.6*" + square + ") + x*turn\"\n" + rest +
+         "[model.start]\nx = 1\n[cycles]\nsettle = 30\n[branch]\nparameter = \"mu\"\nfrom = -0.5\nto = 0.5\n";
+}
+
+/// Of all special points of a type.
+std::vector<double> coefficients(const std::vector<TracedBranch>& all, const std::string& type) {
+  std::vector<double> found;
+  for (const TracedBranch& one : all) {
+    const auto summary = summarize(0, one);
+    for (const auto& point : summary["special"]) {
+      if (point["type"] == type) found.push_back(point.at("coefficient"));
+    }
+  }
+  return found;
+}
+
+/// Z' = mu Z - 0.9 Z^3 + 0.7 (r - 1) Z along (cos t/2, sin t/2), seen by (u, v), decaying across it; r - 1 =
+/// 0.3 Z^2 on the manifold.
+const std::string half_turns = round_cycle(
+    "square",
+    "cc = \"(1 + x/r)/2\"\nss = \"(1 - x/r)/2\"\ncs = \"y/r/2\"\nsquare = \"u^2*cc + 2*u*v*cs + v^2*ss\"\n"
+    "grow = \"mu + 0.7*(r - 1) - 0.9*square\"\nzc = \"u*cc + v*cs\"\nzs = \"u*cs + v*ss\"\n",
+    "u = \"grow*zc - (u - zc) - v*turn/2\"\nv = \"grow*zs - (v - zs) + u*turn/2\"\n");
+
+/// The same of a pair that turns at 0.77.
+const std::string torus =
+    round_cycle("square", "square = \"u^2 + v^2\"\ngrow = \"mu + 0.7*(r - 1) - 0.9*square\"\n",
+                "u = \"grow*u - (0.77 + 0.3*square)*v\"\nv = \"grow*v + (0.77 + 0.3*square)*u\"\n");
+
+}  // namespace
+
+TEST_CASE("Period doublings of cycles have the coefficient of their normal form", "[cycles]") {
+  const auto found = coefficients(traced_of(half_turns), "period_doubling");
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], WithinRel((-0.9 + 0.7 * 0.3) / two_pi, 1e-9));
+}
+
+TEST_CASE("Neimark-Sacker points of cycles have the coefficient of their normal form", "[cycles]") {
+  const auto found = coefficients(traced_of(torus), "neimark_sacker");
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], WithinRel(2 * (-0.9 + 0.7 * 0.3) / two_pi, 1e-9));
+}
+
+TEST_CASE("Folds of cycles have the coefficient of their normal form", "[cycles]") {
+  for (const char* shear : {"0", "0.3*(r - 1)"}) {  // (r - 1)' = mu - 4 (r - 1)^2
+    const auto all =
+        traced_of(std::string("[model.parameters]\nmu = 1\n[model.definitions]\nr = \"sqrt(x^2 + y^2)\"\n"
+                              "g = \"mu - (r^2 - 1)^2\"\nturn = \"1 + ") +
+                  shear +
+                  "\"\n[model.equations]\nx = \"x*g - y*turn\"\ny = \"y*g + x*turn\"\n"
+                  "[model.start]\nx = 1.4\n[cycles]\nsettle = 30\n"
+                  "[branch]\nparameter = \"mu\"\nfrom = 1\nto = -1\n");
+    const auto found = coefficients(all, "fold");
+    REQUIRE(found.size() == 1);
+    if (std::string(shear) == "0") CHECK_THAT(found[0], WithinRel(4 / std::sqrt(two_pi), 1e-7));
+    CHECK(found[0] > 0);
+  }
+}
+
+TEST_CASE("Without series the coefficients of cycles come from differences, with their error", "[cycles]") {
+  class Plain : public problems::FormulaProblem {
+   public:
+    using FormulaProblem::FormulaProblem;
+    bool series(const Matrix& /*u*/, const Vector& /*p*/, const continuation::Regime& /*regime*/,
+                Matrix& /*out*/) const override {
+      return false;
+    }
+  };
+  const problems::FormulaSystem system{.parameters = {{"mu", 0}},
+                                       .equations = {{"x", "x*(1 - r^2 + 0.6*s) - y*turn"},
+                                                     {"y", "y*(1 - r^2 + 0.6*s) + x*turn"},
+                                                     {"u", "grow*u - 0.77*v"},
+                                                     {"v", "grow*v + 0.77*u"}},
+                                       .definitions = {{"r", "sqrt(x^2 + y^2)"},
+                                                       {"s", "u^2 + v^2"},
+                                                       {"grow", "mu + 0.7*(r - 1) - 0.9*s"},
+                                                       {"turn", "1 + 0.4*s"}}};
+  const continuation::OrbitMesh mesh(continuation::CollocationRule(5), 24);
+  Matrix orbit = Matrix::Zero(4, mesh.nodes());
+  for (Index node = 0; node < mesh.nodes(); ++node) {
+    orbit(0, node) = std::cos(two_pi * mesh.place(node));
+    orbit(1, node) = std::sin(two_pi * mesh.place(node));
+  }
+  const Vector p = Vector::Zero(1);
+  const CycleProblem cycle(std::make_shared<continuation::EquilibriumField>(std::make_shared<Plain>(system)),
+                           mesh, orbit, p);
+  Vector u(cycle.size());
+  u << orbit.reshaped(), two_pi;
+  const auto form = continuation::multiplier_form(cycle, PointType::neimark_sacker, {u, p, {}, {}});
+  REQUIRE(form);
+  CHECK(form->error > 0);
+  CHECK(form->error < 1e-6);
+  CHECK_THAT(form->coefficient, WithinAbs(2 * (-0.9 + 0.7 * 0.3) / two_pi, 1e-6));
+}
+
+TEST_CASE("The coefficient of a flip of Henon's map is that of its 2-cycle", "[cycles]") {
+  // In the 2-cycle (x_1 - x_2)^2 = (4 a - 3 (1 - b)^2)/a^2; x = +-q_x w, and the multiplier is -1 - rho
+  for (const double b : {0.3, -0.2}) {
+    const auto all =
+        traced_of("[model]\nkind = \"map\"\n[model.parameters]\na = 0\nb = " + std::to_string(b) +
+                  "\n[model.equations]\nx = \"1 - a*x^2 + y\"\ny = \"b*x\"\n[model.start]\n"
+                  "x = \"1/(1 - b)\"\ny = \"b/(1 - b)\"\n"
+                  "[branch]\nparameter = \"a\"\nfrom = 0\nto = 1.2\n");
+    const auto found = coefficients(all, "period_doubling");
+    REQUIRE(found.size() == 1);
+    const double a = 0.75 * (1 - b) * (1 - b);
+    const double by_x = 1 / std::sqrt(1 + b * b);  // of q = (1, -b) over its length
+    const auto multiplier = [&](double at) {
+      const double x = (b - 1 + std::sqrt((1 - b) * (1 - b) + 4 * at)) / (2 * at);
+      return -at * x - std::sqrt(at * at * x * x + b);
+    };
+    const double slope = -(multiplier(a + 1e-5) - multiplier(a - 1e-5)) / 2e-5;
+    CHECK_THAT(found[0], WithinRel(-slope * a * a * by_x * by_x, 1e-8));
+  }
+}
+
+TEST_CASE("Tori and folds of maps have the coefficients of their normal forms", "[cycles]") {
+  // w -> mu w (1 + (-0.3 + 0.2 j) |w|^2 + 0.5 z), z -> z/2 + 0.6 |w|^2, so that z = 1.2 |w|^2; bent
+  // coordinates
+  const auto all = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.2
+[model.definitions]
+X = "x"
+Y = "y - 0.4*x^2"
+Z = "z + 0.3*x*Y"
+s = "X^2 + Y^2"
+g = "(1 + p)*(1 - 0.3*s + 0.5*Z)"
+h = "0.2*s"
+A = "g*X - h*Y"
+B = "g*Y + h*X"
+xx = "cos(1.3)*A - sin(1.3)*B"
+yy = "sin(1.3)*A + cos(1.3)*B"
+zz = "Z/2 + 0.6*s"
+[model.equations]
+x = "xx"
+y = "yy + 0.4*xx^2"
+z = "zz - 0.3*xx*yy"
+[branch]
+parameter = "p"
+from = -0.2
+to = 0.2
+)case");
+  const auto tori = coefficients(all, "neimark_sacker");
+  REQUIRE(tori.size() == 1);
+  CHECK_THAT(tori[0], WithinRel(2 * (-0.3 + 0.5 * 1.2), 1e-9));
+  const auto folds = coefficients(
+      traced_of(
+          "[model]\nkind = \"map\"\n[model.parameters]\np = -1\n[model.equations]\nx = \"x + p + 0.8*x^2 "
+          "+ x^3\"\n[model.start]\nx = 0.3\n[branch]\nparameter = \"p\"\nfrom = -0.1\nto = 1\n"),
+      "fold");
+  REQUIRE(folds.size() >= 1);
+  CHECK_THAT(folds[0], WithinAbs(0.8, 1e-6));
+}
