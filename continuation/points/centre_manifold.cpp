@@ -122,7 +122,7 @@ std::optional<CentreManifold> CentreManifold::at(const Problem& problem, const G
   if (!found.at_.evaluate(point.unknowns, point.parameters, point.regime)) return std::nullopt;
   if (has_zero && !found.add_mode(0, {0, 0})) return std::nullopt;
   for (std::size_t k = 0; k < omegas.size(); ++k) {
-    found.frequencies_[k] = omegas[k];
+    found.rates_[k] = omegas[k];
     std::array<int, 2> multiples{};
     multiples[k] = 1;
     if (!found.add_mode({0, omegas[k]}, multiples)) return std::nullopt;
@@ -240,28 +240,28 @@ void CentreManifold::subtract_lower(int order, Terms& terms) const {
 bool CentreManifold::solve(const Exponents& a, const ComplexVector& right, bool is_last) {
   const Index n = right.size();
   const std::array<int, 2> multiples = multiples_of(a);
-  std::vector<std::size_t> resonant;
+  std::vector<std::size_t> matching;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
-    if (modes_[i].multiples == multiples) resonant.push_back(i);
+    if (modes_[i].multiples == multiples) matching.push_back(i);
   }
-  if (is_last && resonant.empty()) return true;
-  ComplexMatrix columns(n, std::ssize(resonant));
-  ComplexMatrix rows(n, std::ssize(resonant));
-  for (std::size_t k = 0; k < resonant.size(); ++k) {
-    columns.col(static_cast<Index>(k)) = modes_[resonant[k]].right;
-    rows.col(static_cast<Index>(k)) = modes_[resonant[k]].left;
+  if (is_last && matching.empty()) return true;
+  ComplexMatrix columns(n, std::ssize(matching));
+  ComplexMatrix rows(n, std::ssize(matching));
+  for (std::size_t k = 0; k < matching.size(); ++k) {
+    columns.col(static_cast<Index>(k)) = modes_[matching[k]].right;
+    rows.col(static_cast<Index>(k)) = modes_[matching[k]].left;
   }
-  const Complex value(0, multiples[0] * frequencies_[0] + multiples[1] * frequencies_[1]);
+  const Complex value(0, multiples[0] * rates_[0] + multiples[1] * rates_[1]);
   ComplexVector whole = ComplexVector::Zero(n + columns.cols());
   whole.head(n) = right;
   whole = ShiftedMatrix(at_, value, columns, rows).solve(whole);
   if (!whole.allFinite()) return false;
   h_[a] = whole.head(n);
   h_[conjugate(a)] = whole.head(n).conjugate();
-  if (resonant.empty()) return true;
+  if (matching.empty()) return true;
   ComplexVector g = ComplexVector::Zero(std::ssize(modes_));
-  for (std::size_t k = 0; k < resonant.size(); ++k)
-    g(static_cast<Index>(resonant[k])) = whole(n + static_cast<Index>(k));
+  for (std::size_t k = 0; k < matching.size(); ++k)
+    g(static_cast<Index>(matching[k])) = whole(n + static_cast<Index>(k));
   ComplexVector turned(g.size());
   for (std::size_t i = 0; i < modes_.size(); ++i)
     turned(static_cast<Index>(conjugates_[i])) = std::conj(g(static_cast<Index>(i)));

@@ -188,7 +188,7 @@ std::optional<NormalForm> double_hopf_form(const Problem& base, const Guess& at,
   });
 }
 
-/// The frequencies of the pairs nearest to the imaginary axis.
+/// The imaginary parts of the pairs nearest to the imaginary axis.
 std::vector<double> nearest_pairs(const Problem& base, const Guess& at) {
   ComplexVector values;
   if (!base.eigenvalues(at.unknowns, at.parameters, at.regime, values)) return {};

@@ -57,7 +57,7 @@ bool sample(const Problem& problem, const Branch& branch) {
   // argument, &problem, samples are solved for.
   const InterpolatedBranch curve(branch, 0);
   for (const Sample& at : curve.where(0.1)) std::cout << at.unknowns(0) << " +- " << at.error(0) << '\n';
-  // All solutions at fixed parameters, without any branch: deflation.
+  // All solutions at fixed parameters: deflation, and branches that come back to them.
   const std::vector<Guess> all = solve_all(problem, {{Vector::Zero(1), Eigen::Vector2d(0.1, 1)}});
   return curve.where(0.1).size() == 3 && all.size() == 3;
 }

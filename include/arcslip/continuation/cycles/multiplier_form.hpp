@@ -30,7 +30,7 @@ struct MultiplierForm {
 };
 
 /// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
-/// evaluated around it, at strong resonances mu^3 = 1, and where a torus has no angle.
+/// evaluated around it, where mu^3 = 1, and where a torus has no angle.
 [[nodiscard]] std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type,
                                                             const Guess& at);
 

@@ -24,8 +24,8 @@
 
 namespace arcslip::continuation {
 
-/// A critical eigenvalue, j times `multiples` of two frequencies: which of the a . lambda are equal is not
-/// left to rounding.
+/// A critical eigenvalue, j times `multiples` of two rates of turning: which of the a . lambda are equal is
+/// not left to rounding.
 struct CriticalMode {
   std::array<int, 2> multiples{};
   ComplexVector right;  ///< q, n, |q| = 1
@@ -42,7 +42,7 @@ class CentreManifold {
   static std::optional<CentreManifold> at(const Problem& problem, const Guess& point, bool has_zero,
                                           const std::vector<double>& omegas);
 
-  /// Finds g up to this order, at most 5. False where a combination of frequencies meets an eigenvalue that
+  /// Finds g up to this order, at most 5. False where a combination of these rates meets an eigenvalue that
   /// is no multiple of these, or F cannot be evaluated.
   [[nodiscard]] bool reduce(Expansion& expansion, int order);
 
@@ -64,7 +64,7 @@ class CentreManifold {
 
   Guess point_;
   Linearization at_;
-  std::array<double, 2> frequencies_{};
+  std::array<double, 2> rates_{};
   std::vector<CriticalMode> modes_;
   std::vector<std::size_t> conjugates_;  // which variable is that of each
   Terms h_;

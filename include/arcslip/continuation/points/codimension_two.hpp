@@ -39,7 +39,7 @@ struct NormalForm {
 
 /// Of a point on a curve of folds, of Hopf points of equilibria, or of maps where it is a cusp; none of other
 /// points, and where F cannot be evaluated around it or an eigenvalue is a further multiple of the
-/// frequencies. `parameter` is the second of the curve's.
+/// imaginary parts. `parameter` is the second of the curve's.
 [[nodiscard]] std::optional<NormalForm> codimension_two_form(const ExtendedProblem& curve, Index parameter,
                                                              const BranchPoint& point);
 
