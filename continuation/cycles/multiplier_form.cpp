@@ -154,7 +154,7 @@ NullVectors null_vectors(const ComplexSparse& matrix) {
   return found;
 }
 
-/// A line in the plane of v: w = h e^(j angle), or w = h.
+/// u + h Re v, with room for terms of higher order.
 Matrix curve_of(const Guess& point, const ComplexVector& along, Index order) {
   Matrix u = Matrix::Zero(point.unknowns.size(), order + 1);
   u.col(0) = point.unknowns;
@@ -169,7 +169,7 @@ class Reduction {
     const NullVectors found = null_vectors(rounds.matrix(multiplier, false));
     v_ = found.right / rounds.length(found.right);
     psi_ = found.left;
-    if (multiplier.imag() == 0) v_ /= v_(largest(v_)) / std::abs(v_(largest(v_)));
+    if (multiplier.imag() == 0) v_ /= largest_entry(v_) / std::abs(largest_entry(v_));
     weight_ = multiplier * psi_.dot(rounds.turned(v_));
   }
 
@@ -214,11 +214,6 @@ class Reduction {
   }
 
  private:
-  static Index largest(const ComplexVector& v) {
-    Index place = 0;
-    v.cwiseAbs().maxCoeff(&place);
-    return place;
-  }
   Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
 
   const Rounds& rounds_;
@@ -232,9 +227,7 @@ class Reduction {
 bool at_fold(const Rounds& rounds, Expansion& expansion, double& coefficient) {
   const NullVectors found = null_vectors(rounds.matrix(1, true));
   ComplexVector v = found.right;
-  Index largest = 0;
-  v.cwiseAbs().maxCoeff(&largest);
-  v /= v(largest);
+  v /= largest_entry(v);
   v /= rounds.length(v.head(rounds.count()));
   Matrix u = Matrix::Zero(v.size(), 3);
   u.col(0) = rounds.point().unknowns;

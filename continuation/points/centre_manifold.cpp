@@ -7,6 +7,8 @@
 #include <functional>
 #include <random>
 
+#include "arcslip/continuation/linear/borders.hpp"
+
 namespace arcslip::continuation {
 namespace {
 
@@ -147,11 +149,7 @@ bool CentreManifold::add_mode(Complex value, std::array<int, 2> multiples) {
   }
   const bool is_real = multiples == std::array<int, 2>{};
   if (is_real) {
-    for (ComplexVector& x : found) {
-      Index largest = 0;
-      x.cwiseAbs().maxCoeff(&largest);
-      x = (x / x(largest)).real().normalized().cast<Complex>().eval();
-    }
+    for (ComplexVector& x : found) x = (x / largest_entry(x)).real().normalized().cast<Complex>().eval();
   }
   found[1] /= std::conj(found[1].dot(found[0]));
   if (!found[1].allFinite()) return false;

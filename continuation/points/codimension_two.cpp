@@ -40,14 +40,7 @@ class AtFold {
  public:
   AtFold(const Problem& base, Index active, const Guess& at)
       : point_{at.unknowns, at.parameters, at.regime, {}}, fold_(base, active), at_(base), second_(base) {
-    Vector u;
-    Vector p;
-    fold_.join(point_, u, p);
-    Vector residual(fold_.size());
-    Evaluation out;
-    out.residual = &residual;
-    if (!fold_.adapt(point_) || !fold_.evaluate(u, p, at.regime, out)) return;
-    if (!at_.evaluate(at.unknowns, at.parameters, at.regime)) return;
+    if (!fold_.settle(point_) || !at_.evaluate(at.unknowns, at.parameters, at.regime)) return;
     right_ = fold_.right_null().normalized();
     left_ = fold_.left_null().normalized();
     size_ = column_size(at_, Vector::Ones(base.size()));

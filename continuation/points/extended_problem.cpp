@@ -72,6 +72,16 @@ void ExtendedProblem::set_borders(const std::vector<double>& numbers) {
   });
 }
 
+bool ExtendedProblem::settle(const BasePoint& point) {
+  Vector u;
+  Vector p;
+  join(point, u, p);
+  Vector residual(size());
+  Evaluation out;
+  out.residual = &residual;
+  return adapt(point) && evaluate(u, p, point.regime, out);
+}
+
 bool ExtendedProblem::follow(const BasePoint& point) {
   constexpr double worst_strain = 1.5;
   constexpr double most = 4;  // by which the conditions' slopes and the base's scale may have changed

@@ -10,17 +10,6 @@ BasePoint base_point(const Guess& guess, Index extras) {
   return {guess.unknowns, guess.parameters, guess.regime, Vector::Zero(extras)};
 }
 
-/// Puts the extended problem at a point: borders chosen there, null vectors at hand.
-bool settle(ExtendedProblem& problem, const BasePoint& point) {
-  Vector u;
-  Vector p;
-  problem.join(point, u, p);
-  Vector residual(problem.size());
-  Evaluation out;
-  out.residual = &residual;
-  return problem.adapt(point) && problem.evaluate(u, p, point.regime, out);
-}
-
 /// The directions in which a quadratic form vanishes, as coefficients of the basis; none if it is definite.
 std::vector<Eigen::Vector2d> null_directions(const Eigen::Matrix2d& form, bool& degenerate) {
   const double size = form.cwiseAbs().maxCoeff();
@@ -129,7 +118,7 @@ std::optional<LocatedPoint> locate(ExtendedProblem& problem, const BasePoint& gu
 std::optional<FoldForm> fold_form(const Problem& problem, Index parameter, const Guess& fold) {
   FoldProblem extended(problem, parameter);
   const BasePoint point = base_point(fold, 0);
-  if (!settle(extended, point)) return std::nullopt;
+  if (!extended.settle(point)) return std::nullopt;
   FoldForm form{extended.right_null(), extended.left_null(), extended.quadratic(point)};
   Vector scale(problem.size());
   Vector parameter_scale(fold.parameters.size());
@@ -153,7 +142,7 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
                                                  const Guess& branch_point, const Tolerances& tolerances) {
   BranchPointProblem extended(problem, parameter);
   const BasePoint point = base_point(branch_point, 1);
-  if (!settle(extended, point)) return std::nullopt;
+  if (!extended.settle(point)) return std::nullopt;
   const Index n = problem.size();
   const Matrix basis = extended.null_space();
   const Vector scale = extended.null_scale();

@@ -20,9 +20,8 @@ HysteresisLoop::HysteresisLoop(const OddMotion& motion, double slip_threshold)
 }
 
 /// How far beyond a turning point the motion has changed by `room`.
-double HysteresisLoop::way_to_slip(double from, double longest, double room) const {
-  const double guess = std::sqrt(2 * std::abs(room / motion_.slopes(from).second));
-  const OddMotion::Departure departure(motion_, from);
+double HysteresisLoop::way_to_slip(const OddMotion::Departure& departure, double longest, double room) {
+  const double guess = std::sqrt(2 * std::abs(room / departure.bend()));
   return bracketed_newton(
       [&](double step) {
         const OddMotion::Departure::Way way = departure.after(step);
@@ -51,7 +50,8 @@ void HysteresisLoop::march() {
   bool sticking = true;
   for (int i = 0; i < found.count; ++i) {
     const double longest = turn(i + 1) - turn(i);
-    const double change = motion_.change(turn(i), longest);
+    const OddMotion::Departure departure(motion_, turn(i));
+    const double change = departure.after(longest).change;
     const double sign = change > 0 ? 1 : -1;
     const double room = sign * slip_threshold_ - force;
     const double way = std::abs(change) - std::abs(room);
@@ -61,7 +61,7 @@ void HysteresisLoop::march() {
       if (i + 1 < found.count) further_.stick(-way);
       continue;
     }
-    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(turn(i), longest, room), before, sign};
+    stick_[sticks_++] = {anchor, turn(i) - anchor + way_to_slip(departure, longest, room), before, sign};
     before = sign;
     slipped_ += way;
     ++slips_;

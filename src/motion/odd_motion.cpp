@@ -133,6 +133,15 @@ OddMotion::Departure::Way OddMotion::Departure::after(double step) const {
   return way;
 }
 
+double OddMotion::Departure::bend() const {
+  double sum = 0;
+  for (std::size_t a = 0; a < orders_.size(); ++a) {
+    const double h = orders_[a];
+    sum -= h * h * turned_(static_cast<Index>(a)).real();
+  }
+  return sum;
+}
+
 Angles OddMotion::turning_points() const {
   Angles found;
   const double fifth = bound(orders_, coefficients_, 5);  // of |d5r/dtheta5|

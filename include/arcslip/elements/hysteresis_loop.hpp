@@ -75,7 +75,7 @@ class HysteresisLoop {
 
  private:
   void march();
-  double way_to_slip(double from, double longest, double room) const;
+  static double way_to_slip(const OddMotion::Departure& departure, double longest, double room);
 
   const OddMotion& motion_;
   double slip_threshold_;

@@ -61,7 +61,8 @@ class OddMotion {
       double change;  ///< r(theta + step) - r(theta) to the rounding of the difference, however small it is
       double slope;   ///< dr/dtheta
     };
-    Way after(double step) const;  ///< of any sign
+    Way after(double step) const;  ///< ahead, or behind where it is below 0
+    double bend() const;           ///< d2r/dtheta2 at theta
 
    private:
     std::span<const int> orders_;

@@ -22,6 +22,13 @@ inline Vector padded(const Eigen::Ref<const Vector>& v, Index size) {
   return result;
 }
 
+/// The largest entry.
+inline Complex largest_entry(const ComplexVector& v) {
+  Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  return v(largest);
+}
+
 /// The size of dF/du D, its largest row sum, for columns beside it. Where dF/du vanishes as a whole, as at
 /// the folds of a single unknown, 1, which is large for F.
 inline double column_size(const Linearization& at, const Vector& scale) {

@@ -48,6 +48,9 @@ class ExtendedProblem : public Problem {
   /// followed. The solutions do not depend on it. False where the problem has no value.
   [[nodiscard]] virtual bool adapt(const BasePoint& point);
 
+  /// Chooses them at this point and evaluates there, so that null vectors are at hand.
+  [[nodiscard]] bool settle(const BasePoint& point);
+
   /// Does so where the borders that there are have come to fit badly, at a point of a curve next to the last
   /// evaluation.
   [[nodiscard]] bool follow(const BasePoint& point);
