@@ -296,8 +296,12 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
                                               : reduction->complex(expansion, out);
   });
   if (!found.exists) return std::nullopt;
+  Vector scale(problem.size());
+  Vector parameter_scale(at.parameters.size());
+  problem.scale(at.unknowns, at.parameters, scale, parameter_scale);
+  const double usual = 1 / (scale.head(rounds.count()).cwiseAbs2().maxCoeff() * rounds.duration());
   return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration(),
-                        numbers(1) / rounds.duration()};
+                        (numbers(1) + usual) / rounds.duration()};
 }
 
 }  // namespace arcslip::continuation

@@ -164,5 +164,43 @@ from = -1
 to = 1
 )case");
   REQUIRE(flips.size() == 1);
+  CHECK(at(flips, PointType::fold_flip, "k").empty());
   check_values(at(flips, PointType::generalized_period_doubling, "k"), {-0.49}, 1e-8);
+}
+
+TEST_CASE("Coefficients that are one term vanish where it does", "[cycles]") {
+  const auto flips = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+k = 0.7
+[model.equations]
+x = "-(1 + p)*x + k*x^3"
+[branch]
+curve = "period_doubling"
+parameters = ["p", "k"]
+window = [-0.5, 0.5]
+from = -1
+to = 1
+)case");
+  check_values(at(flips, PointType::generalized_period_doubling, "k"), {0}, 1e-8);
+  const auto hopf = traced_of(R"case(
+[model.parameters]
+mu = 0
+nu = -0.3
+[model.definitions]
+s = "x^2 + y^2"
+g = "mu + nu*s - s^2"
+[model.equations]
+x = "g*x - y"
+y = "x + g*y"
+[branch]
+curve = "hopf"
+parameters = ["mu", "nu"]
+window = [-0.5, 0.5]
+from = -0.5
+to = 1
+)case");
+  check_values(at(hopf, PointType::generalized_hopf, "nu"), {0}, 1e-8);
 }

@@ -27,7 +27,7 @@ namespace arcslip::continuation {
 struct MultiplierForm {
   double coefficient = 0;  ///< c, Re d, or |b|, whose sign is that of v
   double error = 0;        ///< estimated; 0 where derivatives are exact
-  double terms = 0;        ///< the sum of the sizes of what makes up c or d
+  double terms = 0;        ///< the sum of the sizes of what makes up c or d, and what is usual
 };
 
 /// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
