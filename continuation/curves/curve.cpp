@@ -36,13 +36,14 @@ int nearest_border(const Problem& base, const BranchPoint& point) {
 /// With the events that end a curve.
 TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options, const CurveWindow& window) {
   TraceOptions all = within_window(options, window, problem.base().size());
-  if (const auto last = problem.last_of_curve()) all.stop_after.push_back({*last, 1, {}});
+  for (const PointType last : problem.last_of_curve()) all.stop_after.push_back({last, 1, {}});
   return all;
 }
 
 /// One that has come to the last point of its kind goes no further.
 void settle(const ExtendedProblem& problem, Branch& half) {
-  if (half.stop == Stop::requested && half.points.back().type == problem.last_of_curve())
+  const std::vector<PointType> last = problem.last_of_curve();
+  if (half.stop == Stop::requested && std::count(last.begin(), last.end(), half.points.back().type) > 0)
     half.checkpoint.reset();
 }
 

@@ -1,9 +1,7 @@
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
 
 #include <cmath>
-#include <limits>
 
-#include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/orbit_observables.hpp"
 #include "arcslip/continuation/cycles/torus_problem.hpp"
@@ -115,32 +113,39 @@ bool CycleProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& r
   return values.size() > 0 && values.allFinite();
 }
 
-/// prod (1 + mu), each factor over 1 + |mu|.
-void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  const ComplexVector logs = log_multipliers(u, p, regime);
+namespace {
+
+/// prod (1 + sign mu), each factor over 1 + |mu|.
+double product_of(const ComplexVector& logs, double sign) {
   Complex product = 1;
   for (const Complex& log : logs) {
     const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
-    const Complex turn = std::polar(1.0, log.imag());
+    const Complex turn = sign * std::polar(1.0, log.imag());
     product *= (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
   }
-  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : product.real());
+  return product.real();
+}
+
+}  // namespace
+
+double fold_test(const ComplexVector& log_multipliers) {
+  return log_multipliers.size() == 0 ? std::nan("") : product_of(log_multipliers, -1);
+}
+
+Index count_beside_duration(const Problem& problem) {
+  const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
+  return problem.size() - (cycles != nullptr && cycles->has_duration() ? 1 : 0);
+}
+
+void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const ComplexVector logs = log_multipliers(u, p, regime);
+  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : product_of(logs, 1));
 }
 
 std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index active, const Guess& at,
                                                        Vector& extras) const {
-  if (type == PointType::period_doubling) return std::make_unique<DoublingProblem>(*this, active);
-  if (type != PointType::neimark_sacker) return nullptr;
-  const ComplexVector logs = log_multipliers(at.unknowns, at.parameters, at.regime);
-  double nearest = std::numeric_limits<double>::infinity();  // of all pairs to the unit circle
-  for (const Complex& log : logs) {
-    const bool is_pair = log.imag() > 0 && log.imag() < pi;
-    if (!is_pair || std::abs(log.real()) >= nearest) continue;
-    nearest = std::abs(log.real());
-    extras = Vector::Constant(1, std::cos(log.imag()));
-  }
-  if (!std::isfinite(nearest)) return nullptr;
-  return std::make_unique<TorusProblem>(*this, active);
+  return special_of_multipliers(*this, type, active, log_multipliers(at.unknowns, at.parameters, at.regime),
+                                extras);
 }
 
 std::vector<Observable> CycleProblem::observables() const {

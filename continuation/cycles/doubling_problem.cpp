@@ -1,20 +1,44 @@
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 
+#include <Eigen/LU>
+#include <cmath>
+
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
+
 namespace arcslip::continuation {
 
-DoublingProblem::DoublingProblem(const CycleProblem& base, Index active)
-    : SingularProblem(base, active, base.size() - (base.has_duration() ? 1 : 0)),
-      unknowns_(base.field().size()) {}
+DoublingProblem::DoublingProblem(const Problem& base, Index active)
+    : SingularProblem(base, active, count_beside_duration(base)),
+      cycles_(dynamic_cast<const CycleProblem*>(&base)) {}
 
 void DoublingProblem::fill(BorderedSolver& solver) const {
+  if (cycles_ == nullptr) {
+    solver.set_jacobian(Matrix(at_.jacobian() + 2 * Matrix::Identity(count_, count_)), scale_);
+    return;
+  }
   SparseMatrix twisted = at_.sparse_jacobian().topLeftCorner(count_, count_);
-  for (Index column = 0; column < unknowns_; ++column) {
+  const Index n = cycles_->field().size();
+  for (Index column = 0; column < n; ++column) {
     for (SparseMatrix::InnerIterator entry(twisted, column); entry; ++entry) {
-      if (entry.row() >= count_ - unknowns_) entry.valueRef() *= -1;
+      if (entry.row() >= count_ - n) entry.valueRef() *= -1;
     }
   }
   twisted.makeCompressed();
   solver.set_jacobian(twisted, scale_);
+}
+
+/// c over the size of its terms, and prod (1 - mu), each factor over 1 + |mu|, or a determinant.
+void DoublingProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const BasePoint point = split(u, p, regime);
+  const auto form =
+      multiplier_form(base(), PointType::period_doubling, {point.unknowns, point.parameters, regime, {}});
+  values.setConstant(2, std::nan(""));
+  if (form) values(0) = form->coefficient / form->terms;
+  if (cycles_ != nullptr) {
+    values(1) = fold_test(cycles_->log_multipliers(point.unknowns, point.parameters, regime));
+  } else if (at_.evaluate(point.unknowns, point.parameters, regime)) {
+    values(1) = at_.jacobian().determinant();
+  }
 }
 
 }  // namespace arcslip::continuation

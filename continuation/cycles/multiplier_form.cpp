@@ -129,6 +129,10 @@ class Factors {
     if (factors_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
     return factors_.solve(right);
   }
+  ComplexVector solve_adjoint(const ComplexVector& right) {
+    if (factors_.info() != Eigen::Success) return ComplexVector::Constant(right.size(), std::nan(""));
+    return factors_.adjoint().solve(right);
+  }
 
  private:
   Eigen::SparseLU<ComplexSparse> factors_;
@@ -144,12 +148,10 @@ NullVectors null_vectors(const ComplexSparse& matrix) {
   NullVectors found{continuation::spread(n, 1), continuation::spread(n, 2)};
   ComplexVector unit = ComplexVector::Zero(n + 1);
   unit(n) = 1;
-  const ComplexSparse transposed = matrix.adjoint();
-  for (int i = 0; i < 3; ++i) {  // inverse iteration
-    const ComplexVector b = found.left;
-    const ComplexVector c = found.right;
-    found.right = Factors(matrix, b, c).solve(unit).head(n).normalized();
-    found.left = Factors(transposed, c, b).solve(unit).head(n).normalized();
+  for (int i = 0; i < 2; ++i) {  // inverse iteration
+    Factors factors(matrix, found.left, found.right);
+    found.right = factors.solve(unit).head(n).normalized();
+    found.left = factors.solve_adjoint(unit).head(n).normalized();
   }
   return found;
 }
@@ -173,19 +175,21 @@ class Reduction {
     weight_ = multiplier * psi_.dot(rounds.turned(v_));
   }
 
-  /// c T
-  bool real(Expansion& expansion, double& coefficient) const {
+  /// c T, and the size of its terms
+  bool real(Expansion& expansion, Vector& found) const {
     Matrix u = curve_of(rounds_.point(), v_, 3);
     Vector term;
+    Vector direct;
+    if (!rounds_.series(expansion, u, direct)) return false;
     if (!rounds_.series(expansion, u.leftCols(3), term)) return false;
     u.col(2) = -Factors(rounds_.matrix(1, true)).solve(term.cast<Complex>()).real();
     if (!rounds_.series(expansion, u, term)) return false;
-    coefficient = cubic(term.cast<Complex>()).real();
-    return std::isfinite(coefficient);
+    found = told(term.cast<Complex>(), direct.cast<Complex>());
+    return true;
   }
 
-  /// d T
-  bool complex(Expansion& expansion, double& coefficient) const {
+  /// Re d T, and the size of its terms
+  bool complex(Expansion& expansion, Vector& found) const {
     ComplexVector steady = ComplexVector::Zero(rounds_.point().unknowns.size());
     ComplexVector turning = steady;
     Vector term;
@@ -201,19 +205,27 @@ class Reduction {
         -Factors(rounds_.matrix(multiplier_ * multiplier_, false)).solve(turning.head(rounds_.count()));
     constexpr int further = 4;
     ComplexVector third = ComplexVector::Zero(steady.size());
+    ComplexVector direct = third;
     for (int k = 0; k < further; ++k) {
       const Complex way = std::polar(1.0, pi * k / further);
       Matrix u = curve_of(rounds_.point(), 2.0 * way * v_, 3);
+      if (!rounds_.series(expansion, u, term)) return false;
+      direct += std::conj(way) / static_cast<double>(further) * term;
       u.col(2) = mean;
       u.col(2).head(twice.size()) += 2 * (way * way * twice).real();
       if (!rounds_.series(expansion, u, term)) return false;
       third += std::conj(way) / static_cast<double>(further) * term;
     }
-    coefficient = cubic(third).real();
-    return std::isfinite(coefficient);
+    found = told(third, direct);
+    return true;
   }
 
  private:
+  /// The coefficient and the size of what is direct and of what is by other orders.
+  Vector told(const ComplexVector& whole, const ComplexVector& direct) const {
+    return Eigen::Vector2d(cubic(whole).real(),
+                           std::abs(cubic(direct)) + std::abs(cubic(ComplexVector(whole - direct))));
+  }
   Complex cubic(const ComplexVector& term) const { return -psi_.dot(term.head(psi_.size())) / weight_; }
 
   const Rounds& rounds_;
@@ -224,7 +236,7 @@ class Reduction {
 };
 
 /// b T: of the whole matrix, in which T changes with w as well.
-bool at_fold(const Rounds& rounds, Expansion& expansion, double& coefficient) {
+bool at_fold(const Rounds& rounds, Expansion& expansion, Vector& coefficient) {
   const NullVectors found = null_vectors(rounds.matrix(1, true));
   ComplexVector v = found.right;
   v /= largest_entry(v);
@@ -236,8 +248,8 @@ bool at_fold(const Rounds& rounds, Expansion& expansion, double& coefficient) {
   if (!rounds.series(expansion, u, term)) return false;
   const ComplexVector psi = found.left;
   const Complex weight = psi.head(rounds.count()).dot(rounds.turned(v.head(rounds.count())));
-  coefficient = std::abs(psi.dot(term.cast<Complex>()) / weight);
-  return std::isfinite(coefficient);
+  coefficient = Vector::Constant(2, std::abs(psi.dot(term.cast<Complex>()) / weight));
+  return true;
 }
 
 /// That of the pair nearest to the unit circle; 0 without one.
@@ -256,7 +268,8 @@ Complex torus_multiplier(const Problem& problem, const Guess& at, double duratio
 
 }  // namespace
 
-std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at) {
+std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at,
+                                              double angle) {
   const bool is_cycle = dynamic_cast<const CycleProblem*>(&problem) != nullptr;
   const bool is_known =
       type == PointType::period_doubling || type == PointType::neimark_sacker || type == PointType::fold;
@@ -264,19 +277,24 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   const Rounds rounds(problem, at);
   if (!rounds.exists()) return std::nullopt;
   Complex multiplier = type == PointType::period_doubling ? -1 : 1;
-  if (type == PointType::neimark_sacker) multiplier = torus_multiplier(problem, at, rounds.duration());
+  if (type == PointType::neimark_sacker)
+    multiplier = angle > 0 ? std::polar(1.0, angle) : torus_multiplier(problem, at, rounds.duration());
   if (multiplier == 0.0) return std::nullopt;
   std::optional<Reduction> reduction;
   if (type != PointType::fold) reduction.emplace(rounds, multiplier);
   Vector numbers;
   const Estimated found = with_best_reach(problem, numbers, [&](Expansion& expansion, Vector& out) {
-    out.resize(1);
-    if (type == PointType::fold) return at_fold(rounds, expansion, out(0));
-    return type == PointType::period_doubling ? reduction->real(expansion, out(0))
-                                              : reduction->complex(expansion, out(0));
+    if (type == PointType::fold) return at_fold(rounds, expansion, out);
+    return type == PointType::period_doubling ? reduction->real(expansion, out)
+                                              : reduction->complex(expansion, out);
   });
   if (!found.exists) return std::nullopt;
-  return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration()};
+  Vector scale(problem.size());
+  Vector parameter_scale(at.parameters.size());
+  problem.scale(at.unknowns, at.parameters, scale, parameter_scale);
+  const double usual = 1 / (scale.head(rounds.count()).cwiseAbs2().maxCoeff() * rounds.duration());
+  return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration(),
+                        (numbers(1) + usual) / rounds.duration()};
 }
 
 }  // namespace arcslip::continuation

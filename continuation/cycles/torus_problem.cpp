@@ -2,19 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include "arcslip/continuation/cycles/doubling_problem.hpp"
+#include "arcslip/continuation/cycles/multiplier_form.hpp"
 
 namespace arcslip::continuation {
 
-TorusProblem::TorusProblem(const CycleProblem& base, Index active)
-    : PairProblem(base, active, base.size() - (base.has_duration() ? 1 : 0)),
-      unknowns_(base.field().size()) {}
+TorusProblem::TorusProblem(const Problem& base, Index active)
+    : PairProblem(base, active, count_beside_duration(base)),
+      cycles_(dynamic_cast<const CycleProblem*>(&base)) {}
 
 bool TorusProblem::is_turned(Index row, Index column) const {
-  return column < unknowns_ && row >= count_ - unknowns_;
+  const Index n = cycles_->field().size();
+  return column < n && row >= count_ - n;
 }
 
 void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
+  if (cycles_ == nullptr) {  // [A, b; -1, A - a], A = df/du
+    Matrix doubled = Matrix::Zero(2 * count_, 2 * count_);
+    doubled.topLeftCorner(count_, count_) = at_.jacobian() + Matrix::Identity(count_, count_);
+    doubled.bottomRightCorner(count_, count_) = at_.jacobian() + (1 - a) * Matrix::Identity(count_, count_);
+    doubled.topRightCorner(count_, count_).diagonal().setConstant(b);
+    doubled.bottomLeftCorner(count_, count_).diagonal().setConstant(-1);
+    solver.set_jacobian(doubled, scales);
+    return;
+  }
   const SparseMatrix& whole = at_.sparse_jacobian();
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(2 * whole.nonZeros()));
@@ -40,8 +54,9 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
 }
 
 Vector TorusProblem::turned(const Vector& x) const {
+  if (cycles_ == nullptr) return -x;
   Vector result = Vector::Zero(count_);
-  for (Index column = 0; column < unknowns_; ++column) {
+  for (Index column = 0; column < cycles_->field().size(); ++column) {
     for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry && entry.row() < count_;
          ++entry) {
       if (is_turned(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
@@ -50,10 +65,16 @@ Vector TorusProblem::turned(const Vector& x) const {
   return result;
 }
 
-void TorusProblem::test(const Vector& u, const Vector& /*p*/, const Regime& /*regime*/,
-                        Vector& values) const {
-  values.resize(2);
-  values << u(u.size() - 1) - 1, u(u.size() - 1) + 1;
+void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const BasePoint point = split(u, p, regime);
+  const double kappa = point.extras(0);
+  values.resize(5);
+  values << kappa - 1, kappa + 1, kappa + 0.5, kappa, std::nan("");
+  constexpr double surely = 1e-6;  // so near to where the pair meets its vectors are rounding
+  if (!(std::abs(kappa) < 1 - surely)) return;
+  const auto form = multiplier_form(base(), PointType::neimark_sacker,
+                                    {point.unknowns, point.parameters, regime, {}}, std::acos(kappa));
+  if (form) values(4) = form->coefficient / form->terms;  // jumps where terms have poles
 }
 
 std::vector<Observable> TorusProblem::observables() const {
@@ -67,6 +88,22 @@ void TorusProblem::observe(const Vector& u, const Vector& p, const Regime& regim
   ExtendedProblem::observe(u, p, regime, of_base);
   values.resize(of_base.size() + 1);
   values << of_base, std::acos(std::clamp(u(u.size() - 1), -1.0, 1.0));
+}
+
+std::unique_ptr<ExtendedProblem> special_of_multipliers(const Problem& problem, PointType type, Index active,
+                                                        const ComplexVector& log_multipliers,
+                                                        Vector& extras) {
+  if (type == PointType::period_doubling) return std::make_unique<DoublingProblem>(problem, active);
+  if (type != PointType::neimark_sacker) return nullptr;
+  double nearest = std::numeric_limits<double>::infinity();  // of all pairs to the unit circle
+  for (const Complex& log : log_multipliers) {
+    const bool is_pair = log.imag() > 0 && log.imag() < pi;
+    if (!is_pair || std::abs(log.real()) >= nearest) continue;
+    nearest = std::abs(log.real());
+    extras = Vector::Constant(1, std::cos(log.imag()));
+  }
+  if (!std::isfinite(nearest)) return nullptr;
+  return std::make_unique<TorusProblem>(problem, active);
 }
 
 }  // namespace arcslip::continuation

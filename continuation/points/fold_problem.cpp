@@ -1,5 +1,6 @@
 #include "arcslip/continuation/points/fold_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "arcslip/continuation/linear/borders.hpp"
@@ -24,6 +25,7 @@ double FoldProblem::quadratic(const BasePoint& point) const {
 }
 
 std::vector<PointType> FoldProblem::test_types() const {
+  if (base().has_multipliers()) return {PointType::cusp, PointType::fold_flip};
   if (!base().is_equilibrium()) return {PointType::cusp};
   return {PointType::cusp, PointType::bogdanov_takens};
 }
@@ -40,7 +42,16 @@ void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   // |b| is the size of dF/du D, so that w^T F_uu v v is a pure number
   if (second_.contract(point.unknowns, point.parameters, regime, w, v, none, row))
     values(0) = row.head(n).dot(v);
-  if (values.size() > 1) values(1) = w.dot(v) / (w.norm() * v.norm());
+  if (base().has_multipliers()) {
+    const std::vector<PointType> types = base().test_types();
+    const auto doubling = std::find(types.begin(), types.end(), PointType::period_doubling);
+    Vector of_base(std::ssize(types));
+    if (doubling == types.end()) return;
+    base().test(point.unknowns, point.parameters, regime, of_base);
+    values(1) = of_base(doubling - types.begin());
+  } else if (values.size() > 1) {
+    values(1) = w.dot(v) / (w.norm() * v.norm());
+  }
 }
 
 bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

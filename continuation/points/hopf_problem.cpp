@@ -76,7 +76,12 @@ void HopfProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   constexpr double surely = 1e-6;  // so near to where the pair meets at 0 its vectors are rounding
   if (!(kappa > surely * all.cwiseAbs2().maxCoeff())) return;
   const auto form = hopf_form(base(), {point.unknowns, point.parameters, regime}, std::sqrt(kappa));
-  if (form && form->terms > 0) values(1) = form->lyapunov / form->terms;  // jumps where terms have poles
+  if (!form) return;
+  Vector scale(count_);
+  Vector parameter_scale(point.parameters.size());
+  base().scale(point.unknowns, point.parameters, scale, parameter_scale);
+  const double usual = 1 / (scale.maxCoeff() * scale.maxCoeff());  // where its terms vanish all at once
+  values(1) = form->lyapunov / (form->terms + usual);              // jumps where terms have poles
 }
 
 }  // namespace arcslip::continuation

@@ -24,13 +24,19 @@ std::string_view to_string(PointType type) {
     case PointType::period_doubling: return "period_doubling";
     case PointType::symmetry_breaking: return "symmetry_breaking";
     case PointType::generalized_hopf: return "generalized_hopf";
-    case PointType::double_multiplier: return "double_multiplier";
+    case PointType::resonance_1_1: return "resonance_1_1";
+    case PointType::resonance_1_2: return "resonance_1_2";
+    case PointType::resonance_1_3: return "resonance_1_3";
+    case PointType::resonance_1_4: return "resonance_1_4";
+    case PointType::chenciner: return "chenciner";
+    case PointType::generalized_period_doubling: return "generalized_period_doubling";
+    case PointType::fold_flip: return "fold_flip";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::double_multiplier); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::fold_flip); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

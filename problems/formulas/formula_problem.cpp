@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "arcslip/continuation/cycles/torus_problem.hpp"
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
 #include "arcslip/interval/enclosed_tape.hpp"
 #include "numbers.hpp"
 #include "series_by.hpp"
@@ -140,6 +142,14 @@ void FormulaProblem::test(const Vector& u, const Vector& p, const Regime& /*regi
   if (!multipliers(u, p, jacobian)) return;
   jacobian.diagonal().array() += 1;
   values(0) = jacobian.determinant();
+}
+
+std::unique_ptr<continuation::ExtendedProblem> FormulaProblem::special(PointType type, Index active,
+                                                                       const continuation::Guess& at,
+                                                                       Vector& extras) const {
+  ComplexVector logs;
+  if (!is_map() || !eigenvalues(at.unknowns, at.parameters, at.regime, logs)) return nullptr;
+  return continuation::special_of_multipliers(*this, type, active, logs, extras);
 }
 
 std::vector<continuation::Observable> FormulaProblem::observables() const {

@@ -160,11 +160,11 @@ std::vector<TracedBranch> branches_across(const CurveRequest& asked, const CaseB
   const auto across = std::make_shared<CaseBranch>(first);
   if (asked.level)
     across->options.events.push_back(continuation::event_at(*asked.level, *subject.built.problem));
-  across->switching = asked.of_cycles;
+  const bool of_cycles = asked.of_cycles && !subject.built.problem->is_map();
+  across->switching = of_cycles;
   across->options.max_seconds = time.rest().max_seconds;
   std::vector<TracedBranch> traced = trace_branches(across, subject, TimeBudget(across->options), {});
-  if (asked.of_cycles)
-    std::erase_if(traced, [](const TracedBranch& one) { return cycles_of(one) == nullptr; });
+  if (of_cycles) std::erase_if(traced, [](const TracedBranch& one) { return cycles_of(one) == nullptr; });
   return traced;
 }
 

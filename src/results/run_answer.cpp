@@ -90,6 +90,13 @@ std::string plural_of(const Count& count) {
                                 std::pair{"zero_hopf", "zero-Hopf point"},
                                 std::pair{"hopf_hopf", "double Hopf point"},
                                 std::pair{"generalized_hopf", "generalised Hopf point"},
+                                std::pair{"resonance_1_1", "1:1 resonance"},
+                                std::pair{"resonance_1_2", "1:2 resonance"},
+                                std::pair{"resonance_1_3", "1:3 resonance"},
+                                std::pair{"resonance_1_4", "1:4 resonance"},
+                                std::pair{"chenciner", "Chenciner point"},
+                                std::pair{"generalized_period_doubling", "generalised period doubling"},
+                                std::pair{"fold_flip", "fold-flip point"},
                                 std::pair{"symmetry_breaking", "breaking of symmetry"}};
   std::string name = count.first;
   std::replace(name.begin(), name.end(), '_', ' ');

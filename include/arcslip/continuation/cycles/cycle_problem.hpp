@@ -45,6 +45,7 @@ class CycleProblem : public OrbitProblem {
   /// Of period doublings and of Neimark-Sacker points.
   std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
                                            Vector& extras) const override;
+  bool has_multipliers() const override { return true; }
   PointType pair_crossing() const override { return PointType::neimark_sacker; }
   std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
@@ -70,5 +71,11 @@ class CycleProblem : public OrbitProblem {
   static std::atomic<long> made_;
   long number_ = ++made_;  // which of them this is
 };
+
+/// prod (1 - mu) by the ln(mu), each factor over 1 + |mu|; nan without any.
+double fold_test(const ComplexVector& log_multipliers);
+
+/// How many unknowns a cycle has beside T; of another problem all.
+Index count_beside_duration(const Problem& problem);
 
 }  // namespace arcslip::continuation

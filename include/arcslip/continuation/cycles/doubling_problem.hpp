@@ -1,24 +1,31 @@
 #pragma once
 
-// Period doublings of cycles as an extended problem.
+// Period doublings of cycles and maps as an extended problem.
 
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "arcslip/continuation/points/singular_problem.hpp"
 
 namespace arcslip::continuation {
 
-/// Cycles with a multiplier -1: the variation v' = T f_u v with v(1) = -v(0) has a solution. The singular
-/// matrix is the Jacobian of the cycle without T and phase, with the sign of u(0) changed in u(1) = u(0).
+/// A multiplier -1. Of cycles the variation v' = T f_u v with v(1) = -v(0) has a solution: the singular
+/// matrix is the Jacobian of the cycle without T and phase, with the sign of u(0) changed in u(1) = u(0). Of
+/// a map f it is df/du + 1. Along a curve generalised period doublings and fold-flip points are found.
 class DoublingProblem : public SingularProblem {
  public:
-  /// `active` becomes an unknown. The base is kept by reference.
-  DoublingProblem(const CycleProblem& base, Index active);
+  /// Of a CycleProblem or of a map that is not sparse; `active` becomes an unknown. The base is kept by
+  /// reference.
+  DoublingProblem(const Problem& base, Index active);
+
+  std::vector<PointType> test_types() const override {
+    return {PointType::generalized_period_doubling, PointType::fold_flip};
+  }
+  void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
  protected:
   void fill(BorderedSolver& solver) const override;
 
  private:
-  Index unknowns_;  // of the field
+  const CycleProblem* cycles_;  // null of a map
 };
 
 }  // namespace arcslip::continuation

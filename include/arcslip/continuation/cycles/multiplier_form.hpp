@@ -27,11 +27,13 @@ namespace arcslip::continuation {
 struct MultiplierForm {
   double coefficient = 0;  ///< c, Re d, or |b|, whose sign is that of v
   double error = 0;        ///< estimated; 0 where derivatives are exact
+  double terms = 0;        ///< the sum of the sizes of what makes up c or d, and what is usual
 };
 
 /// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
-/// evaluated around it, where mu^3 = 1, and where a torus has no angle.
+/// evaluated around it, where mu^3 = 1, and where a torus has no angle. `angle` is theta, where it is known;
+/// 0: that of the pair nearest to the unit circle.
 [[nodiscard]] std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type,
-                                                            const Guess& at);
+                                                            const Guess& at, double angle = 0);
 
 }  // namespace arcslip::continuation

@@ -10,16 +10,21 @@ namespace arcslip::continuation {
 /// Cycles with a pair of multipliers z of modulus 1, z^2 = 2 kappa z - 1: v' = T f_u v with v(1) = z v(0) has
 /// a solution. Its matrix is the Jacobian of the cycle without T and phase, with z u(0) in place of u(0) in
 /// u(1) = u(0); e_0 = kappa = cos(theta), z = e^(j theta). It stays regular where kappa = 1 or -1; beyond
-/// these the pair is real, z and 1/z.
+/// these the pair is real, z and 1/z. Of a map f the matrix is df/du - z. Strong resonances are found along a
+/// curve, and Chenciner points.
 class TorusProblem : public PairProblem {
  public:
-  /// `active` becomes an unknown. The base is kept by reference.
-  TorusProblem(const CycleProblem& base, Index active);
+  /// Of a CycleProblem or of a map that is not sparse; `active` becomes an unknown. The base is kept by
+  /// reference.
+  TorusProblem(const Problem& base, Index active);
 
   /// There the pair meets at 1 or at -1.
-  std::optional<PointType> last_of_curve() const override { return PointType::double_multiplier; }
+  std::vector<PointType> last_of_curve() const override {
+    return {PointType::resonance_1_1, PointType::resonance_1_2};
+  }
   std::vector<PointType> test_types() const override {
-    return {PointType::double_multiplier, PointType::double_multiplier};
+    return {PointType::resonance_1_1, PointType::resonance_1_2, PointType::resonance_1_3,
+            PointType::resonance_1_4, PointType::chenciner};
   }
   void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   /// `angle`: theta, as far as the torus turns with each round.
@@ -35,7 +40,12 @@ class TorusProblem : public PairProblem {
  private:
   bool is_turned(Index row, Index column) const;  // by z
 
-  Index unknowns_;  // of the field
+  const CycleProblem* cycles_;  // null of a map
 };
+
+/// Of period doublings and Neimark-Sacker points: the extended problem, and the extras that it begins with,
+/// by the ln(mu) at the point; null where there is no such pair, and of other types.
+std::unique_ptr<ExtendedProblem> special_of_multipliers(const Problem& problem, PointType type, Index active,
+                                                        const ComplexVector& log_multipliers, Vector& extras);
 
 }  // namespace arcslip::continuation

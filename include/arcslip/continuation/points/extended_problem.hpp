@@ -58,8 +58,8 @@ class ExtendedProblem : public Problem {
   /// The observable of the base whose extrema the solutions are, if they are extrema.
   virtual std::optional<Index> extremum_of() const { return std::nullopt; }
 
-  /// The type of points at which a curve of these ends, if there is one.
-  virtual std::optional<PointType> last_of_curve() const { return std::nullopt; }
+  /// The types of points at which a curve of these ends.
+  virtual std::vector<PointType> last_of_curve() const { return {}; }
 
   /// Of the base so far, with its derivatives.
   long evaluations() const { return at_.evaluations() + own_evaluations(); }

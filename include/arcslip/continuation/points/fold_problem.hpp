@@ -8,7 +8,8 @@ namespace arcslip::continuation {
 
 /// Folds: dF/du singular.
 ///
-/// Along a curve of folds cusps are found, and of equilibria Bogdanov-Takens and zero-Hopf points.
+/// Along a curve of folds cusps are found, of equilibria Bogdanov-Takens and zero-Hopf points, of cycles and
+/// maps fold-flip points.
 class FoldProblem : public SingularProblem {
  public:
   /// `active` becomes an unknown. The base is kept by reference.

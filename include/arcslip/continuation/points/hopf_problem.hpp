@@ -16,7 +16,7 @@ class HopfProblem : public PairProblem {
   HopfProblem(const Problem& base, Index active);
 
   /// There the pair of eigenvalues meets at 0.
-  std::optional<PointType> last_of_curve() const override { return PointType::bogdanov_takens; }
+  std::vector<PointType> last_of_curve() const override { return {PointType::bogdanov_takens}; }
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
   /// kappa, and the first Lyapunov coefficient of the cycles that leave.

@@ -112,6 +112,9 @@ class Problem {
   /// Whether F(u, p) + u is a map of which the solutions are fixed points.
   virtual bool is_map() const { return false; }
 
+  /// Whether multipliers of one round tell stability: of maps, and of cycles on a mesh.
+  virtual bool has_multipliers() const { return is_map(); }
+
   /// The eigenvalues that tell stability at (u, p), in any order; false where there are none. The default
   /// takes those of an equilibrium's Jacobian, of a sparse one beyond 200 unknowns the 20 nearest to 0; a
   /// periodic solution has the rates of hill.hpp.

@@ -94,6 +94,11 @@ class FormulaProblem : public continuation::Problem {
   void test(const Vector& u, const Vector& p, const continuation::Regime& regime,
             Vector& values) const override;
 
+  /// Of a map those of period doublings and Neimark-Sacker points.
+  std::unique_ptr<continuation::ExtendedProblem> special(continuation::PointType type, Index active,
+                                                         const continuation::Guess& at,
+                                                         Vector& extras) const override;
+
   std::vector<continuation::Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const continuation::Regime& regime,
                Vector& values) const override;

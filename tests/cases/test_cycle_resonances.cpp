@@ -1,0 +1,206 @@
+// Points of codimension two on curves of special points of cycles and maps.
+
+#include "cycle_cases.hpp"
+
+namespace {
+
+using namespace arcslip;
+using namespace arcslip::testing;
+
+/// A round cycle, of which r is at rest where `radial` vanishes, with a pair (u, v) beside it that grows by
+/// `grow` along (cos t/2, sin t/2), of which Z is the part, and decays across it.
+std::string flipping_pair(const std::string& radial, const std::string& grow, const std::string& rest) {
+  return "[model.definitions]\nr = \"sqrt(x^2 + y^2)\"\ncc = \"(1 + x/r)/2\"\nss = \"(1 - x/r)/2\"\ncs = "
+         "\"y/r/2\"\nZZ = \"u^2*cc + 2*u*v*cs + v^2*ss\"\nradial = \"" +
+         radial + "\"\ngrow = \"" + grow +
+         "\"\nzc = \"u*cc + v*cs\"\nzs = \"u*cs + v*ss\"\n[model.equations]\nx = \"x*radial - y\"\ny = "
+         "\"y*radial + x\"\nu = \"grow*zc - (u - zc) - v/2\"\nv = \"grow*zs - (v - zs) + u/2\"\n" +
+         rest;
+}
+
+std::vector<double> at(const std::vector<TracedBranch>& all, PointType type, const std::string& name) {
+  return all_values_at(all, type, name);
+}
+
+const std::string torus_case = R"case(
+[model.definitions]
+s = "u^2 + v^2"
+r2 = "x^2 + y^2"
+grow = "mu + 0.7*(sqrt(r2) - 1) - k*s"
+[model.equations]
+x = "x*(1 - r2 + 0.6*s) - y"
+y = "y*(1 - r2 + 0.6*s) + x"
+u = "grow*u - w*v"
+v = "grow*v + w*u"
+[model.start]
+x = 1
+[cycles]
+settle = 30
+[branch]
+curve = "neimark_sacker"
+window = [-0.5, 0.5]
+)case";
+
+/// w -> mu w (1 + (-k + 0.5 1.2) |w|^2), in other coordinates.
+const std::string torus_map = R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.2
+w = 1.3
+k = 0.9
+[model.definitions]
+Y = "y - 0.4*x^2"
+Z = "z + 0.3*x*Y"
+s = "x^2 + Y^2"
+g = "(1 + p)*(1 - k*s + 0.5*Z)"
+xx = "g*(cos(w)*x - sin(w)*Y)"
+yy = "g*(sin(w)*x + cos(w)*Y)"
+zz = "Z/2 + 0.6*s"
+[model.equations]
+x = "xx"
+y = "yy + 0.4*xx^2"
+z = "zz - 0.3*xx*yy"
+[branch]
+curve = "neimark_sacker"
+window = [-0.2, 0.2]
+)case";
+
+}  // namespace
+
+TEST_CASE("Period doublings are generalised where their coefficient vanishes", "[cycles]") {
+  const auto all = traced_of(flipping_pair(
+      "1 - r^2 + 0.6*ZZ", "mu + 0.7*(r - 1) - k*ZZ",
+      "[model.parameters]\nmu = -0.5\nk = 0.9\n[model.start]\nx = 1\n[cycles]\nsettle = 30\n[branch]\ncurve "
+      "= "
+      "\"period_doubling\"\nparameters = [\"mu\", \"k\"]\nwindow = [-0.5, 0.5]\nfrom = -1\nto = 1\n"));
+  REQUIRE(all.size() == 1);
+  check_values(at(all, PointType::generalized_period_doubling, "k"), {0.7 * 0.3}, 1e-8);
+  CHECK(at(all, PointType::fold_flip, "k").empty());
+}
+
+TEST_CASE("A multiplier 1 on a curve of period doublings, and -1 on one of folds, are one point",
+          "[cycles]") {
+  const std::string rest =
+      "[model.parameters]\nmu = 0.5\nnu = -0.3\n[model.start]\nx = 1.3\n[cycles]\nsettle = 40\n";
+  const auto folds =
+      traced_of(flipping_pair("mu - (r^2 - 1)^2", "nu + 0.7*(r - 1) - 0.5*ZZ",
+                              rest + "[branch]\ncurve = \"cycle_fold\"\nparameters = [\"mu\", "
+                                     "\"nu\"]\nwindow = [0.5, -0.5]\nfrom = -0.3\nto = 0.4\n"));
+  check_values(at(folds, PointType::fold_flip, "nu"), {0}, 1e-8);
+  const auto flips =
+      traced_of(flipping_pair("mu - (r^2 - 1)^2", "nu + 0.7*(r - 1) - 0.5*ZZ",
+                              rest + "[branch]\ncurve = \"period_doubling\"\nparameters = [\"nu\", "
+                                     "\"mu\"]\nwindow = [-0.5, 0.5]\nfrom = 0.5\nto = -0.5\n"));
+  check_values(at(flips, PointType::fold_flip, "mu"), {0}, 1e-8);
+}
+
+TEST_CASE("Curves of tori of cycles pass their strong resonances", "[cycles]") {
+  const auto all = traced_of("[model.parameters]\nmu = -0.5\nw = 0.3\nk = 0.9\n" + torus_case +
+                             "parameters = [\"mu\", \"w\"]\nfrom = 0.05\nto = 0.45\n");
+  REQUIRE(all.size() == 1);
+  check_values(at(all, PointType::resonance_1_3, "w"), {1.0 / 3}, 1e-8);
+  check_values(at(all, PointType::resonance_1_4, "w"), {0.25}, 1e-8);
+  CHECK(at(all, PointType::resonance_1_1, "w").empty());
+  CHECK(at(all, PointType::chenciner, "w").empty());
+}
+
+TEST_CASE("Tori have a Chenciner point where their coefficient vanishes", "[cycles]") {
+  const auto all = traced_of("[model.parameters]\nmu = -0.5\nw = 0.3\nk = 0.9\n" + torus_case +
+                             "parameters = [\"mu\", \"k\"]\nfrom = -0.5\nto = 0.9\n");
+  REQUIRE(all.size() == 1);
+  check_values(at(all, PointType::chenciner, "k"), {0.7 * 0.3}, 1e-8);
+}
+
+TEST_CASE("Curves of tori end where the pair of multipliers meets", "[cycles]") {
+  const auto all = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+b = 0.5
+q = 0.3
+[model.equations]
+x = "y"
+y = "-b*x + q*y - 0.4*x^2*y + 0.3*x*y"
+[branch]
+curve = "neimark_sacker"
+parameters = ["b", "q"]
+window = [0.5, 1.5]
+from = -3
+to = 3
+)case");
+  REQUIRE(all.size() == 1);
+  for (const BranchPoint& point : all[0].branch.points)
+    CHECK_THAT(value(all[0], point, "b"), WithinAbs(1, 1e-9));
+  check_values(at(all, PointType::resonance_1_1, "q"), {2}, 1e-7);
+  check_values(at(all, PointType::resonance_1_2, "q"), {-2}, 1e-7);
+  check_values(at(all, PointType::resonance_1_3, "q"), {-1}, 1e-8);
+  check_values(at(all, PointType::resonance_1_4, "q"), {0}, 1e-8);
+}
+
+TEST_CASE("Curves of maps have the same points as those of cycles", "[cycles]") {
+  const auto turns = traced_of(torus_map + "parameters = [\"p\", \"w\"]\nfrom = 0.2\nto = 3.1\n");
+  REQUIRE(turns.size() == 1);
+  check_values(at(turns, PointType::resonance_1_3, "w"), {two_pi / 3}, 1e-8);
+  check_values(at(turns, PointType::resonance_1_4, "w"), {pi / 2}, 1e-8);
+  CHECK(at(turns, PointType::chenciner, "w").empty());
+  const auto bent = traced_of(torus_map + "parameters = [\"p\", \"k\"]\nfrom = 0.2\nto = 0.9\n");
+  REQUIRE(bent.size() == 1);
+  check_values(at(bent, PointType::chenciner, "k"), {0.6}, 1e-8);
+  // x -> -(1 + p) x + a x^2 + k x^3: c = -(a^2 + k)
+  const auto flips = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+k = 1
+[model.equations]
+x = "-(1 + p)*x + 0.7*x^2 + k*x^3"
+[branch]
+curve = "period_doubling"
+parameters = ["p", "k"]
+window = [-0.5, 0.5]
+from = -1
+to = 1
+)case");
+  REQUIRE(flips.size() == 1);
+  CHECK(at(flips, PointType::fold_flip, "k").empty());
+  check_values(at(flips, PointType::generalized_period_doubling, "k"), {-0.49}, 1e-8);
+}
+
+TEST_CASE("Coefficients that are one term vanish where it does", "[cycles]") {
+  const auto flips = traced_of(R"case(
+[model]
+kind = "map"
+[model.parameters]
+p = -0.5
+k = 0.7
+[model.equations]
+x = "-(1 + p)*x + k*x^3"
+[branch]
+curve = "period_doubling"
+parameters = ["p", "k"]
+window = [-0.5, 0.5]
+from = -1
+to = 1
+)case");
+  check_values(at(flips, PointType::generalized_period_doubling, "k"), {0}, 1e-8);
+  const auto hopf = traced_of(R"case(
+[model.parameters]
+mu = 0
+nu = -0.3
+[model.definitions]
+s = "x^2 + y^2"
+g = "mu + nu*s - s^2"
+[model.equations]
+x = "g*x - y"
+y = "x + g*y"
+[branch]
+curve = "hopf"
+parameters = ["mu", "nu"]
+window = [-0.5, 0.5]
+from = -0.5
+to = 1
+)case");
+  check_values(at(hopf, PointType::generalized_hopf, "nu"), {0}, 1e-8);
+}
