@@ -104,32 +104,8 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
 
 bool CycleProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                ComplexVector& values) const {
-  values = log_multipliers(u, p, regime);
-  for (Complex& value : values) {
-    value.real(std::max(value.real(), -1e3));  // of a multiplier that is 0
-    if (std::abs(value.imag()) == pi) value.imag(0);
-  }
-  values /= duration(u, p);
+  values = exponents(log_multipliers(u, p, regime), duration(u, p));
   return values.size() > 0 && values.allFinite();
-}
-
-namespace {
-
-/// prod (1 + sign mu), each factor over 1 + |mu|.
-double product_of(const ComplexVector& logs, double sign) {
-  Complex product = 1;
-  for (const Complex& log : logs) {
-    const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
-    const Complex turn = sign * std::polar(1.0, log.imag());
-    product *= (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
-  }
-  return product.real();
-}
-
-}  // namespace
-
-double fold_test(const ComplexVector& log_multipliers) {
-  return log_multipliers.size() == 0 ? std::nan("") : product_of(log_multipliers, -1);
 }
 
 Index count_beside_duration(const Problem& problem) {
@@ -139,7 +115,7 @@ Index count_beside_duration(const Problem& problem) {
 
 void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
   const ComplexVector logs = log_multipliers(u, p, regime);
-  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : product_of(logs, 1));
+  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : doubling_test(logs));
 }
 
 std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index active, const Guess& at,

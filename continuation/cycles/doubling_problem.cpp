@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/multiplier_form.hpp"
 
 namespace arcslip::continuation {

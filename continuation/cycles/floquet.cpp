@@ -130,4 +130,34 @@ ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const s
   return log_multipliers(reduced);
 }
 
+ComplexVector exponents(const ComplexVector& logs, double duration) {
+  ComplexVector values = logs;
+  for (Complex& value : values) {
+    value.real(std::max(value.real(), -1e3));  // of a multiplier that is 0
+    if (std::abs(value.imag()) == pi) value.imag(0);
+  }
+  return values / duration;
+}
+
+namespace {
+
+/// prod (1 + sign mu), each factor over 1 + |mu|.
+double product_of(const ComplexVector& logs, double sign) {
+  Complex product = 1;
+  for (const Complex& log : logs) {
+    const double other = std::exp(-std::abs(log.real()));  // the smaller of 1 and |mu|, over the larger
+    const Complex turn = sign * std::polar(1.0, log.imag());
+    product *= (log.real() > 0 ? turn + other : 1.0 + turn * other) / (1 + other);
+  }
+  return product.real();
+}
+
+}  // namespace
+
+double doubling_test(const ComplexVector& log_multipliers) { return product_of(log_multipliers, 1); }
+
+double fold_test(const ComplexVector& log_multipliers) {
+  return log_multipliers.size() == 0 ? std::nan("") : product_of(log_multipliers, -1);
+}
+
 }  // namespace arcslip::continuation

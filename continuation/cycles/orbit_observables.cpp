@@ -116,6 +116,12 @@ double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Reg
   return found.value;
 }
 
+std::vector<std::string> OrbitProblem::told_names() const {
+  std::vector<std::string> names = field_->names();
+  names.resize(static_cast<std::size_t>(told()));
+  return names;
+}
+
 double OrbitProblem::least_speed(const Vector& u, const Vector& p, const Regime& regime) const {
   const double length = duration(u, p);
   const Vector at = times(u, p, regime);

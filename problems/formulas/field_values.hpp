@@ -24,7 +24,7 @@ inline bool evaluate_field(const Tape& tape, double t, const Vector& u, const Ve
     return false;
   if (out.velocity != nullptr) *out.velocity = Eigen::Map<const Vector>(values.data(), n);
   const Eigen::Map<const Rows> rows(gradients.data(), differentiated ? n : 0, std::ssize(at));
-  if (out.by_unknowns != nullptr) *out.by_unknowns = rows.middleCols(1, n);
+  if (out.by_unknowns != nullptr) *out.by_unknowns = rows.middleCols(1, u.size());
   if (out.by_parameters != nullptr) *out.by_parameters = rows.rightCols(p.size());
   if (out.by_time != nullptr) *out.by_time = rows.leftCols(1);
   return true;

@@ -35,7 +35,7 @@ Tape tape_of(const FormulaSystem& system, const std::vector<Formula>& results, i
                  results,
                  {{time_name, "is the time, on which systems of kind \"forced\" alone may depend"}},
                  iterations};
-  if (system.kind == FormulaKind::forced) {
+  if (system.kind == FormulaKind::forced || system.kind == FormulaKind::piecewise) {
     set.refused.clear();
     set.definitions.push_back({time_name, "0"});
   }

@@ -7,6 +7,7 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/problems/formulas/formula_boundary.hpp"
 #include "arcslip/problems/formulas/formula_field.hpp"
+#include "arcslip/problems/formulas/formula_pieces.hpp"
 #include "arcslip/problems/library/model.hpp"
 
 namespace arcslip::problems {
@@ -56,6 +57,7 @@ std::string title_of(const FormulaSystem& system) {
     case FormulaKind::flow: return fmt::format("a flow of {}", names);
     case FormulaKind::forced: return fmt::format("a forced flow of {}", names);
     case FormulaKind::boundary: return fmt::format("a boundary value problem of {}", names);
+    case FormulaKind::piecewise: return fmt::format("a piecewise flow of {}", names);
     case FormulaKind::algebraic: return fmt::format("equations in {}", names);
     case FormulaKind::map:
       return fmt::format("a map of {}{}", names,
@@ -86,7 +88,8 @@ void add_cycles(const std::shared_ptr<const continuation::Field>& field, const T
 
 /// Its problem, guess and what it sets out from.
 void add_boundary(const std::shared_ptr<const FormulaBoundary>& field, LibraryModel& model) {
-  model.boundary = [field](const LibraryModel::Values& values, const continuation::OrbitOptions& options) {
+  model.orbit = [field](const LibraryModel::Values& values, const continuation::OrbitOptions& options,
+                        std::optional<double> /*settle*/) {
     const Index count = std::ssize(field->parameter_names());
     const Vector all = parameters_of(values, count + field->free());
     const Vector p = all.head(count);
@@ -105,9 +108,32 @@ void add_boundary(const std::shared_ptr<const FormulaBoundary>& field, LibraryMo
         field, mesh, Matrix::Zero(field->size(), mesh.nodes()),
         parameters_of(values, std::ssize(field->parameter_names())));
   };
-  model.guess = [start = model.boundary](const continuation::Problem& /*problem*/,
-                                         const LibraryModel::Values& values) {
-    return start(values, {}).guess;
+  model.guess = [start = model.orbit](const continuation::Problem& /*problem*/,
+                                      const LibraryModel::Values& values) {
+    return start(values, {}, std::nullopt).guess;
+  };
+}
+
+/// Its problem, guess and what it sets out from.
+void add_pieces(const std::shared_ptr<const FormulaPieces>& field, const Tape& start, LibraryModel& model) {
+  model.is_piecewise = true;
+  model.orbit = [field, start](const LibraryModel::Values& values, const continuation::OrbitOptions& options,
+                               std::optional<double> settle) {
+    const Vector p = parameters_of(values, std::ssize(values));
+    Vector u = Vector::Zero(field->size());
+    if (!start.evaluate(p.data(), u.data()))
+      throw std::invalid_argument("the guess of the start has no value at the parameters of the start");
+    return continuation::settled_pieces(field, u, p, settle, options);
+  };
+  model.build = [field](const LibraryModel::Values& values) {
+    const continuation::OrbitOptions options;
+    const continuation::OrbitMesh mesh(continuation::CollocationRule(options.degree), options.intervals);
+    return std::make_unique<continuation::PiecewiseCycle>(
+        field, mesh, Matrix::Ones((field->size() + 1) * field->pieces(), mesh.nodes()),
+        parameters_of(values, std::ssize(values)));
+  };
+  model.guess = [](const continuation::Problem& problem, const LibraryModel::Values& values) {
+    return continuation::Guess{Vector::Ones(problem.size()), parameters_of(values, std::ssize(values))};
   };
 }
 
@@ -119,6 +145,7 @@ void check_names(const FormulaSystem& system) {
   names.add(system.equations);
   names.add(system.definitions);
   names.add(system.observables);
+  names.add(system.pieces);
   if (system.interval) names.add(*system.interval, system.equations);
   for (const Formula& start : system.start) {
     const bool known = std::any_of(system.equations.begin(), system.equations.end(),
@@ -150,6 +177,10 @@ LibraryModel model_of(const FormulaSystem& system) {
     return model;
   }
   const Tape start = start_of(system);
+  if (system.kind == FormulaKind::piecewise) {
+    add_pieces(std::make_shared<const FormulaPieces>(system), start, model);
+    return model;
+  }
   if (system.kind == FormulaKind::forced) {
     model.is_driven = true;
     add_cycles(std::make_shared<const FormulaField>(system), start, model);

@@ -159,7 +159,7 @@ void check_all(const CaseBranch& branch, const TomlSection& section) {
   if (!branch.all_solutions) return;
   section.require("start", "the value of the parameter to find all solutions at");
   const problems::LibraryModel* model = branch.problem.model.get();
-  if (model != nullptr && (model->is_driven || model->boundary))
+  if (model != nullptr && (model->is_driven || model->orbit))
     section.fail("all_solutions", "not of orbits, which begin with the one next to a guess");
 }
 

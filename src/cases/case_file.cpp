@@ -60,7 +60,7 @@ ordered_json resolve(const TomlDocument& document, const CaseBranch& first,
   resolved.erase("study");
   resolve_system(document, first.problem, resolved);
   resolved["continuation"].update(continuation_keys().values(given));
-  if (resolved.contains("cycles") || asks_for_cycles(first) || is_boundary(first) ||
+  if (resolved.contains("cycles") || asks_for_cycles(first) || has_orbits_alone(first) ||
       (first.problem.model != nullptr && first.switching))
     fill(resolved["cycles"], cycles_keys().values(first));
   return resolved;

@@ -51,8 +51,8 @@ const OrbitProblem* orbits_of(const TracedBranch& traced) {
   return traced.curve ? nullptr : dynamic_cast<const OrbitProblem*>(traced.base.problem.get());
 }
 
-bool is_boundary(const CaseBranch& request) {
-  return request.problem.model != nullptr && request.problem.model->boundary;
+bool has_orbits_alone(const CaseBranch& request) {
+  return request.problem.model != nullptr && request.problem.model->orbit;
 }
 
 bool asks_for_cycles(const CaseBranch& request) {
@@ -104,8 +104,8 @@ std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Sub
   return told(request, std::move(branches), begun);
 }
 
-std::vector<TracedBranch> trace_boundary(const Request& request, const Subject& subject,
-                                         const TimeBudget& time, const continuation::Observer& observer) {
+std::vector<TracedBranch> trace_from_orbit(const Request& request, const Subject& subject,
+                                           const TimeBudget& time, const continuation::Observer& observer) {
   const Clock::time_point begun = Clock::now();
   problems::LibraryModel::Values values;
   for (const Setting& setting : request->problem.model->settings) {
@@ -115,7 +115,7 @@ std::vector<TracedBranch> trace_boundary(const Request& request, const Subject& 
   }
   OrbitStart start;
   try {
-    start = request->problem.model->boundary(values, request->cycles.options);
+    start = request->problem.model->orbit(values, request->cycles.options, request->cycles.settle);
   } catch (const std::invalid_argument& error) {
     return {unstarted(request, subject, error.what())};
   }

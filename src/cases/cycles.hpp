@@ -12,8 +12,8 @@ const continuation::CycleProblem* cycles_of(const TracedBranch& traced);
 /// The same of all whose solutions are orbits: cycles, and solutions of boundary value problems.
 const continuation::OrbitProblem* orbits_of(const TracedBranch& traced);
 
-/// Whether the branch is one of a boundary value problem.
-bool is_boundary(const CaseBranch& request);
+/// Whether the branch is one of a boundary value problem or of cycles made of pieces.
+bool has_orbits_alone(const CaseBranch& request);
 
 /// Whether the branch is one of cycles from its start on: by `settle`, or of a system that depends on time.
 bool asks_for_cycles(const CaseBranch& request);
@@ -33,8 +33,8 @@ std::vector<TracedBranch> trace_settled_cycles(const std::shared_ptr<const CaseB
                                                const continuation::Observer& observer);
 
 /// The branch of a boundary value problem from its guess; with `switching` all that can be reached from it.
-std::vector<TracedBranch> trace_boundary(const std::shared_ptr<const CaseBranch>& request,
-                                         const Subject& subject, const continuation::TimeBudget& time,
-                                         const continuation::Observer& observer);
+std::vector<TracedBranch> trace_from_orbit(const std::shared_ptr<const CaseBranch>& request,
+                                           const Subject& subject, const continuation::TimeBudget& time,
+                                           const continuation::Observer& observer);
 
 }  // namespace arcslip

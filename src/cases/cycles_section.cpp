@@ -13,7 +13,8 @@ const KeyTable<CaseBranch>& cycles_keys() {
   };
   const auto of_flow =
       only("only of flows by [model] or of the library", [](const CaseBranch& branch, const TomlSection&) {
-        return branch.problem.model != nullptr && !branch.problem.model->boundary;
+        const problems::LibraryModel* model = branch.problem.model.get();
+        return model != nullptr && (!model->orbit || model->is_piecewise);
       });
   const auto of_orbits =
       only("only of flows and boundary value problems by [model] or of the library",

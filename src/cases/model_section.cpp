@@ -13,6 +13,7 @@ namespace {
 
 using problems::FormulaKind;
 using problems::FormulaParameter;
+using problems::FormulaPiece;
 using problems::FormulaSystem;
 using problems::LibraryModel;
 using ModelKey = Key<FormulaSystem>;
@@ -53,12 +54,12 @@ std::string text_of(const TomlSection& section, const NamedNode& entry) {
   return fmt::format("{}", *number);
 }
 
-template <class Member>
-auto formulas(const char* key, Member member) {
-  return [=](FormulaSystem& system, const TomlSection& section) {
+template <class Owner>
+auto formulas(const char* key, std::vector<Formula> Owner::*member) {
+  return [=](Owner& owner, const TomlSection& section) {
     const TomlSection table = section.inside(key, "a table of formulas by names");
     for (const NamedNode& entry : in_order(table))
-      (system.*member).push_back({entry.key, text_of(table, entry), table.name(entry.key)});
+      (owner.*member).push_back({entry.key, text_of(table, entry), table.name(entry.key)});
   };
 }
 
@@ -117,6 +118,59 @@ void read_free(FormulaSystem& system, const TomlSection& section) {
   }
 }
 
+const KeyTable<FormulaPiece>& piece_keys() {
+  using PieceKey = Key<FormulaPiece>;
+  static const KeyTable<FormulaPiece> keys{
+      {PieceKey::special("equations", "table of formulas", "f for the unknowns of which it differs here",
+                         formulas("equations", &FormulaPiece::equations), otherwise("as of the model")),
+       PieceKey::special(
+           "until", "formula", "that vanishes where the piece ends",
+           [](FormulaPiece& piece, const TomlSection& section) {
+             section.require("until", "a formula as a string");
+             piece.until = {"until", text_of(section, {"until", section.table()->get("until")}),
+                            section.name("until")};
+           },
+           required),
+       PieceKey::special("reset", "table of formulas", "where unknowns jump to as the piece ends",
+                         formulas("reset", &FormulaPiece::reset), otherwise("none jumps"))}};
+  return keys;
+}
+
+void read_pieces(FormulaSystem& system, const TomlSection& section) {
+  const char* const expected = "a table with a table for each piece, by its name";
+  section.require("pieces", expected);
+  const TomlSection table = section.inside("pieces", expected);
+  for (const NamedNode& entry : in_order(table)) {
+    FormulaPiece piece{.name = entry.key, .place = table.name(entry.key)};
+    piece_keys().read(piece, table.inside(entry.key, "a table of equations, until and reset"));
+    system.pieces.push_back(std::move(piece));
+  }
+  if (system.pieces.empty()) section.mismatch("pieces", expected);
+}
+
+void read_cycle(FormulaSystem& system, const TomlSection& section) {
+  std::vector<std::string> names;
+  for (const FormulaPiece& piece : system.pieces) names.push_back(piece.name);
+  system.cycle =
+      section.texts("cycle", names, fmt::format("an array of pieces among {}", fmt::join(names, ", ")));
+  if (system.cycle.empty()) section.mismatch("cycle", "an array with at least one piece");
+}
+
+/// Of what is put together of pieces.
+std::vector<ModelKey> piecewise_keys() {
+  const auto of_pieces = only(
+      "only of kind = \"piecewise\"",
+      [](const FormulaSystem& system, const TomlSection&) { return system.kind == FormulaKind::piecewise; });
+  return {
+      ModelKey::special("pieces", "table of tables",
+                        "by name, in the order in which they follow each other, each with `until`, a "
+                        "formula that vanishes where it ends, and as it needs them `equations` that differ "
+                        "there and `reset`, where unknowns jump to at its end",
+                        read_pieces, required, of_pieces),
+      ModelKey::special("cycle", "list of names", "of pieces, as they follow each other in one period",
+                        read_cycle, of_pieces, otherwise("each once"))};
+}
+
 void read_period(FormulaSystem& system, const TomlSection& section) {
   section.require("period", "a formula as a string, or a number");
   system.period = {"period", text_of(section, {"period", section.table()->get("period")}),
@@ -159,14 +213,16 @@ const KeyTable<FormulaSystem>& model_keys() {
   const auto is_map = [](const FormulaSystem& system, const TomlSection&) {
     return system.kind == FormulaKind::map;
   };
-  const auto is_forced = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::forced;
+  const auto may_be_forced = [](const FormulaSystem& system, const TomlSection&) {
+    return system.kind == FormulaKind::forced || system.kind == FormulaKind::piecewise;
   };
   const auto is_flow = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind == FormulaKind::flow || system.kind == FormulaKind::forced;
+    return system.kind == FormulaKind::flow || system.kind == FormulaKind::forced ||
+           system.kind == FormulaKind::piecewise;
   };
   const auto has_points = [](const FormulaSystem& system, const TomlSection&) {
-    return system.kind != FormulaKind::forced && system.kind != FormulaKind::boundary;
+    return system.kind == FormulaKind::flow || system.kind == FormulaKind::map ||
+           system.kind == FormulaKind::algebraic;
   };
   static const KeyTable<FormulaSystem> keys{
       {ModelKey::choice(
@@ -175,14 +231,16 @@ const KeyTable<FormulaSystem>& model_keys() {
             {"forced", FormulaKind::forced},
             {"map", FormulaKind::map},
             {"algebraic", FormulaKind::algebraic},
-            {"boundary", FormulaKind::boundary}},
+            {"boundary", FormulaKind::boundary},
+            {"piecewise", FormulaKind::piecewise}},
            "what the equations are: u' = f with its equilibria and cycles, u' = f with the time "
            "t in f and its "
-           "cycles, u -> f and its fixed points, f = 0 without stability, or u' = f with conditions at the "
-           "ends of an interval",
+           "cycles, u -> f and its fixed points, f = 0 without stability, u' = f with conditions at the "
+           "ends of an interval, or cycles that are put together of pieces",
            ""),
-       ModelKey::special("period", "formula", "of f in t, by parameters", read_period, required,
-                         only("only of kind = \"forced\"", is_forced)),
+       ModelKey::special("period", "formula", "of f in t, by parameters; what is forced needs it",
+                         read_period, only("only of kind = \"forced\" or \"piecewise\"", may_be_forced),
+                         otherwise("nothing depends on t")),
        ModelKey("iterate", &FormulaSystem::iterate, within(1, problems::most_iterates),
                 "k: the points that are fixed after k steps of the map", only("only of maps", is_map)),
        ModelKey::special("parameters", "table of numbers",
@@ -199,19 +257,22 @@ const KeyTable<FormulaSystem>& model_keys() {
        ModelKey::special("observables", "table of formulas",
                          "columns beside the unknowns, whose extrema may be looked for",
                          formulas("observables", &FormulaSystem::observables),
-                         only("not of kind = \"forced\" or \"boundary\"", has_points)),
+                         only("not of kind = \"forced\", \"boundary\" or \"piecewise\"", has_points)),
        ModelKey::special(
            "start", "table of formulas or numbers",
            "a guess of the unknowns where the branch begins, by parameters and what is between the "
            "ends of an interval",
            formulas("start", &FormulaSystem::start), otherwise("0 of each"))},
-      boundary_keys()};
+      boundary_keys(),
+      piecewise_keys()};
   return keys;
 }
 
 FormulaSystem read_formulas(const TomlDocument& document) {
   FormulaSystem system;
-  model_keys().read(system, TomlSection(document, section_name));
+  const TomlSection section(document, section_name);
+  model_keys().read(system, section);
+  if (system.kind == FormulaKind::forced) section.require("period", "a formula as a string, or a number");
   return system;
 }
 

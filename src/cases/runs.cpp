@@ -41,7 +41,7 @@ Built build_library(const ProblemRequest& request) {
 std::vector<TracedBranch> trace_branches(const Request& request, const Subject& subject,
                                          const TimeBudget& time, const continuation::Observer& observer) {
   const continuation::Problem& problem = *subject.built.problem;
-  if (is_boundary(*request)) return trace_boundary(request, subject, time, observer);
+  if (has_orbits_alone(*request)) return trace_from_orbit(request, subject, time, observer);
   if (asks_for_cycles(*request)) return trace_settled_cycles(request, subject, time, observer);
   std::vector<Branch> branches;
   std::shared_ptr<const SolutionCount> solutions;

@@ -14,10 +14,8 @@ using continuation::OrbitProblem;
 std::string orbits_header(const TracedBranch& traced) {
   std::string text = "branch,point,type";
   if (const OrbitProblem* problem = orbits_of(traced)) {
-    std::vector<std::string> names = problem->field().names();
-    names.resize(static_cast<std::size_t>(problem->told()));
     text += "," + problem->time_name();
-    for (const std::string& name : names) text += "," + name;
+    for (const std::string& name : problem->told_names()) text += "," + name;
   }
   return text + "\n";
 }
@@ -29,7 +27,7 @@ std::string orbit_rows(std::size_t number, const TracedBranch& traced) {
   for (std::size_t i = 0; i < traced.branch.points.size(); ++i) {
     const continuation::BranchPoint& point = traced.branch.points[i];
     if (point.type == continuation::PointType::regular) continue;
-    const auto orbit = problem->orbit(point.unknowns).topRows(problem->told());
+    const Matrix orbit = problem->told_orbit(point.unknowns);
     const Vector times = problem->times(point.unknowns, point.parameters, point.regime);
     for (Index node = 0; node < orbit.cols(); ++node) {
       const auto out = std::back_inserter(text);

@@ -141,9 +141,9 @@ void add_normal_form(const TracedBranch& traced, const BranchPoint& point, order
 
 /// Of a cycle, the largest first; where a torus leaves it, by how much this turns in each period.
 void add_multipliers(const TracedBranch& traced, const BranchPoint& point, ordered_json& special) {
-  const continuation::CycleProblem* cycles = cycles_of(traced);
-  if (cycles == nullptr) return;
-  ComplexVector logs = cycles->log_multipliers(point.unknowns, point.parameters, point.regime);
+  const continuation::OrbitProblem* orbits = orbits_of(traced);
+  if (orbits == nullptr || orbits->pair_crossing() != PointType::neimark_sacker) return;
+  ComplexVector logs = orbits->log_multipliers(point.unknowns, point.parameters, point.regime);
   std::sort(logs.begin(), logs.end(), [](const Complex& a, const Complex& b) {
     return std::pair(-a.real(), -a.imag()) < std::pair(-b.real(), -b.imag());
   });

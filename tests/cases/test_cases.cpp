@@ -27,9 +27,9 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
     CHECK(run.traced.size() >= run.input.branches.size());
     for (const TracedBranch& one : run.traced) {
       INFO(one.branch.explanation);
-      const bool is_of_cycles =
-          dynamic_cast<const continuation::CycleProblem*>(one.base.problem.get()) != nullptr;
-      CHECK((one.branch.complete() || (is_of_cycles && is_end(one.branch.stop))));
+      const bool is_of_orbits =
+          dynamic_cast<const continuation::OrbitProblem*>(one.base.problem.get()) != nullptr;
+      CHECK((one.branch.complete() || (is_of_orbits && is_end(one.branch.stop))));
       const Stop first = one.branch.first_stop.value_or(Stop::reached_end);  // of what is traced both ways
       CHECK((first == Stop::reached_end || first == Stop::left_range || first == Stop::left_regime ||
              first == Stop::infinite_period || first == Stop::requested));

@@ -43,7 +43,7 @@ const std::string three_weights =
     "-1.3, 2.1] }, none = { dof = [1, 3], value = [0.0, 0.0] } }\n";
 
 /// The first branch of a case.
-TracedBranch traced_of(const std::string& path) {
+TracedBranch traced_on(const std::string& path) {
   return std::move(trace(read_case(path).branches[0]).front());
 }
 
@@ -55,7 +55,7 @@ std::pair<TracedBranch, TracedBranch> on_both_paths(std::uint64_t seed, const st
   write_matrices(s, folder);
   const std::string text = chain_text(s, "3", three_weights, branch);
   const std::string full = replaced(text, "model = \"sector\"\n", "model = \"sector\"\npath = \"full\"\n");
-  return {traced_of(folder.write("reduced.toml", text)), traced_of(folder.write("full.toml", full))};
+  return {traced_on(folder.write("reduced.toml", text)), traced_on(folder.write("full.toml", full))};
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ TEST_CASE("Weights give the sum of dofs, in every harmonic and as greatest value
     const TemporaryFolder folder;
     const SmallStructure s = chain_of(draw);
     write_matrices(s, folder);
-    const TracedBranch traced = traced_of(folder.write("case.toml", chain_text(s, "5", three_weights)));
+    const TracedBranch traced = traced_on(folder.write("case.toml", chain_text(s, "5", three_weights)));
     const auto& problem = dynamic_cast<const HarmonicResponse&>(traced.problem());
     const ComplexMatrix turns = turns_of(problem.system().orders, 1 << 16);
     double worst = 0;
@@ -98,7 +98,7 @@ TEST_CASE("Outputs by weights have exact gradients") {
     const TemporaryFolder folder;
     const SmallStructure s = chain_of(draw);
     write_matrices(s, folder);
-    const TracedBranch traced = traced_of(
+    const TracedBranch traced = traced_on(
         folder.write("case.toml", chain_text(s, harmonics,
                                              "weights = { strain = { dof = [1, 2, 3], value = [0.7, "
                                              "-1.3, 2.1] } }\n")));
@@ -114,8 +114,8 @@ TEST_CASE("A file of weights gives an output for each row") {
   folder.write("w.csv", "# dofs 1 to 3\nstrain, 0.7, -1.3, 2.1\n\n0,1e0,0 # the second\r\n");
   const std::string inline_text = chain_text(s, "3", three_weights);
   const std::string file_text = chain_text(s, "3", "output = [2]\nweights = \"w.csv\"\n");
-  const TracedBranch given = traced_of(folder.write("inline.toml", inline_text));
-  const TracedBranch read = traced_of(folder.write("file.toml", file_text));
+  const TracedBranch given = traced_on(folder.write("inline.toml", inline_text));
+  const TracedBranch read = traced_on(folder.write("file.toml", file_text));
   REQUIRE(read.branch.points.size() == given.branch.points.size());
   for (std::size_t k = 0; k < read.branch.points.size(); k += 11) {
     const BranchPoint& a = read.branch.points[k];
@@ -143,7 +143,7 @@ TEST_CASE("Peaks of an output in time are where a branch close by is lower on bo
   const SmallStructure s = chain_of(draw);
   write_matrices(s, folder);
   const std::string wanted = "extrema_of = [\"Y_strain_peak\"]\n";
-  const TracedBranch traced = traced_of(folder.write("case.toml", chain_text(s, "3", three_weights, wanted)));
+  const TracedBranch traced = traced_on(folder.write("case.toml", chain_text(s, "3", three_weights, wanted)));
   double highest = 0;
   for (const BranchPoint& point : traced.branch.points)
     highest = std::max(highest, value(traced, point, "Y_strain_peak"));

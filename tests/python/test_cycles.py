@@ -125,3 +125,22 @@ def test_a_fault_in_a_function_of_time_is_raised():
 
     with pytest.raises(RuntimeError, match="late"):
         arcslip.trace_cycles(fails, [0.0], 0.5, "W", range=(0.5, 2), period="2*pi/W")
+
+
+def test_pieces_follow_each_other():
+    model = arcslip.Model(
+        {"x": "v", "v": "mu_d - x"},
+        {"belt": 0.5, "mu_s": 0.6, "mu_d": 0.4},
+        {"x": "mu_s", "v": "belt"},
+        kind="piecewise",
+        pieces={"slip": {"until": "v - belt"}, "stick": {"equations": {"v": 0}, "until": "x - mu_s"}},
+    )
+    (branch,) = arcslip.trace_cycles(model, parameter="mu_s", range=(0.6, 0.9), degree=7)
+    d = branch["mu_s"] - 0.4
+    np.testing.assert_allclose(branch["T_slip"], np.pi + 2 * np.arctan(0.5 / d), atol=1e-7)
+    np.testing.assert_allclose(branch["T_stick"], 2 * d / 0.5, atol=1e-7)
+    assert abs(branch.multipliers(0)).max() < 1e-12
+    with pytest.raises(ValueError, match="pieces.slip: expected until"):
+        arcslip.Model({"x": "1"}, {"a": 1}, kind="piecewise", pieces={"slip": {"reset": {"x": 0}}})
+    with pytest.raises(ValueError, match="cycle: there is no 'b' among a"):
+        arcslip.Model({"x": "1"}, {"a": 1}, kind="piecewise", pieces={"a": {"until": "x - 1"}}, cycle=["b"])

@@ -150,7 +150,7 @@ class Model(Problem):
         definitions: Mapping[str, str | float] | None = None,
         observables: Mapping[str, str | float] | None = None,
         *,
-        kind: Literal["flow", "forced", "map", "algebraic", "boundary"] = "flow",
+        kind: Literal["flow", "forced", "map", "algebraic", "boundary", "piecewise"] = "flow",
         iterate: int = 1,
         period: str | float | None = None,
         angles: Sequence[str] = (),
@@ -158,6 +158,8 @@ class Model(Problem):
         conditions: Sequence[str | float] = (),
         integrals: Sequence[str | float] = (),
         free: Sequence[str] = (),
+        pieces: Mapping[str, Mapping[str, Any]] | None = None,
+        cycle: Sequence[str] = (),
     ) -> None: ...
     def residual(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...
     def jacobian(self, u: ArrayLike, p: Mapping[str, float] | ArrayLike) -> _Array: ...

@@ -5,12 +5,12 @@ import numpy as np
 from . import _core
 from ._problem import Problem
 
-_KINDS = ("flow", "forced", "map", "algebraic", "boundary")
+_KINDS = ("flow", "forced", "map", "algebraic", "boundary", "piecewise")
 
 
 class Model(Problem):
-    """u' = f(u, p), u' = f(t, u, p), u -> f(u, p), f(u, p) = 0 or a boundary value problem, with f as formulas, like
-    `[model]` of case files.
+    """u' = f(u, p), u' = f(t, u, p), u -> f(u, p), f(u, p) = 0, a boundary value problem or a flow made of pieces, with
+    f as formulas, like `[model]` of case files.
 
     It stands where a `Problem` may. Derivatives, the second ones too, are exact, and nothing is called in Python while
     a branch is traced. `trace` needs neither u0 nor p0 then: a branch begins at the first value of its range, with the
@@ -28,11 +28,11 @@ class Model(Problem):
         Formulas by names that equations and observables may use, in any order.
     observables : dict, optional
         Formulas by names: further columns.
-    kind : {"flow", "forced", "map", "algebraic", "boundary"}
-        A flow has equilibria, Hopf points and cycles, one that is forced cycles alone, a map fixed points and period
-        doublings. A boundary value problem is for `trace_boundary`.
+    kind : {"flow", "forced", "map", "algebraic", "boundary", "piecewise"}
+        A flow has equilibria, Hopf points and cycles, one that is forced or made of pieces cycles alone, a map fixed
+        points and period doublings. A boundary value problem is for `trace_boundary`.
     period : str or number, optional
-        Of what is forced: the period of f in the time t, as a formula of the parameters.
+        Of what is forced, and of pieces with the time t in them: the period of f in t, as a formula of the parameters.
     angles : sequence of str
         Unknowns of which whole turns, 2 pi, do not matter: cycles of a flow may go round.
     iterate : int
@@ -45,6 +45,12 @@ class Model(Problem):
         integral over the interval vanishes. As many as there are unknowns and free parameters.
     free : sequence of str
         Parameters that these conditions set, from guesses in `parameters`.
+    pieces : dict, optional
+        Of kind "piecewise" a dict for each piece by its name, in the order in which they follow each other: `until`, a
+        formula that vanishes where it ends, and as it needs them `equations` that differ there and `reset`, where
+        unknowns jump to at its end.
+    cycle : sequence of str
+        The pieces as they follow each other in one period, where this is not each once.
 
     Attributes
     ----------
@@ -57,13 +63,13 @@ class Model(Problem):
         A formula cannot be read: which one, where, and what was expected.
     """
 
-    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=(), interval=None, conditions=(), integrals=(), free=()):
+    def __init__(self, equations, parameters, start=None, definitions=None, observables=None, *, kind="flow", iterate=1, period=None, angles=(), interval=None, conditions=(), integrals=(), free=(), pieces=None, cycle=()):
         if kind not in _KINDS:
             raise ValueError(f"kind: expected one of {', '.join(_KINDS)}, got {kind!r}")
         if iterate != int(iterate) or not 1 <= iterate <= 100 or (iterate > 1 and kind != "map"):
             raise ValueError(f"iterate: expected an integer from 1 to 100, and more than 1 only of maps, got {iterate!r}")
-        if (period is None) == (kind == "forced"):
-            raise ValueError(f"period: expected a formula or a number of kind \"forced\", and of no other, got {period!r}")
+        if kind != "piecewise" and (period is None) == (kind == "forced"):
+            raise ValueError(f'period: expected a formula or a number of kind "forced", one or none of "piecewise", and of no other, got {period!r}')
         if not equations:
             raise ValueError("equations: expected a formula for each unknown, got none")
         wrong = [name for name in angles if name not in equations]
@@ -81,6 +87,7 @@ class Model(Problem):
             None if period is None else _texts("model", {"period": period})[0][1],
             list(angles),
             _conditions(kind, self.values, interval, conditions, integrals, free),
+            _pieces(kind, pieces, cycle),
         )
         self.kind = kind
         self.iterate = int(iterate)
@@ -143,6 +150,28 @@ def _conditions(kind, parameters, interval, conditions, integrals, free):
     texts = [[text for _, text in _texts(name, dict(enumerate(given[name])))] for name in ("conditions", "integrals")]
     ends = [text for _, text in _texts(f"interval.{variable}", dict(enumerate(ends)))]
     return ((str(variable), *ends), *texts, list(free))
+
+
+def _pieces(kind, pieces, cycle):
+    """How they follow each other; None of kinds that have none."""
+    if kind != "piecewise":
+        for name, value in {"pieces": pieces, "cycle": cycle}.items():
+            if value:
+                raise ValueError(f'{name}: only of kind "piecewise", got {value!r}')
+        return None
+    if not pieces or not isinstance(pieces, dict):
+        raise ValueError(f"pieces: expected a dict for each piece, by its name, got {pieces!r}")
+    made = []
+    for name, piece in pieces.items():
+        unknown = [key for key in piece if key not in ("equations", "until", "reset")]
+        if unknown or "until" not in piece:
+            raise ValueError(f"pieces.{name}: expected until, and equations and reset where they are needed, got {', '.join(piece)}")
+        texts = [_texts(f"pieces.{name}.{key}", piece.get(key)) for key in ("equations", "reset")]
+        made.append((str(name), texts[0], _texts(f"pieces.{name}", {"until": piece["until"]})[0][1], texts[1]))
+    wrong = [name for name in cycle if name not in pieces]
+    if wrong:
+        raise ValueError(f"cycle: there is no '{wrong[0]}' among {', '.join(pieces)}")
+    return made, list(cycle)
 
 
 def _number(name, value):

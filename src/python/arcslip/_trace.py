@@ -160,7 +160,8 @@ def trace_cycles(
     """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
 
     Without `settle` those that leave the Hopf points of the branch of equilibria next to u0, each once. A Model of kind
-    "forced", and a function f(t, u, p) with a `period`, has no equilibria: its cycles have the period of the load.
+    "forced", and a function f(t, u, p) with a `period`, has no equilibria: its cycles have the period of the load. A
+    Model of kind "piecewise" has none either: its cycle is the one that the motion from its `start` comes to.
 
     Parameters
     ----------
@@ -168,7 +169,7 @@ def trace_cycles(
         As `trace` takes them; f is the right-hand side of u' = f.
     settle : float, optional
         Begin with the cycle that the motion from u0 has come to after this time. Of what is forced fifty periods if it
-        is not given.
+        is not given, of pieces two hundred of them.
     period : str or number, optional
         Of a function f(t, u, p) its period in the time t, as a formula of the parameters: "2*pi/W".
     follow : bool
@@ -195,6 +196,13 @@ def trace_cycles(
     elif not isinstance(problem, Problem):
         functions = {"equilibrium": True, **(functions or {})}
     problem = _problem(problem, functions or {})
+    if settle is not None and not float(settle) > 0:
+        raise ValueError(f"settle: expected a number > 0, got {settle!r}")
+    held = _held(intervals, degree, orbit_tolerance, doublings, max_branches)
+    if getattr(problem, "kind", "") == "piecewise":
+        if u0 is not None:
+            raise ValueError(f"u0: a motion through pieces begins at the start of its Model, got {u0!r}")
+        return _orbits(problem, p0, parameter, range, settle, False, held, options, progress)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0)
     options["parameter"] = prepared.parameter
@@ -202,9 +210,6 @@ def trace_cycles(
     forced = getattr(problem, "kind", "") == "forced"
     if not (forced or is_driven or problem.equilibrium):
         raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
-    if settle is not None and not float(settle) > 0:
-        raise ValueError(f"settle: expected a number > 0, got {settle!r}")
-    held = _held(intervals, degree, orbit_tolerance, doublings, max_branches)
     formulas = problem._formulas if forced else None
     cores = _core.trace_cycles(
         prepared.core, formulas, prepared.u0, prepared.p0, settle, None if period is None else str(period), bool(follow),
@@ -240,13 +245,18 @@ def trace_boundary(
     """
     if getattr(problem, "kind", "") != "boundary":
         raise ValueError(f'problem: expected a Model of kind "boundary", got {problem!r}')
+    held = _held(intervals, degree, orbit_tolerance, 0, max_branches)
+    return _orbits(problem, p0, parameter, range, None, follow, held, options, progress)
+
+
+def _orbits(problem, p0, parameter, range, settle, follow, held, options, progress):
+    """Branches of a Model that has orbits alone, without equilibria."""
     u0, p0 = problem._begin(None, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, 0)
     options["parameter"] = prepared.parameter
     how, options["range"] = _way(prepared, range)
-    held = _held(intervals, degree, orbit_tolerance, 0, max_branches)
-    cores = _core.trace_boundary(
-        prepared.core, problem._formulas, prepared.p0, bool(follow), how, options, held, progress
+    cores = _core.trace_orbit(
+        prepared.core, problem._formulas, prepared.p0, settle, bool(follow), how, options, held, progress
     )
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 

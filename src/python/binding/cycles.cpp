@@ -80,10 +80,12 @@ Handles trace_cycles(const std::shared_ptr<PythonProblem>& problem, const py::ob
   return handles_of(problem, options, branches);
 }
 
-/// The branch of a boundary value problem from its guess and, with `follow`, all that can be reached from it.
-Handles trace_boundary(const std::shared_ptr<PythonProblem>& problem, const Formulas& formulas,
-                       const py::handle& p, bool follow, const std::string& how, const py::dict& given,
-                       const py::dict& held, const py::object& progress) {
+/// The branch of what has orbits alone from its guess, or what motions come to, and, with `follow`, all that
+/// can be reached from it.
+Handles trace_orbit(const std::shared_ptr<PythonProblem>& problem, const Formulas& formulas,
+                    const py::handle& p, const std::optional<double>& settle, bool follow,
+                    const std::string& how, const py::dict& given, const py::dict& held,
+                    const py::object& progress) {
   continuation::TraceOptions options;
   set_options(given, problem, options);
   const continuation::OrbitOptions orbits = held_on(held);
@@ -91,9 +93,9 @@ Handles trace_boundary(const std::shared_ptr<PythonProblem>& problem, const Form
   Vector values(std::ssize(names));
   take(p, "p0", values);
   problems::LibraryModel::Values settings;
-  for (const Setting& setting : formulas.boundary->settings)
+  for (const Setting& setting : formulas.orbits->settings)
     settings.push_back(values(continuation::index_of(names, setting.name)));
-  continuation::OrbitStart start = formulas.boundary->boundary(settings, orbits);
+  continuation::OrbitStart start = formulas.orbits->orbit(settings, orbits, settle);
   continuation::index_of(start.problem->parameter_names(), options.parameter);
   start.both_ways = how == "both";
   const auto branches = in_engine(options, progress, [&](const auto& observer) {
@@ -103,39 +105,32 @@ Handles trace_boundary(const std::shared_ptr<PythonProblem>& problem, const Form
   return handles_of(problem, options, branches);
 }
 
-/// Throws py::value_error that begins with what is asked for of others than cycles.
-const continuation::CycleProblem& cycles_in(const BranchHandle& handle, const char* asked) {
-  const continuation::CycleProblem* cycles = cycles_of(handle.traced());
-  if (cycles == nullptr) throw py::value_error(std::string(asked) + ": only of branches of cycles");
-  return *cycles;
-}
-
 /// The orbit of a point: what its times are called, these, unknowns x times, their names.
 py::tuple orbit_of(const BranchHandle& handle, std::size_t i) {
   const continuation::OrbitProblem* orbits = orbits_of(handle.traced());
   if (orbits == nullptr)
     throw py::value_error("orbit: only of branches of cycles and of boundary value problems");
   const continuation::BranchPoint& point = handle.point(i);
-  std::vector<std::string> names = orbits->field().names();
-  names.resize(static_cast<std::size_t>(orbits->told()));
   return py::make_tuple(orbits->time_name(),
                         give(orbits->times(point.unknowns, point.parameters, point.regime)),
-                        give(Matrix(orbits->orbit(point.unknowns).topRows(orbits->told()))), names);
+                        give(orbits->told_orbit(point.unknowns)), orbits->told_names());
 }
 
 /// The Floquet multipliers of a point as their logarithms.
 py::array log_multipliers_of(const BranchHandle& handle, std::size_t i) {
-  const continuation::CycleProblem& cycles = cycles_in(handle, "multipliers");
+  const continuation::OrbitProblem* orbits = orbits_of(handle.traced());
+  if (orbits == nullptr || orbits->pair_crossing() != continuation::PointType::neimark_sacker)
+    throw py::value_error("multipliers: only of branches of cycles");
   const continuation::BranchPoint& point = handle.point(i);
   return give(
-      handle.heard([&] { return cycles.log_multipliers(point.unknowns, point.parameters, point.regime); }));
+      handle.heard([&] { return orbits->log_multipliers(point.unknowns, point.parameters, point.regime); }));
 }
 
 }  // namespace
 
 void bind_cycles(py::module_& module) {
   module.def("trace_cycles", trace_cycles);
-  module.def("trace_boundary", trace_boundary);
+  module.def("trace_orbit", trace_orbit);
   module.def("orbit_of", orbit_of);
   module.def("log_multipliers_of", log_multipliers_of);
 }

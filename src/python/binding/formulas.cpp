@@ -21,6 +21,7 @@ std::vector<Formula> formulas_of(const std::string& name, const Texts& texts) {
 FormulaKind kind_named(const std::string& name) {
   if (name == "forced") return FormulaKind::forced;
   if (name == "boundary") return FormulaKind::boundary;
+  if (name == "piecewise") return FormulaKind::piecewise;
   return name == "map" ? FormulaKind::map : name == "flow" ? FormulaKind::flow : FormulaKind::algebraic;
 }
 
@@ -48,11 +49,27 @@ void set_conditions(const Conditions& given, FormulaSystem& system) {
   system.free = free;
 }
 
+/// How pieces follow each other, as Model gives it: (name, equations, until, reset) of each, names in order.
+using Piece = std::tuple<std::string, Texts, std::string, Texts>;
+using Pieces = std::pair<std::vector<Piece>, std::vector<std::string>>;
+
+void set_pieces(const Pieces& given, FormulaSystem& system) {
+  for (const auto& [name, equations, until, reset] : given.first) {
+    const std::string place = "pieces." + name;
+    system.pieces.push_back({.name = name,
+                             .equations = formulas_of(place + ".equations", equations),
+                             .until = {"until", until, place + ".until"},
+                             .reset = formulas_of(place + ".reset", reset),
+                             .place = place});
+  }
+  system.cycle = given.second;
+}
+
 Formulas made(const std::string& kind, int iterate,
               const std::vector<std::pair<std::string, double>>& numbers, const Texts& definitions,
               const Texts& equations, const Texts& observables, const Texts& start,
               const std::optional<std::string>& period, const std::vector<std::string>& angles,
-              const std::optional<Conditions>& conditions) {
+              const std::optional<Conditions>& conditions, const std::optional<Pieces>& pieces) {
   FormulaSystem system{.kind = kind_named(kind), .iterate = iterate};
   system.angles = angles;
   if (period) system.period = Formula{"period", *period};
@@ -63,13 +80,12 @@ Formulas made(const std::string& kind, int iterate,
   system.start = formulas_of("start", start);
   std::shared_ptr<const problems::FormulaField> forced;
   if (system.kind == FormulaKind::forced) forced = std::make_shared<const problems::FormulaField>(system);
-  std::optional<problems::LibraryModel> boundary;
-  if (conditions) {
-    set_conditions(*conditions, system);
-    boundary = problems::model_of(system);
-  }
+  if (conditions) set_conditions(*conditions, system);
+  if (pieces) set_pieces(*pieces, system);
+  std::optional<problems::LibraryModel> orbits;
+  if (conditions || pieces) orbits = problems::model_of(system);
   return {std::make_shared<const problems::FormulaProblem>(system), forced, problems::start_of(system),
-          boundary};
+          orbits};
 }
 
 /// What it is called with, as the problem takes it.

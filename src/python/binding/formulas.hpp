@@ -18,7 +18,7 @@ struct Formulas {
       problem;                                           ///< of what is forced at t = 0, else at the left end
   std::shared_ptr<const problems::FormulaField> forced;  ///< else null
   Tape start;                                            ///< of the unknowns, by parameters
-  std::optional<problems::LibraryModel> boundary;        ///< of a boundary value problem
+  std::optional<problems::LibraryModel> orbits;          ///< of what has orbits alone, no equilibria
 };
 
 void bind_formulas(py::module_& module);

@@ -37,7 +37,7 @@ class CycleProblem : public OrbitProblem {
 
   /// ln(mu) of the multipliers; empty where there are none. What a thread was told last is known when it asks
   /// again.
-  ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
+  ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
 
   /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
@@ -71,9 +71,6 @@ class CycleProblem : public OrbitProblem {
   static std::atomic<long> made_;
   long number_ = ++made_;  // which of them this is
 };
-
-/// prod (1 - mu) by the ln(mu), each factor over 1 + |mu|; nan without any.
-double fold_test(const ComplexVector& log_multipliers);
 
 /// How many unknowns a cycle has beside T; of another problem all.
 Index count_beside_duration(const Problem& problem);

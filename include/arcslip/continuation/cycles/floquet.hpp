@@ -21,4 +21,14 @@ ComplexVector log_multipliers(const std::vector<Matrix>& factors);
 /// its length, one more than there are factors, the last a multiple of the first.
 ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const std::vector<Vector>& along);
 
+/// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0: what crosses the imaginary axis where |mu|
+/// = 1.
+ComplexVector exponents(const ComplexVector& logs, double duration);
+
+/// prod (1 + mu), each factor over 1 + |mu|: 0 at period doublings.
+double doubling_test(const ComplexVector& log_multipliers);
+
+/// prod (1 - mu), each factor over 1 + |mu|; nan without any.
+double fold_test(const ComplexVector& log_multipliers);
+
 }  // namespace arcslip::continuation

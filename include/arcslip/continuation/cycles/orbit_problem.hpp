@@ -77,6 +77,16 @@ class OrbitProblem : public Problem {
   virtual std::string time_name() const { return "t"; }
   virtual Index told() const { return field_->size(); }
 
+  /// What is told of an orbit at these times: names, and values of as many unknowns x times.
+  virtual std::vector<std::string> told_names() const;
+  virtual Matrix told_orbit(const Vector& u) const { return orbit(u).topRows(told()); }
+
+  /// ln(mu) of the Floquet multipliers; empty where there are none.
+  virtual ComplexVector log_multipliers(const Vector& /*u*/, const Vector& /*p*/,
+                                        const Regime& /*regime*/) const {
+    return {};
+  }
+
   /// The same for another orbit, at parameters p.
   virtual std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                               const Vector& p) const = 0;

@@ -7,6 +7,7 @@
 //   map        u -> f(u, p)      f(f(... u)) - u = 0, stable where all multipliers have |mu| < 1
 //   algebraic  f(u, p) = 0       without stability
 //   boundary   u' = f(x, u, p)   with conditions, see formula_boundary.hpp
+//   piecewise  u' = f_k(u, p)    up to a border, then k + 1, see formula_pieces.hpp
 //
 // Derivatives, the second ones too, are exact.
 
@@ -21,7 +22,7 @@
 namespace arcslip::problems {
 
 /// What the formulas are the right-hand side of.
-enum class FormulaKind { flow, forced, map, algebraic, boundary };
+enum class FormulaKind { flow, forced, map, algebraic, boundary, piecewise };
 
 /// A number that formulas have by its name.
 struct FormulaParameter {
@@ -38,6 +39,15 @@ struct FormulaInterval {
   std::string place = {};  ///< what messages call it; empty: the variable
 };
 
+/// A piece of what is piecewise.
+struct FormulaPiece {
+  std::string name;                     ///< a word
+  std::vector<Formula> equations = {};  ///< those that it has of its own
+  Formula until = {};                   ///< what vanishes at its end
+  std::vector<Formula> reset = {};      ///< where unknowns jump to there
+  std::string place = {};               ///< what messages call it; empty: its name
+};
+
 /// The system as it is written.
 struct FormulaSystem {
   FormulaKind kind = FormulaKind::flow;           ///< of the equations
@@ -46,7 +56,7 @@ struct FormulaSystem {
   std::vector<Formula> equations = {};            ///< f by the names of the unknowns, in their order
   std::vector<Formula> definitions = {};          ///< of names that equations and observables use
   std::vector<Formula> observables = {};          ///< what is told beside the unknowns
-  std::optional<Formula> period = {};             ///< of what is forced, by parameters
+  std::optional<Formula> period = {};             ///< of what depends on t, by parameters
   std::vector<std::string> angles = {};           ///< unknowns of which whole turns, 2 pi, do not matter
   std::vector<Formula> start = {};  ///< of unknowns, by parameters; 0 of those that are left out
 
@@ -55,6 +65,9 @@ struct FormulaSystem {
   std::vector<Formula> conditions = {};  ///< g, by `u_left` and `u_right` of each unknown u and parameters
   std::vector<Formula> integrals = {};   ///< h
   std::vector<std::string> free = {};    ///< parameters that conditions set
+
+  std::vector<FormulaPiece> pieces = {};
+  std::vector<std::string> cycle = {};  ///< their names as they follow each other; empty: in their order
 };
 
 /// Refuses names that mean two things. Throws FormulaError.

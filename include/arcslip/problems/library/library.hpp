@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,12 @@ struct LibraryModel {
   /// A guess of a solution at the values' parameters, good where the case file's branch is meant to start.
   std::function<continuation::Guess(const continuation::Problem&, const Values&)> guess;
   bool is_driven = false;  ///< whether it depends on time: its solutions are cycles
-  /// Of a boundary value problem what it sets out from, on meshes of one's choice; null of others.
-  std::function<continuation::OrbitStart(const Values&, const continuation::OrbitOptions&)> boundary = {};
+  /// Of what has orbits alone, not equilibria, what it sets out from, on meshes of one's choice; null of
+  /// others. Of `is_piecewise` after a time, where one is given.
+  std::function<continuation::OrbitStart(const Values&, const continuation::OrbitOptions&,
+                                         std::optional<double> settle)>
+      orbit = {};
+  bool is_piecewise = false;  ///< whether these are cycles made of pieces; else boundary value problems
   /// F and dF/du at the values over boxes of the unknowns; null where they have no enclosure.
   std::function<EnclosedMap(const Values&)> enclosed = {};
 };
