@@ -129,10 +129,11 @@ bool contains_any(std::string_view text, const std::vector<std::string_view>& wo
   return std::any_of(words.begin(), words.end(), [&](auto word) { return text.find(word) != text.npos; });
 }
 
-/// Whether a line names what only the mechanics may know. The project's own name is no such word.
+/// Whether a line names what only the mechanics may know. The project's own name is no such word, nor are the
+/// points of bifurcation theory where multipliers are roots of 1.
 bool names_physics(const std::string& line) {
-  static const std::regex project("arcslip", std::regex::icase);
-  std::string text = std::regex_replace(line, project, "");
+  static const std::regex others("arcslip|resonance_1_[1-4]", std::regex::icase);
+  std::string text = std::regex_replace(line, others, "");
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return contains_any(text, {"frequency", "frequencies", "harmonic", "contact", "friction", "stick", "slip",
                              "resonance", "vibration"});
