@@ -154,10 +154,11 @@ def trace_all(
 
 
 def trace_cycles(
-    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, period=None, follow=True, intervals=20,
-    degree=5, orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, period=None, follow=True,
+    discretisation="collocation", harmonics=8, intervals=20, degree=5, orbit_tolerance=1e-6, doublings=3,
+    max_branches=50, progress=None, functions=None, **options
 ):
-    """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
+    """Trace cycles of u' = f(u, p), by collocation on meshes that follow them or by harmonic balance.
 
     Without `settle` those that leave the Hopf points of the branch of equilibria next to u0, each once. A Model of kind
     "forced", and a function f(t, u, p) with a `period`, has no equilibria: its cycles have the period of the load.
@@ -173,6 +174,10 @@ def trace_cycles(
         Of a function f(t, u, p) its period in the time t, as a formula of the parameters: "2*pi/W".
     follow : bool
         Follow what is met at branch points and period doublings as well.
+    discretisation : {"collocation", "balance"}
+        By polynomials on intervals, or by harmonics.
+    harmonics : int
+        Of a balance to begin with, twice as many where `orbit_tolerance` asks for it.
     intervals, degree : int
         On how many intervals orbits are held to begin with, twice as many where `orbit_tolerance` asks for it, and by
         polynomials of which degree, 2 to 7.
@@ -204,7 +209,12 @@ def trace_cycles(
         raise ValueError("problem: expected one of a flow, with equilibrium=True or of kind \"flow\"")
     if settle is not None and not float(settle) > 0:
         raise ValueError(f"settle: expected a number > 0, got {settle!r}")
+    if discretisation not in ("collocation", "balance"):
+        raise ValueError(f'discretisation: expected "collocation" or "balance", got {discretisation!r}')
+    if not 2 <= int(harmonics) <= 128:
+        raise ValueError(f"harmonics: expected an integer >= 2 and <= 128, got {harmonics!r}")
     held = _held(intervals, degree, orbit_tolerance, doublings, max_branches)
+    held |= {"balance": discretisation == "balance", "harmonics": int(harmonics)}
     formulas = problem._formulas if forced else None
     cores = _core.trace_cycles(
         prepared.core, formulas, prepared.u0, prepared.p0, settle, None if period is None else str(period), bool(follow),
