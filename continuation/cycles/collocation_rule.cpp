@@ -49,27 +49,76 @@ CollocationRule::CollocationRule(int degree)
   }
   highest_ = std::tgamma(m + 1) * barycentric_;
   for (int i = 1; i < 200; ++i) product_ = std::max(product_, std::abs((0.005 * i - nodes_.array()).prod()));
+  fill();
+}
+
+CollocationRule CollocationRule::trigonometric(int waves) {
+  CollocationRule rule;
+  const int m = 2 * waves + 1;
+  rule.degree_ = m;
+  rule.waves_ = waves;
+  rule.nodes_ = Vector::LinSpaced(m + 1, 0, 1);
+  rule.points_ = rule.nodes_.head(m);
+  rule.weights_.setConstant(m, 1.0 / m);
+  rule.modes_.setConstant(m, m, 1.0 / m);
+  for (int h = 1; h <= waves; ++h) {
+    for (int k = 0; k < m; ++k) {
+      const double angle = two_pi * (static_cast<long>(h) * k % m) / m;
+      rule.modes_(k, 2 * h - 1) = 2.0 / m * std::cos(angle);
+      rule.modes_(k, 2 * h) = 2.0 / m * std::sin(angle);
+    }
+  }
+  rule.fill();
+  rule.values_.setIdentity();
+  return rule;
+}
+
+/// At the points, and where one looks.
+void CollocationRule::fill() {
+  const Index m = degree_;
   values_.resize(m, m + 1);
   derivatives_.resize(m, m + 1);
   Vector value;
   Vector derivative;
-  for (int i = 0; i < m; ++i) {
+  for (Index i = 0; i < m; ++i) {
     at(points_(i), value, derivative);
     values_.row(i) = value.transpose();
     derivatives_.row(i) = derivative.transpose();
   }
-  constexpr Index looks = 17;
+  const Index looks = waves_ > 0 ? 4 * m + 1 : 17;
   looks_.resize(looks, m + 1);
   for (Index i = 0; i < looks; ++i) {
-    at(static_cast<double>(i) / (looks - 1), value, derivative);
+    at(static_cast<double>(i) / static_cast<double>(looks - 1), value, derivative);
     looks_.row(i) = value.transpose();
   }
+}
+
+Matrix CollocationRule::coefficients(const Matrix& values) const {
+  const Vector growth = values.rightCols(1) - values.col(0);
+  return (values.leftCols(degree_) - growth * points_.transpose()) * modes_;
 }
 
 void CollocationRule::at(double s, Vector& value, Vector& derivative) const {
   const Index count = degree_ + 1;
   value.resize(count);
   derivative.resize(count);
+  if (waves_ > 0) {
+    Matrix basis = Matrix::Zero(degree_, 2);  // and its derivative
+    basis(0, 0) = 1;
+    for (Index h = 1; h <= waves_; ++h) {
+      const double rate = two_pi * static_cast<double>(h);
+      const Complex wave = std::polar(1.0, rate * s);
+      basis.middleRows(2 * h - 1, 2) << wave.real(), -rate * wave.imag(), wave.imag(), rate * wave.real();
+    }
+    Matrix weights(count, 2);
+    weights.topRows(degree_).noalias() = modes_ * basis;
+    weights.bottomRows(1) << s, 1;  // of the value at the end, what grows linearly taken from the others
+    weights.bottomRows(1) -= points_.transpose() * weights.topRows(degree_);
+    weights.row(0) -= weights.row(degree_);
+    value = weights.col(0);
+    derivative = weights.col(1);
+    return;
+  }
   for (Index k = 0; k < count; ++k) {
     // product and its derivative, factor by factor
     double product = barycentric_(k);

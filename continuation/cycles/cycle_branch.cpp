@@ -62,12 +62,12 @@ class MeshWatch {
            problem_.phase_grip(point.unknowns, point.regime) > grip;
   }
 
-  /// A frame for an orbit; none where no mesh of as many intervals is good enough.
+  /// A frame for an orbit; none where no mesh of this resolution is good enough.
   std::optional<Regime> renewed(const Vector& u, const Vector& p, const Regime& regime) {
     constexpr double margin = 0.3;  // or the next point would ask again
     const OrbitFrame& frame = problem_.frame(regime);
     const Matrix orbit = problem_.orbit(u);
-    OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.intervals());
+    OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.resolution());
     Matrix carried = frame.mesh.carried(orbit, mesh);
     if (mesh.errors(carried, frame.range).maxCoeff() > margin * options_.tolerance) return std::nullopt;
     return problem_.add_frame(mesh, carried, p);
@@ -79,13 +79,20 @@ class MeshWatch {
   double singular_ = std::numeric_limits<double>::quiet_NaN();  // where the last branch point is
 };
 
-/// Thrown where more intervals are needed and there may be more.
+/// Thrown where a finer mesh is needed and there may be one.
 struct TooCoarse {};
+
+bool may_be_finer(const OrbitProblem& problem, const OrbitOptions& orbits) {
+  const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
+  const Index periods = cycles == nullptr ? 1 : cycles->periods();
+  return 2 * problem.resolution() <=
+         (problem.is_trigonometric() ? periods * orbits.most_waves : orbits.most_intervals);
+}
 
 /// Refuses a mesh on which what leaves branch points is not held as well as the orbits themselves are.
 void require_departures(const OrbitProblem& problem, const Branch& branch, const TraceOptions& options,
                         const OrbitOptions& orbits) {
-  if (!problem.may_rest() || 2 * problem.intervals() > orbits.most_intervals) return;
+  if (!problem.may_rest() || !may_be_finer(problem, orbits)) return;
   BranchPointProblem conditions(problem, index_of(problem.parameter_names(), options.parameter));
   for (const BranchPoint& point : branch.points) {
     if (point.type != PointType::branch_point) continue;
@@ -106,7 +113,7 @@ bool is_at_rest(const OrbitProblem& problem, const BranchPoint& point) {
   return orbit.rowwise().maxCoeff() == orbit.rowwise().minCoeff();
 }
 
-/// Puts a branch on a mesh that fits where it stands; false if no mesh of as many intervals does.
+/// Puts a branch on a mesh that fits where it stands; false if no mesh of this resolution does.
 bool renew(OrbitProblem& problem, MeshWatch& meshes, Branch& branch, const TraceOptions& options) {
   Progress& progress = *branch.checkpoint->ahead;
   const Regime before = progress.here.regime;
@@ -227,11 +234,12 @@ Branch one_way(OrbitProblem& problem, TraceOptions options, const OrbitOptions& 
       options.branch_point_pairs = true;  // as nothing bends, steps grow beyond what lies between two
     rests = false;
     if (std::exchange(worn, false) && !renew(problem, meshes, branch, options)) {
-      if (2 * problem.intervals() <= orbits.most_intervals) throw TooCoarse{};
+      if (may_be_finer(problem, orbits)) throw TooCoarse{};
       branch.stop = Stop::no_value;
       branch.explanation = fmt::format(
-          "an orbit of {} intervals misses more than {:g} of what its unknowns do, at {} = {:.10g}",
-          problem.intervals(), orbits.tolerance, options.parameter,
+          "an orbit of {} {} misses more than {:g} of what its unknowns do, at {} = {:.10g}",
+          problem.resolution(), problem.is_trigonometric() ? "waves" : "intervals", orbits.tolerance,
+          options.parameter,
           branch.points.back().parameters(index_of(problem.parameter_names(), options.parameter)));
       return branch;
     }
@@ -282,7 +290,7 @@ OrbitBranch trace_orbits(const OrbitStart& start, const TraceOptions& options, c
     try {
       return on_these_intervals(at, time.rest(), orbits, observer);
     } catch (const TooCoarse&) {
-      at = refined(start, 2 * at.problem->intervals());
+      at = refined(start, 2 * at.problem->resolution());
     }
   }
 }

@@ -55,6 +55,17 @@ Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) cons
   return part;
 }
 
+std::shared_ptr<CycleProblem> CycleProblem::on_intervals(const Vector& u, const Vector& p,
+                                                         const Regime& regime, Vector& unknowns) const {
+  constexpr Index least = 20;
+  const OrbitMesh mesh(CollocationRule(CollocationRule::most), std::max(least, 2 * resolution()));
+  const Matrix carried = frame(regime).mesh.carried(orbit(u), mesh);
+  unknowns.resize(carried.size() + (has_duration() ? 1 : 0));
+  unknowns.head(carried.size()) = carried.reshaped();
+  if (has_duration()) unknowns.tail(1) = u.tail(1);
+  return std::make_shared<CycleProblem>(shared_field(), mesh, carried, p, periods_, doubled_);
+}
+
 bool CycleProblem::end_conditions(const Vector& left, const Vector& right, const Vector& /*p*/,
                                   const EndConditions& out) const {
   if (out.values != nullptr) *out.values = right - left - winding_;
@@ -90,6 +101,10 @@ ComplexVector CycleProblem::log_multipliers(const Vector& u, const Vector& p, co
 }
 
 ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  if (is_trigonometric()) {
+    Vector unknowns;
+    return on_intervals(u, p, regime, unknowns)->found_multipliers(unknowns, p, {});
+  }
   std::vector<Matrix> factors;
   if (!transfers(u, p, regime, factors)) return {};
   if (!has_duration()) return continuation::log_multipliers(factors);
@@ -120,6 +135,7 @@ void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, 
 
 std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index active, const Guess& at,
                                                        Vector& extras) const {
+  if (is_trigonometric()) return nullptr;
   return special_of_multipliers(*this, type, active, log_multipliers(at.unknowns, at.parameters, at.regime),
                                 extras);
 }

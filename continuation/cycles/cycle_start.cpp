@@ -33,7 +33,7 @@ CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
   Vector scale(n);
   Vector unused(hopf.parameters.size());
   field->scale(hopf.unknowns, hopf.parameters, scale, unused);
-  const OrbitMesh mesh(CollocationRule(options.degree), options.intervals);
+  const OrbitMesh mesh = options.mesh();
   Matrix motion(n, mesh.nodes());
   for (Index node = 0; node < mesh.nodes(); ++node)
     motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
@@ -81,6 +81,18 @@ std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& fie
 
 std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
                                               const BranchPoint& doubling) {
+  if (problem.is_trigonometric()) {
+    BranchPoint there = doubling;
+    there.regime = {};
+    const auto same =
+        problem.on_intervals(doubling.unknowns, doubling.parameters, doubling.regime, there.unknowns);
+    const auto start = cycle_from_doubling(*same, parameter, there);
+    if (!start) return std::nullopt;
+    const OrbitMesh mesh(CollocationRule::trigonometric(static_cast<int>(2 * problem.resolution())), 1);
+    const OrbitStart held =
+        refined({start->problem, start->guess}, [&](const Matrix& /*orbit*/) { return mesh; });
+    return CycleStart{std::dynamic_pointer_cast<CycleProblem>(held.problem), held.guess};
+  }
   DoublingProblem conditions(problem, parameter);
   const BasePoint guess{doubling.unknowns, doubling.parameters, doubling.regime, {}};
   const auto located = locate(conditions, guess);
@@ -122,7 +134,13 @@ std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, c
   return start;
 }
 
-OrbitStart refined(const OrbitStart& start, Index intervals) {
+OrbitStart refined(const OrbitStart& start, Index resolution) {
+  const OrbitFrame& frame = start.problem->frame(start.guess.regime);
+  return refined(
+      start, [&](const Matrix& orbit) { return frame.mesh.equidistributed(orbit, frame.range, resolution); });
+}
+
+OrbitStart refined(const OrbitStart& start, const std::function<OrbitMesh(const Matrix&)>& mesh_for) {
   const OrbitProblem& from = *start.problem;
   const OrbitFrame& frame = from.frame(start.guess.regime);
   const Matrix orbit = from.orbit(start.guess.unknowns);
@@ -138,7 +156,7 @@ OrbitStart refined(const OrbitStart& start, Index intervals) {
     const Matrix along = from.orbit(start.guess.direction);
     reference += shape * in_units(along, frame.scale);
   }
-  const OrbitMesh mesh = frame.mesh.equidistributed(reference, frame.range, intervals);
+  const OrbitMesh mesh = mesh_for(reference);
   OrbitStart result{from.about(mesh, frame.mesh.carried(reference, mesh), start.guess.parameters),
                     start.guess, start.both_ways};
   result.guess.unknowns = carried(mesh, start.guess.unknowns);

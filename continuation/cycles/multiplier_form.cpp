@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "arcslip/continuation/linear/borders.hpp"
 #include "arcslip/continuation/problem/expansion.hpp"
 
@@ -270,7 +269,13 @@ Complex torus_multiplier(const Problem& problem, const Guess& at, double duratio
 
 std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type, const Guess& at,
                                               double angle) {
-  const bool is_cycle = dynamic_cast<const CycleProblem*>(&problem) != nullptr;
+  const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
+  if (cycles != nullptr && cycles->is_trigonometric()) {
+    Guess there{{}, at.parameters};
+    const auto same = cycles->on_intervals(at.unknowns, at.parameters, at.regime, there.unknowns);
+    return multiplier_form(*same, type, there, angle);
+  }
+  const bool is_cycle = cycles != nullptr;
   const bool is_known =
       type == PointType::period_doubling || type == PointType::neimark_sacker || type == PointType::fold;
   if (!is_known || (!is_cycle && (!problem.is_map() || problem.sparse()))) return std::nullopt;
@@ -295,6 +300,14 @@ std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType 
   const double usual = 1 / (scale.head(rounds.count()).cwiseAbs2().maxCoeff() * rounds.duration());
   return MultiplierForm{numbers(0) / rounds.duration(), found.error / rounds.duration(),
                         (numbers(1) + usual) / rounds.duration()};
+}
+
+std::optional<TurningVector> turning_vector(const CycleProblem& cycles, const Guess& at) {
+  const Rounds rounds(cycles, at);
+  if (!rounds.exists()) return std::nullopt;
+  const Complex multiplier = torus_multiplier(cycles, at, rounds.duration());
+  if (multiplier == 0.0) return std::nullopt;
+  return TurningVector{null_vectors(rounds.matrix(multiplier, false)).right, std::arg(multiplier)};
 }
 
 }  // namespace arcslip::continuation

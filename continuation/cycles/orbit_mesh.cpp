@@ -65,13 +65,21 @@ Vector OrbitMesh::highest_derivatives(const Matrix& values, const Vector& scale)
 }
 
 Vector OrbitMesh::errors(const Matrix& values, const Vector& scale) const {
+  if (const Index waves = rule_.waves(); waves > 0) {
+    const Index last = std::min(std::max<Index>(1, waves - 1), std::max<Index>(3, waves / 6));
+    const Matrix coefficients = rule_.coefficients(values).rightCols(2 * last);
+    Vector sums = Vector::Zero(values.rows());
+    for (Index h = 0; h < last; ++h) sums += coefficients.middleCols(2 * h, 2).rowwise().norm();
+    return Vector::Constant(1, sums.cwiseQuotient(scale).maxCoeff());
+  }
   const Index order = rule_.degree() + 1;
   Vector result = highest_derivatives(values, scale) * (rule_.product() / std::tgamma(order + 1));
   for (Index j = 0; j < intervals(); ++j) result(j) *= std::pow(length(j), order);
   return result;
 }
 
-OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, Index intervals) const {
+OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, Index resolution) const {
+  if (rule_.waves() > 0) return {CollocationRule::trigonometric(static_cast<int>(resolution)), 1};
   constexpr double least = 0.2;   // of the mean density: what is smooth now may not be at the next point
   constexpr double graded = 0.5;  // of the density next to it: no interval is much longer than its neighbour
   const Index count = this->intervals();
@@ -80,19 +88,19 @@ OrbitMesh OrbitMesh::equidistributed(const Matrix& values, const Vector& scale, 
   for (Index j = count - 1; j-- > 0;) density(j) = std::max(density(j), graded * density(j + 1));
   Vector lengths = borders_.tail(count) - borders_.head(count);
   const double mean = density.dot(lengths);
-  if (!(mean > 0)) return {rule_, intervals};
+  if (!(mean > 0)) return {rule_, resolution};
   density = density.cwiseMax(least * mean);
   Vector sums = Vector::Zero(count + 1);
   for (Index j = 0; j < count; ++j) sums(j + 1) = sums(j) + density(j) * lengths(j);
-  Vector borders(intervals + 1);
+  Vector borders(resolution + 1);
   Index j = 0;
-  for (Index i = 0; i <= intervals; ++i) {
-    const double wanted = sums(count) * static_cast<double>(i) / static_cast<double>(intervals);
+  for (Index i = 0; i <= resolution; ++i) {
+    const double wanted = sums(count) * static_cast<double>(i) / static_cast<double>(resolution);
     while (j + 1 < count && sums(j + 1) < wanted) ++j;
     borders(i) = borders_(j) + (wanted - sums(j)) / density(j);
   }
   borders(0) = 0;
-  borders(intervals) = 1;
+  borders(resolution) = 1;
   return {rule_, borders};
 }
 

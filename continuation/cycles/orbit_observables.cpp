@@ -35,6 +35,9 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
   const Index m = problem.degree();
   Index highest = 0;
   values.maxCoeff(&highest);
+  constexpr double closed = 1e-6;  // of how far it goes
+  const bool goes_on =
+      rule.waves() > 0 && std::abs(values(m) - values(0)) <= closed * (values(highest) - values.minCoeff());
   Extremum best{values(highest), highest, Vector::Ones(1)};
   Vector weights;
   Vector slopes;
@@ -47,8 +50,9 @@ Extremum extremum(const OrbitProblem& problem, const Vector& u, const Regime& re
     const double last = static_cast<double>(rule.looks().rows() - 1);
     Index top = 0;
     (rule.looks() * within).maxCoeff(&top);
-    const double at = summit(slope, std::max(0.0, (static_cast<double>(top) - 1) / last),
-                             std::min(1.0, (static_cast<double>(top) + 1) / last));
+    const double least = goes_on ? -1 : 0;
+    const double at = summit(slope, std::max(least, (static_cast<double>(top) - 1) / last),
+                             std::min(1 - least, (static_cast<double>(top) + 1) / last));
     rule.at(at, weights, slopes);
     const double value = within.dot(weights);
     if (value > best.value) best = {value, interval * m, weights};

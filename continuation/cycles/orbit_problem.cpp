@@ -307,6 +307,12 @@ bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, con
 
 bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regime,
                             const Evaluation& out) const {
+  if (out.jacobian != nullptr) {  // of a single interval: all but full
+    SparseMatrix entries;
+    if (!evaluate(u, p, regime, {out.residual, nullptr, out.parameter_jacobian, &entries})) return false;
+    *out.jacobian = entries;
+    return true;
+  }
   const OrbitFrame& at = frame(regime);
   const double length = duration(u, p);
   if (out.sparse_jacobian != nullptr && out.sparse_jacobian->nonZeros() != pattern_.nonZeros())

@@ -141,7 +141,9 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
     }
     for (Index node = 0; node < fine.nodes(); ++node) orbit(i, node) -= gap * fine.place(node);
   }
-  const OrbitMesh mesh = fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);
+  const OrbitMesh mesh = options.trigonometric
+                             ? options.mesh()
+                             : fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);
   return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p);
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "arcslip/continuation/cycles/settled_cycle.hpp"
+#include "arcslip/continuation/cycles/torus_branch.hpp"
 #include "cases/curves.hpp"
 
 namespace arcslip {
@@ -41,7 +42,24 @@ std::vector<TracedBranch> told(const Request& request, std::vector<OneBranch> br
   return traced;
 }
 
+/// The cycles and, where they are asked for, the tori that leave them.
+std::vector<TracedBranch> with_tori(const Request& request, std::vector<CycleBranch> cycles,
+                                    Clock::time_point begun, const TimeBudget& time,
+                                    const continuation::Observer& observer) {
+  std::vector<continuation::TorusBranch> tori;
+  if (request->cycles.options.tori && request->switching)
+    tori = trace_tori_leaving(cycles, time.rest(), request->cycles.options, observer);
+  const Clock::time_point left = Clock::now();
+  std::vector<TracedBranch> all = told(request, std::move(cycles), begun);
+  for (TracedBranch& one : told(request, std::move(tori), left)) all.push_back(std::move(one));
+  return all;
+}
+
 }  // namespace
+
+const continuation::Torus* torus_of(const TracedBranch& traced) {
+  return traced.curve ? nullptr : dynamic_cast<const continuation::Torus*>(traced.base.problem.get());
+}
 
 const CycleProblem* cycles_of(const TracedBranch& traced) {
   return traced.curve ? nullptr : dynamic_cast<const CycleProblem*>(traced.base.problem.get());
@@ -70,10 +88,10 @@ std::vector<TracedBranch> cycles_leaving(const std::vector<TracedBranch>& traced
   const CaseBranch& request = *traced.front().request;
   std::vector<Branch> equilibria;
   for (const TracedBranch& one : traced) equilibria.push_back(one.branch);
-  return told(traced.front().request,
-              trace_cycles_leaving(field_of(traced.front().base.problem), equilibria, time.rest(),
-                                   request.cycles.options, observer),
-              begun);
+  return with_tori(traced.front().request,
+                   trace_cycles_leaving(field_of(traced.front().base.problem), equilibria, time.rest(),
+                                        request.cycles.options, observer),
+                   begun, time, observer);
 }
 
 std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Subject& subject,
@@ -101,7 +119,7 @@ std::vector<TracedBranch> trace_settled_cycles(const Request& request, const Sub
     ended.stop = error.stop;
     return {unstarted(request, ended, error.what())};
   }
-  return told(request, std::move(branches), begun);
+  return with_tori(request, std::move(branches), begun, time, observer);
 }
 
 std::vector<TracedBranch> trace_from_orbit(const Request& request, const Subject& subject,

@@ -3,6 +3,7 @@
 // Cycles of flows and boundary value problems, in what a case asks for.
 
 #include "arcslip/cases/runs.hpp"
+#include "arcslip/continuation/cycles/torus.hpp"
 
 namespace arcslip {
 
@@ -11,6 +12,9 @@ const continuation::CycleProblem* cycles_of(const TracedBranch& traced);
 
 /// The same of all whose solutions are orbits: cycles, and solutions of boundary value problems.
 const continuation::OrbitProblem* orbits_of(const TracedBranch& traced);
+
+/// The same of those whose solutions are tori.
+const continuation::Torus* torus_of(const TracedBranch& traced);
 
 /// Whether the branch is one of a boundary value problem or of cycles made of pieces.
 bool has_orbits_alone(const CaseBranch& request);

@@ -59,9 +59,10 @@ void add_units(const ProblemRequest& problem, ordered_json& summary) {
 }
 
 /// All that a branch may begin from; null of a curve, whose unknowns are not those of its problem, of orbits,
-/// which orbits.csv has, and of so many that nobody would read them.
+/// which orbits.csv has, of tori, which tori.csv has, and of so many that nobody would read them.
 ordered_json state_of(const TracedBranch& traced, const BranchPoint& point) {
-  if (traced.curve || orbits_of(traced) != nullptr || point.unknowns.size() > most_stored_unknowns)
+  if (traced.curve || orbits_of(traced) != nullptr || torus_of(traced) != nullptr ||
+      point.unknowns.size() > most_stored_unknowns)
     return nullptr;
   ordered_json parameters;
   const std::vector<std::string> names = traced.base.problem->parameter_names();

@@ -25,6 +25,7 @@ ordered_json beginning(const CasePlan& plan) {
 
 constexpr const char* sectors_name = "/sectors.csv";
 constexpr const char* orbits_name = "/orbits.csv";
+constexpr const char* tori_name = "/tori.csv";
 constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
 
 /// The branch as a polyline that looks like the curve.
@@ -54,6 +55,7 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
   };
   add_table("ring", sectors_name, sectors_header, sector_rows);
   add_table("cycles", orbits_name, orbits_header, orbit_rows);
+  add_table("cycles", tori_name, tori_header, torus_rows);
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
@@ -176,7 +178,7 @@ void RunFiles::finish(double seconds, bool interrupted) {
     if (!verification_) std::filesystem::remove(folder_ + name, ignored);
   }
   std::erase_if(tables_, [](const PointTable& table) { return !table.has_header; });  // without a row
-  for (const char* name : {sectors_name, orbits_name}) {
+  for (const char* name : {sectors_name, orbits_name, tori_name}) {
     const auto is_own = [&](const PointTable& table) { return table.file->path() == folder_ + name; };
     if (std::none_of(tables_.begin(), tables_.end(), is_own))
       std::filesystem::remove(folder_ + name, ignored);

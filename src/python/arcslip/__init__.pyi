@@ -86,6 +86,8 @@ def trace_cycles(
     settle: float | None = None,
     period: str | float | None = None,
     follow: bool = True,
+    discretisation: str = "collocation",
+    harmonics: int = 8,
     intervals: int = 20,
     degree: int = 5,
     orbit_tolerance: float = 1e-6,

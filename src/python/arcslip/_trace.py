@@ -154,10 +154,11 @@ def trace_all(
 
 
 def trace_cycles(
-    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, period=None, follow=True, intervals=20,
-    degree=5, orbit_tolerance=1e-6, doublings=3, max_branches=50, progress=None, functions=None, **options
+    problem, u0=None, p0=None, parameter=None, range=(0.0, 1.0), *, settle=None, period=None, follow=True,
+    discretisation="collocation", harmonics=8, intervals=20, degree=5, orbit_tolerance=1e-6, doublings=3,
+    max_branches=50, progress=None, functions=None, **options
 ):
-    """Trace cycles of u' = f(u, p), by collocation on meshes that follow them.
+    """Trace cycles of u' = f(u, p), by collocation on meshes that follow them or by harmonic balance.
 
     Without `settle` those that leave the Hopf points of the branch of equilibria next to u0, each once. A Model of kind
     "forced", and a function f(t, u, p) with a `period`, has no equilibria: its cycles have the period of the load. A
@@ -174,6 +175,10 @@ def trace_cycles(
         Of a function f(t, u, p) its period in the time t, as a formula of the parameters: "2*pi/W".
     follow : bool
         Follow what is met at branch points and period doublings as well.
+    discretisation : {"collocation", "balance"}
+        By polynomials on intervals, or by harmonics.
+    harmonics : int
+        Of a balance to begin with, twice as many where `orbit_tolerance` asks for it.
     intervals, degree : int
         On how many intervals orbits are held to begin with, twice as many where `orbit_tolerance` asks for it, and by
         polynomials of which degree, 2 to 7.
@@ -198,10 +203,17 @@ def trace_cycles(
     problem = _problem(problem, functions or {})
     if settle is not None and not float(settle) > 0:
         raise ValueError(f"settle: expected a number > 0, got {settle!r}")
+    if discretisation not in ("collocation", "balance"):
+        raise ValueError(f'discretisation: expected "collocation" or "balance", got {discretisation!r}')
+    if not 2 <= int(harmonics) <= 128:
+        raise ValueError(f"harmonics: expected an integer >= 2 and <= 128, got {harmonics!r}")
     held = _held(intervals, degree, orbit_tolerance, doublings, max_branches)
+    held |= {"balance": discretisation == "balance", "harmonics": int(harmonics)}
     if getattr(problem, "kind", "") == "piecewise":
         if u0 is not None:
             raise ValueError(f"u0: a motion through pieces begins at the start of its Model, got {u0!r}")
+        if discretisation == "balance":
+            raise ValueError('discretisation: only "collocation" for what is made of pieces, got "balance"')
         return _orbits(problem, p0, parameter, range, settle, False, held, options, progress)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0)

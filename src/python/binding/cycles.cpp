@@ -39,6 +39,10 @@ std::vector<continuation::CycleBranch> traced_cycles(const std::shared_ptr<const
 
 continuation::OrbitOptions held_on(const py::dict& held) {
   continuation::OrbitOptions orbits;
+  if (held.contains("balance")) {
+    orbits.trigonometric = held["balance"].cast<bool>();
+    orbits.waves = held["harmonics"].cast<int>();
+  }
   orbits.intervals = held["intervals"].cast<Index>();
   orbits.degree = held["degree"].cast<int>();
   orbits.tolerance = held["tolerance"].cast<double>();

@@ -1,8 +1,10 @@
 #pragma once
 
-// Polynomials of degree m on an interval of length 1, held by their values at m + 1 nodes, the ends among
-// them, and asked for at the m Gauss points: what collocation at these is made of [C. de Boor, B. Swartz,
-// SIAM J. Numer. Anal. 10 (1973) 582].
+// Functions on an interval of length 1 that are held by their values at m + 1 nodes, the ends among them, and
+// asked for at m points: what collocation at these is made of. Polynomials of degree m, asked for at the
+// Gauss points [C. de Boor, B. Swartz, SIAM J. Numer. Anal. 10 (1973) 582]; or, where they come back at the
+// end of the interval but for what grows linearly, trigonometric ones of degree H, m = 2 H + 1, at their own
+// nodes, which lie at equal distances.
 
 #include "arcslip/types.hpp"
 
@@ -16,21 +18,35 @@ class CollocationRule {
   /// Of degree m. Throws std::invalid_argument unless least <= m <= most.
   explicit CollocationRule(int degree);
 
-  int degree() const { return degree_; }
+  /// That of trigonometric polynomials of degree H >= 1.
+  static CollocationRule trigonometric(int waves);
+
+  int degree() const { return degree_; }                      ///< m
+  int waves() const { return waves_; }                        ///< H; 0 of polynomials
   const Vector& nodes() const { return nodes_; }              ///< m + 1, from 0 to 1: those of Lobatto
   const Vector& points() const { return points_; }            ///< m, of Gauss
   const Vector& weights() const { return weights_; }          ///< m, their sum is 1
   const Matrix& values() const { return values_; }            ///< m x (m + 1): at the points from the nodes
   const Matrix& derivatives() const { return derivatives_; }  ///< m x (m + 1): the same of the derivative
-  const Matrix& looks() const { return looks_; }      ///< 17 x (m + 1): at equal distances, ends included
-  const Vector& highest() const { return highest_; }  ///< m + 1: of the m-th derivative
+  const Matrix& looks() const {
+    return looks_;
+  }  ///< 17 or 4 m + 1 x (m + 1): at equal distances, with both ends
+  const Vector& highest() const { return highest_; }  ///< m + 1: of the m-th derivative; of polynomials
   double product() const { return product_; }         ///< largest |prod (s - node)| on the interval
 
   /// Weights of the values at the nodes, m + 1, in the value at s and in the derivative there.
   void at(double s, Vector& value, Vector& derivative) const;
 
+  /// Of trigonometric polynomials by their values, n x (m + 1), beside what grows linearly: the mean, then
+  /// the coefficients of cos(2 pi s), sin(2 pi s), cos(4 pi s), ..., n x m.
+  Matrix coefficients(const Matrix& values) const;
+
  private:
-  int degree_;
+  CollocationRule() = default;
+  void fill();
+
+  int degree_ = 0;
+  int waves_ = 0;
   Vector nodes_;
   Vector barycentric_;
   Vector points_;
@@ -40,6 +56,7 @@ class CollocationRule {
   Matrix looks_;
   Vector highest_;
   double product_ = 0;
+  Matrix modes_;  // m x m: coefficients by the values at nodes
 };
 
 }  // namespace arcslip::continuation

@@ -32,6 +32,11 @@ class CycleProblem : public OrbitProblem {
   }
   std::string end_of_kind() const override;
 
+  /// The same problem on intervals about a cycle that is held by a trigonometric polynomial, and the unknowns
+  /// of this cycle there, which are as good: for what is no cycle itself but goes along one.
+  std::shared_ptr<CycleProblem> on_intervals(const Vector& u, const Vector& p, const Regime& regime,
+                                             Vector& unknowns) const;
+
   [[nodiscard]] bool series(const Matrix& u, const Vector& p, const Regime& regime,
                             Matrix& out) const override;
 
@@ -42,7 +47,7 @@ class CycleProblem : public OrbitProblem {
   /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                  ComplexVector& values) const override;
-  /// Of period doublings and of Neimark-Sacker points.
+  /// Of period doublings and of Neimark-Sacker points, on intervals alone.
   std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
                                            Vector& extras) const override;
   bool has_multipliers() const override { return true; }

@@ -18,6 +18,7 @@
 
 #include <optional>
 
+#include "arcslip/continuation/cycles/cycle_problem.hpp"
 #include "arcslip/continuation/points/point_type.hpp"
 #include "arcslip/continuation/problem/guess.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
@@ -35,5 +36,14 @@ struct MultiplierForm {
 /// 0: that of the pair nearest to the unit circle.
 [[nodiscard]] std::optional<MultiplierForm> multiplier_form(const Problem& problem, PointType type,
                                                             const Guess& at, double angle = 0);
+
+/// How a torus leaves a cycle: v with v(1) = e^(j theta) v(0), n nodes, of any length.
+struct TurningVector {
+  ComplexVector vector;
+  double angle = 0;  ///< theta, from 0 to pi
+};
+
+/// That of the pair of multipliers nearest to the unit circle; none without one. Of cycles on intervals.
+[[nodiscard]] std::optional<TurningVector> turning_vector(const CycleProblem& cycles, const Guess& at);
 
 }  // namespace arcslip::continuation

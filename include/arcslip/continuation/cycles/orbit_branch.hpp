@@ -2,6 +2,8 @@
 
 // Branches of orbits, cycles and others, on meshes that follow them.
 
+#include <functional>
+
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 
@@ -11,10 +13,20 @@ namespace arcslip::continuation {
 struct OrbitOptions {
   Index intervals = 20;           ///< N to begin with
   int degree = 5;                 ///< m
+  bool trigonometric = false;     ///< whether cycles are trigonometric polynomials, on no intervals
+  int waves = 8;                  ///< their degree H to begin with
+  int most_waves = 128;           ///< as most_intervals, for one period
   double tolerance = 1e-6;        ///< on the estimated error of orbits, relative to how far their unknowns go
   Index most_intervals = 2560;    ///< a branch that asks for more has ended
   int doublings = 3;              ///< how often a period is doubled, of cascades without end
   std::size_t max_branches = 50;  ///< all of them together
+  bool tori = false;              ///< whether those that leave cycles are followed as well
+
+  /// What they are held on to begin with.
+  OrbitMesh mesh() const {
+    return trigonometric ? OrbitMesh(CollocationRule::trigonometric(waves), 1)
+                         : OrbitMesh(CollocationRule(degree), intervals);
+  }
 };
 
 using CycleOptions = OrbitOptions;
@@ -35,8 +47,10 @@ std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, c
                                                   const BranchPoint& point,
                                                   const Tolerances& tolerances = {});
 
-/// The same start on so many intervals.
-OrbitStart refined(const OrbitStart& start, Index intervals);
+/// The same start on a mesh of this resolution, or on one that is made for its orbit, which comes as values
+/// on the mesh before.
+OrbitStart refined(const OrbitStart& start, Index resolution);
+OrbitStart refined(const OrbitStart& start, const std::function<OrbitMesh(const Matrix&)>& mesh_for);
 
 /// A branch and what its points are solutions of: their regimes are this problem's frames.
 struct OrbitBranch {

@@ -1,9 +1,9 @@
 #pragma once
 
-// Orbits u(s), 0 <= s <= 1, as polynomials of degree m on N intervals that meet at their ends, and where
-// these are to lie: so that an estimate of the error is the same on each [C. de Boor, Good approximation by
-// splines with variable knots, Lecture Notes in Mathematics 363 (1974) 12; R. D. Russell, J. Christiansen,
-// SIAM J. Numer. Anal. 15 (1978) 59].
+// Orbits u(s), 0 <= s <= 1, as polynomials of degree m on N intervals that meet at their ends, or as a
+// trigonometric one on a single interval, and where intervals are to lie: so that an estimate of the error is
+// the same on each [C. de Boor, Good approximation by splines with variable knots, Lecture Notes in
+// Mathematics 363 (1974) 12; R. D. Russell, J. Christiansen, SIAM J. Numer. Anal. 15 (1978) 59].
 
 #include "arcslip/continuation/cycles/collocation_rule.hpp"
 
@@ -23,6 +23,8 @@ class OrbitMesh {
   const CollocationRule& rule() const { return rule_; }
   const Vector& borders() const { return borders_; }
   Index intervals() const { return borders_.size() - 1; }
+  /// What an orbit is resolved by: N, or the degree H of a trigonometric polynomial.
+  Index resolution() const { return rule_.waves() > 0 ? rule_.waves() : intervals(); }
   Index nodes() const { return intervals() * rule_.degree() + 1; }
   double length(Index interval) const { return borders_(interval + 1) - borders_(interval); }
 
@@ -36,11 +38,12 @@ class OrbitMesh {
   /// The values at the nodes of another mesh.
   Matrix carried(const Matrix& values, const OrbitMesh& to) const;
 
-  /// Estimated size of |u - exact| on each interval, of the largest entry in units of `scale` (n).
+  /// Estimated size of |u - exact| on each interval, of the largest entry in units of `scale` (n): of a
+  /// trigonometric polynomial the sum of its last amplitudes, a sixth of all but at least three.
   Vector errors(const Matrix& values, const Vector& scale) const;
 
-  /// A mesh of so many intervals on which this orbit's errors would be alike.
-  OrbitMesh equidistributed(const Matrix& values, const Vector& scale, Index intervals) const;
+  /// A mesh of its kind of this resolution, on the intervals of which this orbit's errors would be alike.
+  OrbitMesh equidistributed(const Matrix& values, const Vector& scale, Index resolution) const;
 
  private:
   Vector highest_derivatives(const Matrix& values, const Vector& scale) const;

@@ -9,6 +9,8 @@
 // ends of intervals but once. What T is, and what holds at the ends, is for those who derive from this.
 //
 // Errors are O(h^(m+1)), at the ends of intervals O(h^(2m)), as those of T and of parameters are.
+// Trigonometric polynomials on a single interval are met at their nodes in place of the Gauss points; there
+// errors fall faster than any power of 1/H.
 //
 // A mesh belongs to an orbit. Along a branch there are several, each a frame: the regime of a point is the
 // number of its frame.
@@ -51,8 +53,10 @@ class OrbitProblem : public Problem {
   const Field& field() const { return *field_; }
   std::shared_ptr<const Field> shared_field() const { return field_; }
 
-  /// N, m, and whether T is an unknown.
+  /// N, m, what OrbitMesh::resolution tells, and whether T is an unknown.
   Index intervals() const { return frames_.front()->mesh.intervals(); }
+  Index resolution() const { return frames_.front()->mesh.resolution(); }
+  bool is_trigonometric() const { return frames_.front()->mesh.rule().waves() > 0; }
   Index degree() const { return frames_.front()->mesh.rule().degree(); }
   bool has_duration() const { return has_duration_; }
 
@@ -119,7 +123,7 @@ class OrbitProblem : public Problem {
 
   Index size() const override { return field_->size() * nodes() + (has_duration_ ? 1 : 0); }
   std::vector<std::string> parameter_names() const override { return field_->parameter_names(); }
-  bool sparse() const override { return true; }
+  bool sparse() const override { return !is_trigonometric(); }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                               const Evaluation& out) const override;
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
