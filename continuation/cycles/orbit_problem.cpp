@@ -336,8 +336,6 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
   const CollocationRule& rule = at.mesh.rule();
   const Index n = field_->size();
   const Index m = degree();
-  const double length = duration(u, p);
-  const double by_duration = du(du.size() - 1);
   Scratch scratch(n, p.size(), m);
   Vector row(n + p.size());
   Vector direction(n);
@@ -352,9 +350,9 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
       direction.noalias() = orbit(du).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
       weight = w.segment((j * m + i) * n, n).cwiseQuotient(at.scale) * -at.mesh.length(j);
       if (!field_->second(0, scratch.place, p, weight, direction, dp, row)) return false;
-      row *= length;
-      row.head(n).noalias() += by_duration * (by_unknowns.transpose() * weight);
-      row.tail(p.size()).noalias() += by_duration * (by_parameters.transpose() * weight);
+      row *= duration(u, p);
+      row.head(n).noalias() += du(size() - 1) * (by_unknowns.transpose() * weight);
+      row.tail(p.size()).noalias() += du(size() - 1) * (by_parameters.transpose() * weight);
       for (Index k = 0; k <= m; ++k) out.segment((j * m + k) * n, n) += rule.values()(i, k) * row.head(n);
       out(size() - 1) += weight.dot(by_unknowns * direction + by_parameters * dp);
       out.tail(p.size()) += row.tail(p.size());
