@@ -1,12 +1,17 @@
 #pragma once
 
 // Polynomials of degree m on an interval of length 1, held by their values at m + 1 nodes, the ends among
-// them, and asked for at the m Gauss points: what collocation at these is made of [C. de Boor, B. Swartz,
-// SIAM J. Numer. Anal. 10 (1973) 582].
+// them, and asked for at the m points of Gauss or of Radau: what collocation at these is made of [C. de Boor,
+// B. Swartz, SIAM J. Numer. Anal. 10 (1973) 582; E. Hairer, G. Wanner, Solving ODEs II (1996) IV.5].
 
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
+
+/// Gauss's are the most exact, by one order at the ends of intervals, but let what decays within an interval
+/// pass to its end, with a factor that tends to 1 or -1 as the rate grows. Radau's, of which the end is one,
+/// let it vanish: so multipliers of stiff fields are those of their flow.
+enum class CollocationPoints { gauss, radau };
 
 class CollocationRule {
  public:
@@ -14,11 +19,11 @@ class CollocationRule {
   static constexpr int most = 7;
 
   /// Of degree m. Throws std::invalid_argument unless least <= m <= most.
-  explicit CollocationRule(int degree);
+  explicit CollocationRule(int degree, CollocationPoints points = CollocationPoints::gauss);
 
   int degree() const { return degree_; }
   const Vector& nodes() const { return nodes_; }              ///< m + 1, from 0 to 1: those of Lobatto
-  const Vector& points() const { return points_; }            ///< m, of Gauss
+  const Vector& points() const { return points_; }            ///< m, from 0 to 1
   const Vector& weights() const { return weights_; }          ///< m, their sum is 1
   const Matrix& values() const { return values_; }            ///< m x (m + 1): at the points from the nodes
   const Matrix& derivatives() const { return derivatives_; }  ///< m x (m + 1): the same of the derivative
