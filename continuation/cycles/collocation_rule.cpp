@@ -21,9 +21,35 @@ Legendre legendre(int m, double x) {
   return {value, first, (2 * x * first - m * (m + 1) * value) / (1 - x * x)};
 }
 
+/// Zeros of P_m, from -1 to 1, and their weights.
+void find_gauss(int m, Vector& points, Vector& weights) {
+  for (int i = 0; i < m; ++i) {
+    double x = -std::cos(pi * (i + 0.75) / (m + 0.5));
+    for (int round = 0; round < 8; ++round) x -= legendre(m, x).value / legendre(m, x).first;
+    const double slope = legendre(m, x).first;
+    points(i) = x;
+    weights(i) = 2 / ((1 - x * x) * slope * slope);
+  }
+}
+
+/// Zeros of P_m - P_{m-1}, the last of which is 1.
+void find_radau(int m, Vector& points, Vector& weights) {
+  for (int i = 0; i < m; ++i) {
+    double x = std::cos(two_pi * (m - 1 - i) / (2 * m - 1));
+    for (int round = 0; round < 8 && i < m - 1; ++round) {
+      const Legendre high = legendre(m, x);
+      const Legendre low = legendre(m - 1, x);
+      x -= (high.value - low.value) / (high.first - low.first);
+    }
+    const double low = m * boost::math::legendre_p(m - 1, x);
+    points(i) = x;
+    weights(i) = (1 + x) / (low * low);
+  }
+}
+
 }  // namespace
 
-CollocationRule::CollocationRule(int degree)
+CollocationRule::CollocationRule(int degree, CollocationPoints points)
     : degree_(degree), nodes_(degree + 1), barycentric_(degree + 1), points_(degree), weights_(degree) {
   if (degree < least || degree > most)
     throw std::invalid_argument(
@@ -31,13 +57,10 @@ CollocationRule::CollocationRule(int degree)
   const int m = degree;
   nodes_(0) = 0;
   nodes_(m) = 1;
-  for (int i = 0; i < m; ++i) {  // zeros of P_m, and between them those of P_m'
-    double x = -std::cos(pi * (i + 0.75) / (m + 0.5));
-    for (int round = 0; round < 8; ++round) x -= legendre(m, x).value / legendre(m, x).first;
-    const double slope = legendre(m, x).first;
-    points_(i) = 0.5 * (1 + x);
-    weights_(i) = 1 / ((1 - x * x) * slope * slope);
-    if (i == 0) continue;
+  (points == CollocationPoints::gauss ? find_gauss : find_radau)(m, points_, weights_);
+  points_ = 0.5 * (1 + points_.array());
+  weights_ *= 0.5;
+  for (int i = 1; i < m; ++i) {  // zeros of P_m'
     double y = -std::cos(pi * i / m);
     for (int round = 0; round < 8; ++round) y -= legendre(m, y).first / legendre(m, y).second;
     nodes_(i) = 0.5 * (1 + y);

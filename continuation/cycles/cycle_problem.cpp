@@ -105,16 +105,33 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
     Vector unknowns;
     return on_intervals(u, p, regime, unknowns)->found_multipliers(unknowns, p, {});
   }
+  if (field().sparse()) return largest_multipliers(u, p, regime);
   std::vector<Matrix> factors;
   if (!transfers(u, p, regime, factors)) return {};
   if (!has_duration()) return continuation::log_multipliers(factors);
   std::vector<Vector> velocities;
+  if (!find_velocities(u, p, velocities)) return {};
+  return log_multipliers_beside(factors, velocities);
+}
+
+ComplexVector CycleProblem::largest_multipliers(const Vector& u, const Vector& p,
+                                                const Regime& regime) const {
+  constexpr Index count = 20;
+  SparseMatrix jacobian;
+  Evaluation out;
+  out.sparse_jacobian = &jacobian;
+  std::vector<Vector> velocities;
+  if (!evaluate(u, p, regime, out) || (has_duration() && !find_velocities(u, p, velocities))) return {};
+  return largest_log_multipliers(jacobian, field().size(), intervals(), degree(), velocities, count);
+}
+
+bool CycleProblem::find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const {
   Vector velocity(field().size());
   for (Index j = 0; j <= intervals(); ++j) {
-    if (!field().evaluate(0, orbit(u).col(j * degree()), p, {&velocity})) return {};
-    velocities.push_back(velocity);
+    if (!field().evaluate(0, orbit(u).col(j * degree()), p, {&velocity})) return false;
+    out.push_back(velocity);
   }
-  return log_multipliers_beside(factors, velocities);
+  return true;
 }
 
 bool CycleProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

@@ -19,7 +19,7 @@ bool CycleProblem::series(const Matrix& u, const Vector& p, const Regime& regime
   Matrix velocity;
   for (Index j = 0; j < intervals(); ++j) {
     for (Index i = 0; i < m; ++i) {
-      auto rows = out.middleRows((j * m + i) * n, n);
+      auto rows = out.middleRows((j * m + i + 1) * n, n);
       here.setZero();
       for (Index k = 0; k <= m; ++k) {
         here += rule.values()(i, k) * u.middleRows((j * m + k) * n, n);
@@ -34,7 +34,7 @@ bool CycleProblem::series(const Matrix& u, const Vector& p, const Regime& regime
       rows = in_units * rows;
     }
   }
-  auto ends = out.middleRows(n * m * intervals(), n);
+  auto ends = out.topRows(n);
   ends = u.middleRows(last, n) - u.topRows(n);
   ends.col(0) -= winding();
   ends = at.ends.cwiseInverse().asDiagonal() * ends;

@@ -7,6 +7,7 @@
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
 #include "arcslip/continuation/cycles/doubling_problem.hpp"
 #include "arcslip/continuation/linear/eigenvalues.hpp"
+#include "arcslip/continuation/linear/nearest_eigenvalues.hpp"
 #include "arcslip/continuation/path/switching.hpp"
 #include "arcslip/continuation/points/normal_form.hpp"
 
@@ -33,7 +34,7 @@ CycleStart small_cycle(const std::shared_ptr<const Field>& field, const Guess& h
   Vector scale(n);
   Vector unused(hopf.parameters.size());
   field->scale(hopf.unknowns, hopf.parameters, scale, unused);
-  const OrbitMesh mesh = options.mesh();
+  const OrbitMesh mesh = options.mesh(*field);
   Matrix motion(n, mesh.nodes());
   for (Index node = 0; node < mesh.nodes(); ++node)
     motion.col(node) = (q * std::polar(1.0, two_pi * mesh.place(node))).real();
@@ -58,13 +59,23 @@ CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh&
 std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
                                          const CycleOptions& options) {
   const Index n = field->size();
-  Matrix jacobian(n, n);
-  if (field->is_periodic() || !field->evaluate(0, hopf.unknowns, hopf.parameters, {nullptr, &jacobian}))
+  const bool is_sparse = field->sparse();
+  Matrix jacobian(is_sparse ? 0 : n, n);
+  SparseMatrix sparse_jacobian;
+  FieldValues wanted;
+  if (is_sparse) {
+    wanted.sparse_by_unknowns = &sparse_jacobian;
+  } else {
+    wanted.by_unknowns = &jacobian;
+  }
+  if (field->is_periodic() || !field->evaluate(0, hopf.unknowns, hopf.parameters, wanted))
     throw std::invalid_argument("cycles_from_hopf: no equilibrium");
   ComplexMatrix vectors;
-  const ComplexVector values = eigenvalues(jacobian, &vectors);
+  const ComplexVector values = is_sparse
+                                   ? nearest_eigenvalues(sparse_jacobian, eigenvalues_looked_at, &vectors)
+                                   : eigenvalues(jacobian, &vectors);
   std::vector<Index> pairs;
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < values.size(); ++i) {
     if (values(i).imag() > 0) pairs.push_back(i);
   }
   if (pairs.empty()) throw std::invalid_argument("cycles_from_hopf: no pair of eigenvalues is complex");

@@ -18,10 +18,9 @@ void DoublingProblem::fill(BorderedSolver& solver) const {
     return;
   }
   SparseMatrix twisted = at_.sparse_jacobian().topLeftCorner(count_, count_);
-  const Index n = cycles_->field().size();
-  for (Index column = 0; column < n; ++column) {
+  for (Index column = 0; column < cycles_->field().size(); ++column) {
     for (SparseMatrix::InnerIterator entry(twisted, column); entry; ++entry) {
-      if (entry.row() >= count_ - n) entry.valueRef() *= -1;
+      if (cycles_->is_by_left_end(entry.row(), column)) entry.valueRef() *= -1;
     }
   }
   twisted.makeCompressed();

@@ -20,8 +20,8 @@ bool observes_unknowns(const Problem& problem) {
 }  // namespace
 
 EquilibriumField::EquilibriumField(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {
-  if (!problem_->is_equilibrium() || problem_->sparse() || problem_->switch_count() > 0)
-    throw std::invalid_argument("cycles are followed of dense, smooth problems u' = F(u, p) alone");
+  if (!problem_->is_equilibrium() || problem_->switch_count() > 0)
+    throw std::invalid_argument("cycles are followed of smooth problems u' = F(u, p) alone");
   const std::vector<std::string> observed = observable_names(*problem_);
   const bool has_names = observes_unknowns(*problem_);
   for (const Observable& one : problem_->observables()) {
@@ -33,7 +33,8 @@ EquilibriumField::EquilibriumField(std::shared_ptr<const Problem> problem) : pro
 
 bool EquilibriumField::evaluate(double /*t*/, const Vector& u, const Vector& p,
                                 const FieldValues& out) const {
-  return problem_->evaluate(u, p, {}, {out.velocity, out.by_unknowns, out.by_parameters});
+  return problem_->evaluate(u, p, {},
+                            {out.velocity, out.by_unknowns, out.by_parameters, out.sparse_by_unknowns});
 }
 
 bool EquilibriumField::second(double /*t*/, const Vector& u, const Vector& p, const Vector& w,

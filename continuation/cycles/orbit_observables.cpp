@@ -86,12 +86,15 @@ double norm(const OrbitProblem& problem, const Vector& u, const Regime& regime, 
   return root;
 }
 
+/// How many unknowns have their extrema told: none of large fields, which have more than anyone reads.
+Index shown(const OrbitProblem& problem) { return problem.field().sparse() ? 0 : problem.told(); }
+
 }  // namespace
 
 std::vector<Observable> orbit_observables(const OrbitProblem& problem) {
   std::vector<Observable> all;
   const std::vector<std::string> names = problem.field().names();
-  for (Index i = 0; i < problem.told(); ++i) {
+  for (Index i = 0; i < shown(problem); ++i) {
     const std::string& name = names[static_cast<std::size_t>(i)];
     all.push_back({name + "_max", true});
     all.push_back({name + "_min", true});
@@ -101,7 +104,7 @@ std::vector<Observable> orbit_observables(const OrbitProblem& problem) {
 }
 
 Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime) {
-  const Index told = problem.told();
+  const Index told = shown(problem);
   Vector values(2 * told + 1);
   for (Index i = 0; i < told; ++i) {
     values(2 * i) = extremum(problem, u, regime, i, 1).value;
@@ -113,7 +116,7 @@ Vector observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Reg
 
 double observed_on_orbit(const OrbitProblem& problem, const Vector& u, const Regime& regime, Index which,
                          Vector& gradient) {
-  if (which == 2 * problem.told()) return norm(problem, u, regime, &gradient);
+  if (which == 2 * shown(problem)) return norm(problem, u, regime, &gradient);
   const Extremum found = extremum(problem, u, regime, which / 2, which % 2 == 0 ? 1 : -1);
   for (Index k = 0; k < found.weights.size(); ++k)
     gradient((found.first + k) * problem.field().size() + which / 2) = found.weights(k);

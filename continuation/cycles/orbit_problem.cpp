@@ -1,38 +1,11 @@
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace arcslip::continuation {
 namespace {
-
-/// Typical magnitudes of an orbit.
-void scales(const Field& field, const Eigen::Ref<const Matrix>& orbit, const Vector& p, Vector& unknowns,
-            Vector& parameters) {
-  field.scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, unknowns, parameters);
-}
-
-/// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
-Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
-  const CollocationRule& rule = mesh.rule();
-  const Index m = rule.degree();
-  Matrix weights = Matrix::Zero(orbit.rows(), orbit.cols());
-  double square = 0;
-  for (Index j = 0; j < mesh.intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const Vector change = (orbit.middleCols(j * m, m + 1) * rule.derivatives().row(i).transpose())
-                                .cwiseQuotient(scale);  // over the interval
-      square += rule.weights()(i) * change.squaredNorm() / mesh.length(j);
-      weights.middleCols(j * m, m + 1) +=
-          rule.weights()(i) * change.cwiseQuotient(scale) * rule.values().row(i);
-    }
-  }
-  return weights.reshaped() / square;
-}
 
 /// Eliminates the first columns from the others, with pivots of all rows below those before.
 void eliminate(Matrix& matrix, Index columns) {
@@ -54,11 +27,15 @@ void eliminate(Matrix& matrix, Index columns) {
 
 }  // namespace
 
-/// What is found of the field at the Gauss points of an interval.
+/// What is found of the field at the points of an interval.
 struct OrbitProblem::Scratch {
-  Scratch(Index n, Index parameters, Index degree)
+  Scratch(Index n, Index parameters, Index degree, const SparseMatrix* block)
       : place(n), velocity(n), by_time(n), velocities(n, degree), changes(n, degree) {
-    by_unknowns.assign(static_cast<std::size_t>(degree), Matrix(n, n));
+    if (block != nullptr) {
+      sparse_by_unknowns.assign(static_cast<std::size_t>(degree), *block);
+    } else {
+      by_unknowns.assign(static_cast<std::size_t>(degree), Matrix(n, n));
+    }
     by_parameters.assign(static_cast<std::size_t>(degree), Matrix(n, parameters));
   }
   Vector place;
@@ -68,6 +45,8 @@ struct OrbitProblem::Scratch {
   Matrix changes;     // sum_k D_ik u_k
   std::vector<Matrix> by_unknowns;
   std::vector<Matrix> by_parameters;
+  std::vector<SparseMatrix> sparse_by_unknowns;  // of a sparse field, in place of the others
+  SparseMatrix of_field;
 };
 
 OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration)
@@ -75,78 +54,8 @@ OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration
 
 void OrbitProblem::begin(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
   add_frame(mesh, orbit, p);
+  build_block(orbit, p);
   build_pattern();
-}
-
-const OrbitFrame& OrbitProblem::frame(const Regime& regime) const {
-  std::size_t number = 0;
-  for (Index digit = frame_digits; digit-- > 0;)
-    number = number * Regime::states + static_cast<std::size_t>(regime[digit]);
-  return *frames_.at(number);
-}
-
-Regime OrbitProblem::last_frame() const {
-  Regime regime;
-  auto rest = static_cast<int>(frames_.size() - 1);
-  for (Index digit = 0; digit < frame_digits; ++digit, rest /= Regime::states)
-    regime = regime.with(digit, rest % Regime::states);
-  return regime;
-}
-
-Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
-  Vector scale(orbit.rows());
-  Vector unused(p.size());
-  scales(*field_, orbit, p, scale, unused);
-  OrbitFrame frame{mesh, scale, {}, ranges(orbit, scale), {}, {}};
-  frame.ends = end_scale(frame, orbit, p);
-  if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
-  if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
-  set_apart(frame, part_apart(mesh, orbit));
-  if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
-  frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
-  return last_frame();
-}
-
-Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const {
-  const Index n = field_->size();
-  Vector values(n);
-  Matrix by_left(n, n);
-  Matrix by_right(n, n);
-  if (!end_conditions(orbit.col(0), orbit.rightCols(1), p, {&values, &by_left, &by_right, nullptr}))
-    return Vector::Ones(n);
-  const Vector change = by_left.cwiseAbs()
-                            .cwiseMax(by_right.cwiseAbs())
-                            .cwiseProduct(frame.scale.transpose().replicate(n, 1))
-                            .rowwise()
-                            .maxCoeff();
-  return (change.array() > 0).select(change, 1);
-}
-
-void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
-  if (part.size() == 0) return;
-  const CollocationRule& rule = frame.mesh.rule();
-  const Index m = rule.degree();
-  Matrix weights = Matrix::Zero(part.rows(), frame.mesh.nodes());
-  double square = 0;
-  for (Index j = 0; j < frame.mesh.intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      const double weight = rule.weights()(i) * frame.mesh.length(j);
-      const Vector at = part.col(j * m + i).cwiseQuotient(frame.scale);
-      square += weight * at.squaredNorm();
-      weights.middleCols(j * m, m + 1) += weight * at.cwiseQuotient(frame.scale) * rule.values().row(i);
-    }
-  }
-  frame.most_apart = std::sqrt(square);
-  frame.apart = weights.reshaped() / frame.most_apart;
-}
-
-double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  return at.apart.size() > 0 ? at.apart.dot(u.head(at.apart.size())) / at.most_apart : 1;
-}
-
-std::string OrbitProblem::describe(const Regime& regime) const {
-  return fmt::format("mesh {}", digits(regime));
 }
 
 double OrbitProblem::duration(const Vector& u, const Vector& p, Vector* by_parameters) const {
@@ -161,51 +70,6 @@ Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regim
   return result * duration(u, p);
 }
 
-double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  return at.mesh.errors(orbit(u), at.range).maxCoeff();
-}
-
-double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {
-  const OrbitFrame& at = frame(regime);
-  if (at.phase.size() == 0) return 1;
-  constexpr double still = 1e-6;
-  const Matrix values = orbit(u);
-  const Vector moves = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
-  if (moves.cwiseQuotient(at.range).maxCoeff() < still) return 1;
-  const Vector own = phase_weights(at.mesh, values, at.scale);
-  return std::abs(own.dot(at.phase)) / (own.norm() * at.phase.norm());
-}
-
-/// Columns of nodes hold the rows of each interval that they are on, those of the ends the conditions as
-/// well; that of T holds all but these.
-void OrbitProblem::build_pattern() {
-  const Index n = field_->size();
-  const Index rows = n * degree();
-  const Index ends = rows * intervals();
-  pattern_.resize(size(), size());
-  for (Index node = 0; node < nodes(); ++node) {
-    const Index j = node / degree();
-    const bool is_border = node % degree() == 0;
-    for (Index c = 0; c < n; ++c) {
-      const Index column = node * n + c;
-      pattern_.startVec(column);
-      const Index first = is_border && j > 0 ? j - 1 : j;
-      const Index last = std::min(j, intervals() - 1);
-      for (Index row = first * rows; row < (last + 1) * rows; ++row) pattern_.insertBack(row, column) = 0;
-      for (Index row = 0; row < n && (node == 0 || node + 1 == nodes()); ++row)
-        pattern_.insertBack(ends + row, column) = 0;
-      if (has_duration_) pattern_.insertBack(ends + n, column) = 0;
-    }
-  }
-  if (has_duration_) {
-    pattern_.startVec(size() - 1);
-    for (Index row = 0; row < ends; ++row) pattern_.insertBack(row, size() - 1) = 0;
-  }
-  pattern_.finalize();
-  pattern_.makeCompressed();
-}
-
 bool OrbitProblem::at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
                             Index interval, Index point, bool derivatives, Scratch& scratch) const {
   const CollocationRule& rule = frame.mesh.rule();
@@ -216,12 +80,22 @@ bool OrbitProblem::at_point(const OrbitFrame& frame, const Vector& u, const Vect
   const auto i = static_cast<std::size_t>(point);
   FieldValues wanted{&scratch.velocity, nullptr, nullptr, nullptr};
   if (derivatives) {
-    wanted.by_unknowns = &scratch.by_unknowns[i];
+    if (field_->sparse()) {
+      wanted.sparse_by_unknowns = &scratch.of_field;
+    } else {
+      wanted.by_unknowns = &scratch.by_unknowns[i];
+    }
     wanted.by_parameters = &scratch.by_parameters[i];
     if (field_->is_periodic()) wanted.by_time = &scratch.by_time;
   }
   if (!field_->evaluate(s * duration, scratch.place, p, wanted)) return false;
   scratch.velocities.col(point) = scratch.velocity;
+  if (wanted.sparse_by_unknowns != nullptr) {
+    auto entries = scratch.sparse_by_unknowns[i].coeffs();
+    entries.setZero();
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      entries(places_[k]) = scratch.of_field.valuePtr()[static_cast<Index>(k)];
+  }
   if (derivatives) {  // of T f
     scratch.by_parameters[i] *= duration;
     Vector by_parameters;
@@ -242,8 +116,9 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
   const CollocationRule& rule = frame.mesh.rule();
   const double h = frame.mesh.length(interval);
   const Vector in_units = frame.scale.cwiseInverse();
+  const bool is_sparse = field_->sparse();
   for (Index i = 0; i < m; ++i) {
-    const Index first = (interval * m + i) * n;
+    const Index first = (interval * m + i + 1) * n;
     const auto at = static_cast<std::size_t>(i);
     if (out.residual != nullptr) {
       out.residual->segment(first, n) =
@@ -255,18 +130,26 @@ void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index
     if (out.sparse_jacobian == nullptr) continue;
     double* values = out.sparse_jacobian->valuePtr();
     const int* starts = out.sparse_jacobian->outerIndexPtr();
+    const double* by_unknowns =
+        is_sparse ? scratch.sparse_by_unknowns[at].valuePtr() : scratch.by_unknowns[at].data();
     for (Index k = 0; k <= m; ++k) {
-      const bool is_second = k == 0 && interval > 0;  // the interval before comes first
+      const Index node = interval * m + k;
+      const bool is_end = node == 0 || node + 1 == nodes();
+      const Index conditions = is_end ? end_entries() : 0;
+      const Index blocks = i + (k == 0 && interval > 0 ? m : 0);  // those of the interval before come first
       const double weight = -h * duration * rule.values()(i, k);
       for (Index c = 0; c < n; ++c) {
-        double* block = values + starts[(interval * m + k) * n + c] + (is_second ? n * m : 0) + i * n;
-        const double* by_unknown = scratch.by_unknowns[at].data() + c * n;
-        for (Index row = 0; row < n; ++row) block[row] = weight * by_unknown[row] * in_units(row);
-        block[c] += rule.derivatives()(i, k) * in_units(c);
+        const Index begin = block_.outerIndexPtr()[c];
+        const Index count = block_.outerIndexPtr()[c + 1] - begin;
+        const int* const rows = block_.innerIndexPtr() + begin;
+        double* block = values + starts[node * n + c] + conditions + blocks * count;
+        for (Index entry = 0; entry < count; ++entry)
+          block[entry] = weight * by_unknowns[begin + entry] * in_units(rows[entry]);
+        block[diagonal_[static_cast<std::size_t>(c)]] += rule.derivatives()(i, k) * in_units(c);
       }
     }
     if (!has_duration_) continue;
-    double* block = values + starts[size() - 1] + first;
+    double* block = values + starts[size() - 1] + first - n;
     for (Index row = 0; row < n; ++row) block[row] = -h * scratch.velocities(row, i) * in_units(row);
   }
 }
@@ -275,30 +158,35 @@ bool OrbitProblem::fill_conditions(const OrbitFrame& frame, const Vector& u, con
                                    const Evaluation& out) const {
   const Index n = field_->size();
   const Index last = n * (nodes() - 1);
-  const Index ends = n * degree() * intervals();
   Vector values(n);
-  Matrix by_left(n, n);
-  Matrix by_right(n, n);
+  const bool is_sparse = field_->sparse();
+  Matrix by_left(is_sparse ? 0 : n, n);
+  Matrix by_right(is_sparse ? 0 : n, n);
   Matrix by_parameters(n, p.size());
   const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
-  const EndConditions wanted{&values, derivatives ? &by_left : nullptr, derivatives ? &by_right : nullptr,
+  const bool dense = derivatives && !is_sparse;
+  const EndConditions wanted{&values, dense ? &by_left : nullptr, dense ? &by_right : nullptr,
                              derivatives ? &by_parameters : nullptr};
   if (!end_conditions(u.head(n), u.segment(last, n), p, wanted)) return false;
   const auto in_units = frame.ends.cwiseInverse().asDiagonal();
   if (out.residual != nullptr) {
-    out.residual->segment(ends, n) = in_units * values;
-    if (has_duration_) (*out.residual)(ends + n) = frame.phase.dot(u.head(n * nodes())) - frame.phase_value;
+    out.residual->head(n) = in_units * values;
+    if (has_duration_) (*out.residual)(size() - 1) = frame.phase.dot(u.head(n * nodes())) - frame.phase_value;
   }
   if (out.parameter_jacobian != nullptr) {
-    out.parameter_jacobian->middleRows(ends, n) = in_units * by_parameters;
-    if (has_duration_) out.parameter_jacobian->row(ends + n).setZero();
+    out.parameter_jacobian->topRows(n) = in_units * by_parameters;
+    if (has_duration_) out.parameter_jacobian->row(size() - 1).setZero();
   }
   if (out.sparse_jacobian == nullptr) return true;
   double* entries = out.sparse_jacobian->valuePtr();
   const int* starts = out.sparse_jacobian->outerIndexPtr();
-  for (Index c = 0; c < n; ++c) {
-    Eigen::Map<Vector>(entries + starts[c] + n * degree(), n) = in_units * by_left.col(c);
-    Eigen::Map<Vector>(entries + starts[last + c] + n * degree(), n) = in_units * by_right.col(c);
+  for (Index c = 0; c < n && is_sparse; ++c) {
+    entries[starts[c]] = -1 / frame.ends(c);
+    entries[starts[last + c]] = 1 / frame.ends(c);
+  }
+  for (Index c = 0; c < n && !is_sparse; ++c) {
+    Eigen::Map<Vector>(entries + starts[c], n) = in_units * by_left.col(c);
+    Eigen::Map<Vector>(entries + starts[last + c], n) = in_units * by_right.col(c);
   }
   for (Index column = 0; column < n * nodes() && has_duration_; ++column)
     entries[starts[column + 1] - 1] = frame.phase(column);
@@ -318,7 +206,7 @@ bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regi
   if (out.sparse_jacobian != nullptr && out.sparse_jacobian->nonZeros() != pattern_.nonZeros())
     *out.sparse_jacobian = pattern_;
   const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
-  Scratch scratch(field_->size(), p.size(), degree());
+  Scratch scratch(field_->size(), p.size(), degree(), field_->sparse() ? &block_ : nullptr);
   for (Index j = 0; j < intervals(); ++j) {
     for (Index i = 0; i < degree(); ++i) {
       if (!at_point(at, u, p, length, j, i, derivatives, scratch)) return false;
@@ -331,12 +219,12 @@ bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regi
 /// Conditions at the ends count only as far as they are linear: those that derive from this say so.
 bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime, const Vector& w,
                           const Vector& du, const Vector& dp, Vector& out) const {
-  if (!has_duration_) return false;
+  if (!has_duration_ || field_->sparse()) return false;
   const OrbitFrame& at = frame(regime);
   const CollocationRule& rule = at.mesh.rule();
   const Index n = field_->size();
   const Index m = degree();
-  Scratch scratch(n, p.size(), m);
+  Scratch scratch(n, p.size(), m, nullptr);
   Vector row(n + p.size());
   Vector direction(n);
   Vector weight(n);
@@ -348,7 +236,7 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
       const Matrix& by_unknowns = scratch.by_unknowns[point];
       const Matrix& by_parameters = scratch.by_parameters[point];
       direction.noalias() = orbit(du).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
-      weight = w.segment((j * m + i) * n, n).cwiseQuotient(at.scale) * -at.mesh.length(j);
+      weight = w.segment((j * m + i + 1) * n, n).cwiseQuotient(at.scale) * -at.mesh.length(j);
       if (!field_->second(0, scratch.place, p, weight, direction, dp, row)) return false;
       row *= duration(u, p);
       row.head(n).noalias() += du(size() - 1) * (by_unknowns.transpose() * weight);
@@ -364,7 +252,7 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
 void OrbitProblem::scale(const Vector& u, const Vector& p, Vector& unknowns, Vector& parameters) const {
   const Index n = field_->size();
   Vector sizes(n);
-  scales(*field_, orbit(u), p, sizes, parameters);
+  field_->scale(orbit(u).cwiseAbs().rowwise().maxCoeff(), p, sizes, parameters);
   unknowns.head(n * nodes()).reshaped(n, nodes()).colwise() = sizes;
   if (has_duration_) unknowns(size() - 1) = std::abs(duration(u, p));
 }
@@ -376,7 +264,7 @@ bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& reg
   const Index n = field_->size();
   const Index m = degree();
   const double length = duration(u, p);
-  Scratch scratch(n, p.size(), m);
+  Scratch scratch(n, p.size(), m, nullptr);
   Matrix all(n * m, n * (m + 1));  // of the inner nodes, then of the left end and of the right one
   out.resize(static_cast<std::size_t>(intervals()));
   for (Index j = 0; j < intervals(); ++j) {

@@ -126,7 +126,7 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
       refuse(fmt::format("the motion has come to rest at t = {:g}", time));
     period = time_of_return(*field, motion, time);
   }
-  const OrbitMesh fine(CollocationRule(options.degree), 4 * options.intervals);
+  const OrbitMesh fine(rule_for(*field, options.degree), 4 * options.intervals);
   Matrix orbit(field->size(), fine.nodes());
   for (Index node = 0; node < fine.nodes(); ++node) {
     motion.go_to(settled + period * fine.place(node));
@@ -142,7 +142,7 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
     for (Index node = 0; node < fine.nodes(); ++node) orbit(i, node) -= gap * fine.place(node);
   }
   const OrbitMesh mesh = options.trigonometric
-                             ? options.mesh()
+                             ? options.mesh(*field)
                              : fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);
   return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p);
 }

@@ -14,11 +14,6 @@ TorusProblem::TorusProblem(const Problem& base, Index active)
     : PairProblem(base, active, count_beside_duration(base)),
       cycles_(dynamic_cast<const CycleProblem*>(&base)) {}
 
-bool TorusProblem::is_turned(Index row, Index column) const {
-  const Index n = cycles_->field().size();
-  return column < n && row >= count_ - n;
-}
-
 void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
   if (cycles_ == nullptr) {  // [A, b; -1, A - a], A = df/du
     Matrix doubled = Matrix::Zero(2 * count_, 2 * count_);
@@ -38,7 +33,7 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
         entries.emplace_back(static_cast<int>(row_part * count_ + entry.row()),
                              static_cast<int>(column_part * count_ + column), factor * entry.value());
       };
-      if (is_turned(entry.row(), column)) {
+      if (cycles_->is_by_left_end(entry.row(), column)) {
         add(0, 1, -b);
         add(1, 0, 1);
         add(1, 1, a);
@@ -59,7 +54,7 @@ Vector TorusProblem::turned(const Vector& x) const {
   for (Index column = 0; column < cycles_->field().size(); ++column) {
     for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry && entry.row() < count_;
          ++entry) {
-      if (is_turned(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
+      if (cycles_->is_by_left_end(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
     }
   }
   return result;

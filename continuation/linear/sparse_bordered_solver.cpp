@@ -13,8 +13,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double last_weight = 1e-6;   // of a border row's largest entry where that of others is 1 to 2
-constexpr double dense_gain = 6;       // in multiplications a second, of fronts over single entries
+constexpr double last_weight =
+    1e-6;                         // of the largest entry of a row for the end where that of others is 1 to 2
+constexpr double dense_gain = 6;  // in multiplications a second, of fronts over single entries
 constexpr double exact_enough = 1e-8;  // of a correction: its square is below rounding
 constexpr int most_refinements = 4;
 
@@ -73,8 +74,21 @@ void SparseBorderedSolver::set_pattern(const SparseMatrix& jacobian) {
   if (status == AMD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (status < 0) throw std::invalid_argument("set_jacobian: the sparse Jacobian is not a valid matrix");
   for (Index i = n; i < rows; ++i) order_[static_cast<std::size_t>(i)] = static_cast<int>(i);
+  find_last_rows(jacobian);
   frontal_ = make_frontal_factors(matrix_, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
   klu_.reset();
+}
+
+/// Those of the borders, and those which AMD sets aside for the end as it takes them for full.
+void SparseBorderedSolver::find_last_rows(const SparseMatrix& jacobian) {
+  const double most = std::max(16.0, AMD_DEFAULT_DENSE * std::sqrt(static_cast<double>(size())));
+  std::vector<int> count(static_cast<std::size_t>(size()), 0);
+  for (Index k = 0; k < jacobian.nonZeros(); ++k)
+    ++count[static_cast<std::size_t>(jacobian.innerIndexPtr()[k])];
+  last_rows_.clear();
+  for (Index i = 0; i < size() + borders(); ++i) {
+    if (i >= size() || count[static_cast<std::size_t>(i)] > most) last_rows_.push_back(i);
+  }
 }
 
 void SparseBorderedSolver::set_jacobian(const SparseMatrix& jacobian, const Vector& column_scale) {
@@ -104,7 +118,7 @@ void SparseBorderedSolver::set_borders() {
 }
 
 /// Powers of two, exact. False if a row is zero or not finite.
-bool SparseBorderedSolver::scale_rows(double border_weight) {
+bool SparseBorderedSolver::scale_rows(double weight_of_last) {
   const double* values = matrix_.valuePtr();
   const int* rows = matrix_.innerIndexPtr();
   const Index count = matrix_.nonZeros();
@@ -116,7 +130,7 @@ bool SparseBorderedSolver::scale_rows(double border_weight) {
   }
   if (!(finite == 0) || !(row_scale_.minCoeff() > 0)) return false;
   for (double& scale : row_scale_) scale = scale_to_one(scale);
-  row_scale_.tail(borders()) *= border_weight;
+  for (const Index row : last_rows_) row_scale_(row) *= weight_of_last;
   for (Index k = 0; k < count; ++k) scaled_.valuePtr()[k] = values[k] * row_scale_(rows[k]);
   return true;
 }

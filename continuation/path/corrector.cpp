@@ -7,6 +7,13 @@
 
 namespace arcslip::continuation {
 
+namespace {
+
+constexpr Index few_unknowns =
+    1000;  // unknowns, with which determinants stay within some decades over a step
+
+}  // namespace
+
 Work operator+(const Work& a, const Work& b) {
   return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
           a.rejected_steps + b.rejected_steps, a.spectra + b.spectra};
@@ -19,7 +26,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       options_(options),
       tolerance_(options.tolerance),
       linearization_(problem),
-      takes_lengths_out_(problem.sparse() && problem.is_equilibrium()),
+      takes_lengths_out_(problem.sparse() && (problem.is_equilibrium() || problem.size() > few_unknowns)),
       solver_(linearization_.make_solver(1)),
       correction_(size_ + 1),
       direction_(size_ + 1),
@@ -252,7 +259,7 @@ double Corrector::log_determinant() const {
   return determinant(factored_scale_).log();
 }
 
-/// Where a parameter multiplies many right-hand sides of a large equilibrium at once, as a length does, the
+/// Where a parameter multiplies many equations of a large system at once, as a length or a time does, the
 /// product of the rows' lengths runs through hundreds of decades: it is taken out, but for nearly full rows.
 LogProduct Corrector::determinant(const Vector& scale) const {
   LogProduct size;

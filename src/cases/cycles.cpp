@@ -78,7 +78,7 @@ bool asks_for_cycles(const CaseBranch& request) {
 }
 
 bool may_leave_cycles(const continuation::Problem& problem) {
-  return problem.is_equilibrium() && !problem.sparse() && problem.switch_count() == 0 && problem.size() > 1;
+  return problem.is_equilibrium() && problem.switch_count() == 0 && problem.size() > 1;
 }
 
 std::vector<TracedBranch> cycles_leaving(const std::vector<TracedBranch>& traced, const TimeBudget& time,

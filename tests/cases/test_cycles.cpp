@@ -78,6 +78,16 @@ TEST_CASE("An oscillator's cycles lose their symmetry and shed tori where AUTO-0
   }
 }
 
+TEST_CASE("Cycles of a sparse case leave its Hopf point with its period, stable", "[cycles]") {
+  const Run run("line_cycles");
+  REQUIRE(run.traced.size() == 2);
+  const auto& points = run.traced[1].branch.points;
+  CHECK(points.back().parameters(0) == 0.6);
+  CHECK_THAT(values_at(run.traced[1], PointType::start, "T").at(0),
+             WithinRel(two_pi / std::sqrt(4.5775), 1e-6));
+  CHECK(std::all_of(points.begin(), points.end(), [](const auto& point) { return point.unstable == 0; }));
+}
+
 TEST_CASE("Lorenz' cycles at large rho double their periods where AUTO-07p has it", "[cycles][numbers]") {
   const Run run("lorenz_doublings");
   CHECK_THAT(values_at(run.traced.front(), PointType::branch_point, "rho").at(0), WithinAbs(312.97, 5e-3));

@@ -11,6 +11,7 @@
 #include "arcslip/problems/response/power_balance.hpp"
 #include "arcslip/problems/tasks/verification.hpp"
 #include "branches.hpp"
+#include "case_runs.hpp"
 #include "case_texts.hpp"
 #include "catch.hpp"
 

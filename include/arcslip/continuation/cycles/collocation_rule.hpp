@@ -2,13 +2,19 @@
 
 // Functions on an interval of length 1 that are held by their values at m + 1 nodes, the ends among them, and
 // asked for at m points: what collocation at these is made of. Polynomials of degree m, asked for at the
-// Gauss points [C. de Boor, B. Swartz, SIAM J. Numer. Anal. 10 (1973) 582]; or, where they come back at the
-// end of the interval but for what grows linearly, trigonometric ones of degree H, m = 2 H + 1, at their own
-// nodes, which lie at equal distances.
+// points of Gauss or of Radau [C. de Boor, B. Swartz, SIAM J. Numer. Anal. 10 (1973) 582; E. Hairer,
+// G. Wanner, Solving ODEs II (1996) IV.5]; or, where they come back at the end of the interval but for what
+// grows linearly, trigonometric ones of degree H, m = 2 H + 1, at their own nodes, which lie at equal
+// distances.
 
 #include "arcslip/types.hpp"
 
 namespace arcslip::continuation {
+
+/// Gauss's are the most exact, by one order at the ends of intervals, but let what decays within an interval
+/// pass to its end, with a factor that tends to 1 or -1 as the rate grows. Radau's, of which the end is one,
+/// let it vanish: so multipliers of stiff fields are those of their flow.
+enum class CollocationPoints { gauss, radau };
 
 class CollocationRule {
  public:
@@ -16,7 +22,7 @@ class CollocationRule {
   static constexpr int most = 7;
 
   /// Of degree m. Throws std::invalid_argument unless least <= m <= most.
-  explicit CollocationRule(int degree);
+  explicit CollocationRule(int degree, CollocationPoints points = CollocationPoints::gauss);
 
   /// That of trigonometric polynomials of degree H >= 1.
   static CollocationRule trigonometric(int waves);
@@ -24,7 +30,7 @@ class CollocationRule {
   int degree() const { return degree_; }                      ///< m
   int waves() const { return waves_; }                        ///< H; 0 of polynomials
   const Vector& nodes() const { return nodes_; }              ///< m + 1, from 0 to 1: those of Lobatto
-  const Vector& points() const { return points_; }            ///< m, of Gauss
+  const Vector& points() const { return points_; }            ///< m, from 0 to 1
   const Vector& weights() const { return weights_; }          ///< m, their sum is 1
   const Matrix& values() const { return values_; }            ///< m x (m + 1): at the points from the nodes
   const Matrix& derivatives() const { return derivatives_; }  ///< m x (m + 1): the same of the derivative

@@ -40,8 +40,8 @@ class CycleProblem : public OrbitProblem {
   [[nodiscard]] bool series(const Matrix& u, const Vector& p, const Regime& regime,
                             Matrix& out) const override;
 
-  /// ln(mu) of the multipliers; empty where there are none. What a thread was told last is known when it asks
-  /// again.
+  /// ln(mu) of the multipliers, of sparse fields those of the largest; empty where there are none. What a
+  /// thread was told last is known when it asks again.
   ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
 
   /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
@@ -68,6 +68,9 @@ class CycleProblem : public OrbitProblem {
 
  private:
   struct Last;
+  /// At the ends of intervals.
+  [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const;
+  ComplexVector largest_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
   int periods_;

@@ -16,10 +16,11 @@ namespace arcslip::continuation {
 
 /// What `Field::evaluate` is asked for; a null is not wanted. Every target comes with its size.
 struct FieldValues {
-  Vector* velocity = nullptr;       ///< f, n
-  Matrix* by_unknowns = nullptr;    ///< df/du, n x n
-  Matrix* by_parameters = nullptr;  ///< df/dp, n x (number of parameters)
-  Vector* by_time = nullptr;        ///< df/dt, n; asked of fields with a period alone
+  Vector* velocity = nullptr;                  ///< f, n
+  Matrix* by_unknowns = nullptr;               ///< df/du, n x n
+  Matrix* by_parameters = nullptr;             ///< df/dp, n x (number of parameters)
+  Vector* by_time = nullptr;                   ///< df/dt, n; asked of fields with a period alone
+  SparseMatrix* sparse_by_unknowns = nullptr;  ///< df/du of a sparse field, compressed, always of one pattern
 };
 
 /// All functions are called from several threads and must not change the field.
@@ -52,6 +53,9 @@ class Field {
   /// Of an unknown of which values that differ by this are the same, as of an angle; else 0.
   virtual double turn(Index /*unknown*/) const { return 0; }
 
+  /// Whether `evaluate` fills `sparse_by_unknowns` in place of `by_unknowns`.
+  virtual bool sparse() const { return false; }
+
   /// Whether it depends on time, with a period.
   virtual bool is_periodic() const { return false; }
   /// This period, and where that is not null its derivatives by the parameters.
@@ -64,11 +68,11 @@ class Field {
   }
 };
 
-/// The field of which a dense problem's solutions are the equilibria. The observables of the problem that are
+/// The field of which a problem's solutions are the equilibria. The observables of the problem that are
 /// its unknowns in their order name these and tell which are angles; else they are u1, u2, ...
 class EquilibriumField : public Field {
  public:
-  /// Throws std::invalid_argument of a problem that has no equilibria, is sparse or has several regimes.
+  /// Throws std::invalid_argument of a problem that has no equilibria or has several regimes.
   explicit EquilibriumField(std::shared_ptr<const Problem> problem);
 
   const Problem& problem() const { return *problem_; }
@@ -76,6 +80,7 @@ class EquilibriumField : public Field {
   Index size() const override { return problem_->size(); }
   std::vector<std::string> names() const override { return names_; }
   std::vector<std::string> parameter_names() const override { return problem_->parameter_names(); }
+  bool sparse() const override { return problem_->sparse(); }
   double turn(Index unknown) const override {
     return turns_.empty() ? 0 : turns_[static_cast<std::size_t>(unknown)];
   }

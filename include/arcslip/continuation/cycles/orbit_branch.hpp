@@ -22,10 +22,10 @@ struct OrbitOptions {
   std::size_t max_branches = 50;  ///< all of them together
   bool tori = false;              ///< whether those that leave cycles are followed as well
 
-  /// What they are held on to begin with.
-  OrbitMesh mesh() const {
+  /// What those of a field are held on to begin with.
+  OrbitMesh mesh(const Field& field) const {
     return trigonometric ? OrbitMesh(CollocationRule::trigonometric(waves), 1)
-                         : OrbitMesh(CollocationRule(degree), intervals);
+                         : OrbitMesh(rule_for(field, degree), intervals);
   }
 };
 

@@ -2,15 +2,15 @@
 
 // Orbits of u' = f(t, u, p) over a duration T, by collocation: with s = t/T and a mesh s_0 = 0 .. s_N = 1,
 //
-//   sum_k D_ik u_jk - h_j T f(s_ji T, sum_k L_ik u_jk, p) = 0      at the Gauss points i = 1 .. m of interval
+//   sum_k D_ik u_jk - h_j T f(s_ji T, sum_k L_ik u_jk, p) = 0      at the points i = 1 .. m of interval
 //   j n conditions on both ends
 //
 // with the values u_jk at the nodes of a polynomial of degree m on each interval as unknowns, those at the
 // ends of intervals but once. What T is, and what holds at the ends, is for those who derive from this.
 //
-// Errors are O(h^(m+1)), at the ends of intervals O(h^(2m)), as those of T and of parameters are.
-// Trigonometric polynomials on a single interval are met at their nodes in place of the Gauss points; there
-// errors fall faster than any power of 1/H.
+// Errors are O(h^(m+1)), at the ends of intervals O(h^(2m)) with Gauss's points and O(h^(2m-1)) with Radau's,
+// as those of T and of parameters are. Trigonometric polynomials on a single interval are met at their nodes
+// in place of these points; there errors fall faster than any power of 1/H.
 //
 // A mesh belongs to an orbit. Along a branch there are several, each a frame: the regime of a point is the
 // number of its frame.
@@ -32,6 +32,9 @@ struct EndConditions {
   Matrix* by_parameters;  ///< n x number of parameters
 };
 
+/// Of a field's orbits: sparse ones are large since they discretise what is stiff, and have Radau's points.
+CollocationRule rule_for(const Field& field, int degree);
+
 /// What is fixed while a stretch of a branch is traced.
 struct OrbitFrame {
   OrbitMesh mesh;
@@ -47,7 +50,9 @@ struct OrbitFrame {
   double phase_value = 0;  ///< that of the condition for the frame's own orbit
 };
 
-/// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one.
+/// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one. Equations:
+/// the conditions at the ends, those at the Gauss points, then that on the phase. Of sparse
+/// fields the conditions at the ends must be u(T) - u(0) = w, with a constant w, as those of cycles are.
 class OrbitProblem : public Problem {
  public:
   const Field& field() const { return *field_; }
@@ -72,6 +77,11 @@ class OrbitProblem : public Problem {
 
   /// T, and its derivatives by the parameters where that is not null.
   double duration(const Vector& u, const Vector& p, Vector* by_parameters = nullptr) const;
+
+  /// Whether an entry of the Jacobian is that of a condition on both ends by a value at the left one.
+  bool is_by_left_end(Index row, Index column) const {
+    return row < field_->size() && column < field_->size();
+  }
 
   /// When the nodes are reached, 0 to T.
   virtual Vector times(const Vector& u, const Vector& p, const Regime& regime) const;
@@ -157,6 +167,9 @@ class OrbitProblem : public Problem {
 
   static void set_apart(OrbitFrame& frame, const Matrix& part);
   Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
+  /// How many of the conditions one unknown at an end enters.
+  Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }
+  void build_block(const Matrix& orbit, const Vector& p);
   void build_pattern();
   [[nodiscard]] bool at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
                               Index interval, Index point, bool derivatives, Scratch& scratch) const;
@@ -168,6 +181,9 @@ class OrbitProblem : public Problem {
   std::shared_ptr<const Field> field_;
   bool has_duration_;
   std::vector<std::shared_ptr<const OrbitFrame>> frames_;
+  SparseMatrix block_;           // df/du and the diagonal, n x n
+  std::vector<Index> diagonal_;  // where that is in each column of the block
+  std::vector<int> places_;      // of the entries of a sparse df/du among those of the block
   SparseMatrix pattern_;
 };
 

@@ -38,8 +38,6 @@ class TorusProblem : public PairProblem {
   Vector turned(const Vector& x) const override;
 
  private:
-  bool is_turned(Index row, Index column) const;  // by z
-
   const CycleProblem* cycles_;  // null of a map
 };
 

@@ -10,10 +10,11 @@
 namespace arcslip::continuation {
 
 /// The matrix is assembled whole. It is ordered once, for as long as J keeps its pattern, by approximate
-/// minimum degree of J with the borders last, since a dense row taken as a pivot before them would fill the
-/// factors. To keep it last its entries count for 1e-6 of the others' in the search for pivots: that is
-/// enough for a J singular to within rounding, and one step of iterative refinement, at 4 % of a
-/// factorisation of 10^5 unknowns, gives back the digits that the smaller pivots cost.
+/// minimum degree of J with the borders last and full rows of J before them, since one of these taken as a
+/// pivot earlier would fill the factors. To keep them last their entries count for 1e-6 of the others' in the
+/// search for pivots: that is enough for a J singular to within rounding, and one step of iterative
+/// refinement, at 4 % of a factorisation of 10^5 unknowns, gives back the digits that the smaller pivots
+/// cost.
 ///
 /// Fronts are used where they cost no more than six times the multiplications of KLU's order; where their
 /// pivots do not serve, KLU takes over. Nothing is allocated in fronts, and by KLU where the pivots of its
@@ -40,7 +41,8 @@ class SparseBorderedSolver final : public BorderedSolver {
   bool same_pattern(const SparseMatrix& jacobian) const;
   void set_pattern(const SparseMatrix& jacobian);
   void set_borders();
-  bool scale_rows(double border_weight);
+  void find_last_rows(const SparseMatrix& jacobian);
+  bool scale_rows(double weight_of_last);
   void solve_refined(bool transposed);
 
   SparseMatrix matrix_;  // whole; its rows are multiplied by row_scale_ in scaled_
@@ -49,7 +51,8 @@ class SparseBorderedSolver final : public BorderedSolver {
   Vector right_hand_side_;
   Vector solution_;
   Vector residual_;
-  std::vector<int> order_;  // of elimination, with the least fill
+  std::vector<int> order_;        // of elimination, with the least fill
+  std::vector<Index> last_rows_;  // for its end
   std::unique_ptr<SparseFactors> frontal_;
   std::unique_ptr<SparseFactors> klu_;
   SparseFactors* factors_ = nullptr;  // which of them

@@ -1,0 +1,126 @@
+// Meshes of orbits, each with what belongs to it while a stretch of a branch is traced.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "arcslip/continuation/cycles/orbit_problem.hpp"
+
+namespace arcslip::continuation {
+namespace {
+
+/// Of the integral of (u/scale) . (du_0/ds/scale), over that of the square of the latter.
+Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
+  const CollocationRule& rule = mesh.rule();
+  const Index m = rule.degree();
+  Matrix weights = Matrix::Zero(orbit.rows(), orbit.cols());
+  double square = 0;
+  for (Index j = 0; j < mesh.intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const Vector change = (orbit.middleCols(j * m, m + 1) * rule.derivatives().row(i).transpose())
+                                .cwiseQuotient(scale);  // over the interval
+      square += rule.weights()(i) * change.squaredNorm() / mesh.length(j);
+      weights.middleCols(j * m, m + 1) +=
+          rule.weights()(i) * change.cwiseQuotient(scale) * rule.values().row(i);
+    }
+  }
+  return weights.reshaped() / square;
+}
+
+}  // namespace
+
+CollocationRule rule_for(const Field& field, int degree) {
+  return CollocationRule(degree, field.sparse() ? CollocationPoints::radau : CollocationPoints::gauss);
+}
+
+const OrbitFrame& OrbitProblem::frame(const Regime& regime) const {
+  std::size_t number = 0;
+  for (Index digit = frame_digits; digit-- > 0;)
+    number = number * Regime::states + static_cast<std::size_t>(regime[digit]);
+  return *frames_.at(number);
+}
+
+Regime OrbitProblem::last_frame() const {
+  Regime regime;
+  auto rest = static_cast<int>(frames_.size() - 1);
+  for (Index digit = 0; digit < frame_digits; ++digit, rest /= Regime::states)
+    regime = regime.with(digit, rest % Regime::states);
+  return regime;
+}
+
+Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const Vector& p) {
+  Vector scale(orbit.rows());
+  Vector unused(p.size());
+  field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
+  OrbitFrame frame{mesh, scale, {}, ranges(orbit, scale), {}, {}};
+  frame.ends = end_scale(frame, orbit, p);
+  if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
+  if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
+  set_apart(frame, part_apart(mesh, orbit));
+  if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
+  frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
+  return last_frame();
+}
+
+Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const {
+  const Index n = field_->size();
+  if (field_->sparse()) return frame.scale;
+  Vector values(n);
+  Matrix by_left(n, n);
+  Matrix by_right(n, n);
+  if (!end_conditions(orbit.col(0), orbit.rightCols(1), p, {&values, &by_left, &by_right, nullptr}))
+    return Vector::Ones(n);
+  const Vector change = by_left.cwiseAbs()
+                            .cwiseMax(by_right.cwiseAbs())
+                            .cwiseProduct(frame.scale.transpose().replicate(n, 1))
+                            .rowwise()
+                            .maxCoeff();
+  return (change.array() > 0).select(change, 1);
+}
+
+void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
+  if (part.size() == 0) return;
+  const CollocationRule& rule = frame.mesh.rule();
+  const Index m = rule.degree();
+  Matrix weights = Matrix::Zero(part.rows(), frame.mesh.nodes());
+  double square = 0;
+  for (Index j = 0; j < frame.mesh.intervals(); ++j) {
+    for (Index i = 0; i < m; ++i) {
+      const double weight = rule.weights()(i) * frame.mesh.length(j);
+      const Vector at = part.col(j * m + i).cwiseQuotient(frame.scale);
+      square += weight * at.squaredNorm();
+      weights.middleCols(j * m, m + 1) += weight * at.cwiseQuotient(frame.scale) * rule.values().row(i);
+    }
+  }
+  frame.most_apart = std::sqrt(square);
+  frame.apart = weights.reshaped() / frame.most_apart;
+}
+
+double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  return at.apart.size() > 0 ? at.apart.dot(u.head(at.apart.size())) / at.most_apart : 1;
+}
+
+std::string OrbitProblem::describe(const Regime& regime) const {
+  return fmt::format("mesh {}", digits(regime));
+}
+
+double OrbitProblem::mesh_error(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  return at.mesh.errors(orbit(u), at.range).maxCoeff();
+}
+
+double OrbitProblem::phase_grip(const Vector& u, const Regime& regime) const {
+  const OrbitFrame& at = frame(regime);
+  if (at.phase.size() == 0) return 1;
+  constexpr double still = 1e-6;
+  const Matrix values = orbit(u);
+  const Vector moves = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
+  if (moves.cwiseQuotient(at.range).maxCoeff() < still) return 1;
+  const Vector own = phase_weights(at.mesh, values, at.scale);
+  return std::abs(own.dot(at.phase)) / (own.norm() * at.phase.norm());
+}
+
+}  // namespace arcslip::continuation
