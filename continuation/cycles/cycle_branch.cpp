@@ -151,6 +151,7 @@ class GrowthWatch {
     const double value = point.parameters(parameter_);
     const double period = problem_.duration(point.unknowns, point.parameters);
     const double same = nearly * scale(parameter_);
+    last_period_ = period;
     if (!(std::abs(value - value_) <= same) || period < period_) {
       value_ = value;
       period_ = period;
@@ -165,7 +166,7 @@ class GrowthWatch {
     return fmt::format(
         "the period grows without bound, past {:.6g}: an orbit that begins and ends on an equilibrium lies "
         "at {} = {:.10g}",
-        period_, options_.parameter, value_);
+        last_period_, options_.parameter, value_);
   }
 
  private:
@@ -173,7 +174,8 @@ class GrowthWatch {
   const TraceOptions& options_;
   Index parameter_;
   double value_ = std::numeric_limits<double>::quiet_NaN();
-  double period_ = 0;
+  double period_ = 0;  // the least at this value
+  double last_period_ = 0;
   int points_ = 0;  // since then
 };
 

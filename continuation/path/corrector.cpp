@@ -7,13 +7,6 @@
 
 namespace arcslip::continuation {
 
-namespace {
-
-constexpr Index few_unknowns =
-    1000;  // unknowns, with which determinants stay within some decades over a step
-
-}  // namespace
-
 Work operator+(const Work& a, const Work& b) {
   return {a.evaluations + b.evaluations, a.factorizations + b.factorizations, a.iterations + b.iterations,
           a.rejected_steps + b.rejected_steps, a.spectra + b.spectra};
@@ -26,7 +19,7 @@ Corrector::Corrector(const Problem& problem, Index parameter, const CorrectorOpt
       options_(options),
       tolerance_(options.tolerance),
       linearization_(problem),
-      takes_lengths_out_(problem.sparse() && (problem.is_equilibrium() || problem.size() > few_unknowns)),
+      takes_lengths_out_(problem.has_many_alike_rows()),
       solver_(linearization_.make_solver(1)),
       correction_(size_ + 1),
       direction_(size_ + 1),

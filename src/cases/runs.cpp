@@ -175,6 +175,9 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
   Subject subject =
       build(first.problem, first.options.parameter, first.start.value_or(first.options.from), time.rest());
   if (first.stored) begin_from(first, subject);
+  if (subject.failure.empty() && subject.built.problem->sparse() &&
+      may_leave_cycles(*subject.built.problem) && request->cycles.options.trigonometric)
+    subject.failure = "cycles of sparse systems are held on intervals, not by balance";
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
   if (request->curve)
     return trace_curves(request, subject, branches_across(*request->curve, first, subject, time), time,

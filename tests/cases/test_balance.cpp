@@ -28,7 +28,7 @@ const std::string van_der_pol = R"case(
 mu = -0.5
 [model.equations]
 x = "v"
-v = "mu*(1 - x^2)*v - x + 0.1*x^2"
+v = "(mu - x^2)*v - x + 0.1*x^2"
 [branch]
 parameter = "mu"
 from = -0.5
@@ -139,6 +139,15 @@ switching = true
   CHECK_THAT(value(tori, torus, "z_max"), WithinAbs(value(plane[0], cycle, "z_max"), 1e-7));
   CHECK_THAT(value(tori, torus, "z_min"), WithinAbs(value(plane[0], cycle, "z_min"), 1e-7));
   CHECK_THAT(value(tori, torus, "norm"), WithinAbs(value(plane[0], cycle, "norm"), 1e-8));
+}
+
+TEST_CASE("Cycles of sparse systems are not balanced", "[balance]") {
+  const auto all = traced_of(
+      "[system]\nmodel = \"brusselator_1d\"\nintervals = 20\n[branch]\nparameter = \"L\"\nfrom = 0.45\nto = "
+      "0.6\nswitching = true\n[cycles]\ndiscretisation = \"balance\"\n");
+  REQUIRE(all.size() == 1);
+  CHECK(all[0].branch.stop == Stop::no_start);
+  CHECK_THAT(all[0].branch.explanation, ContainsSubstring("held on intervals, not by balance"));
 }
 
 }  // namespace arcslip::testing::balance_cases

@@ -3,6 +3,7 @@
 // Branches of orbits, cycles and others, on meshes that follow them.
 
 #include <functional>
+#include <stdexcept>
 
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 #include "arcslip/continuation/path/trace.hpp"
@@ -22,10 +23,13 @@ struct OrbitOptions {
   std::size_t max_branches = 50;  ///< all of them together
   bool tori = false;              ///< whether those that leave cycles are followed as well
 
-  /// What those of a field are held on to begin with.
+  /// What those of a field are held on to begin with. Throws std::invalid_argument where there is none: waves
+  /// couple all places, so that nothing of a sparse field is sparse.
   OrbitMesh mesh(const Field& field) const {
-    return trigonometric ? OrbitMesh(CollocationRule::trigonometric(waves), 1)
-                         : OrbitMesh(rule_for(field, degree), intervals);
+    if (!trigonometric) return {rule_for(field, degree), intervals};
+    if (field.sparse())
+      throw std::invalid_argument("cycles of sparse systems are held on intervals, not by balance");
+    return {CollocationRule::trigonometric(waves), 1};
   }
 };
 

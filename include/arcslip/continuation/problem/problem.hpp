@@ -109,6 +109,10 @@ class Problem {
   /// of them that cross the imaginary axis are Hopf points.
   virtual bool is_equilibrium() const { return false; }
 
+  /// Whether determinants are told without the lengths of rows, whose product runs through hundreds of
+  /// decades where a parameter multiplies many equations at once.
+  virtual bool has_many_alike_rows() const { return sparse() && is_equilibrium(); }
+
   /// Whether F(u, p) + u is a map of which the solutions are fixed points.
   virtual bool is_map() const { return false; }
 
