@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "field_values.hpp"
 
@@ -44,6 +45,7 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
   std::vector<Formula> definitions = system.definitions;
   std::vector<Formula> rates = system.equations;
   std::vector<Formula> stay;
+  std::map<std::string, std::string> refused;
   for (const Formula& equation : system.equations) stay.push_back({equation.name, equation.name});
   if (system.period) {
     compile({parameters_, {}, {*system.period}});
@@ -52,6 +54,8 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
     definitions.push_back({time_name, fmt::format("{} * ({})", phase_name, system.period->text)});
     rates.push_back({phase_name, fmt::format("1 / ({})", system.period->text)});
     stay.push_back({phase_name, phase_name});
+  } else {
+    refused = {{time_name, "is the time, which formulas have beside a period alone"}};
   }
   std::vector<std::string> variables{"_nothing"};
   variables.insert(variables.end(), names_.begin(), names_.end());
@@ -71,9 +75,9 @@ FormulaPieces::FormulaPieces(const FormulaSystem& system) : told_(std::ssize(sys
     std::vector<Formula> reset;
     for (const Formula& rate : rates) own_rates.push_back(one_of(given->equations, rate));
     for (const Formula& one : stay) reset.push_back(one_of(given->reset, one));
-    pieces_.push_back({compile({variables, definitions, own_rates}),
-                       compile({variables, definitions, {given->until}}),
-                       compile({variables, definitions, reset})});
+    pieces_.push_back({compile({variables, definitions, own_rates, refused}),
+                       compile({variables, definitions, {given->until}, refused}),
+                       compile({variables, definitions, reset, refused})});
   }
 }
 

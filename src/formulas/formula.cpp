@@ -79,7 +79,7 @@ class Compiler {
 
   /// The node that a name stands for; -1 if it is unknown.
   int find(const std::string& name);
-  std::vector<std::string> names() const;
+  std::vector<std::string> names() const;  ///< but for those of hidden variables, which begin with _
   const FormulaSet& set() const { return set_; }
   TapeBuilder& builder() { return builder_; }
   int depth = 0;
@@ -274,6 +274,7 @@ int Compiler::define(const Formula& definition) {
 std::vector<std::string> Compiler::names() const {
   std::vector<std::string> all = set_.variables;
   for (const Formula& definition : set_.definitions) all.push_back(definition.name);
+  std::erase_if(all, [](const std::string& name) { return name.front() == '_'; });
   return all;
 }
 

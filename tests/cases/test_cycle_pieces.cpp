@@ -123,6 +123,10 @@ TEST_CASE("Systems of pieces are refused where they are none", "[pieces]") {
   CHECK_THROWS_WITH(
       traced_of(begin + "[model.pieces.one]\nuntil = \"x\"\nreset = { w = \"0\" }\n" + branch),
       ContainsSubstring("model.pieces.one.reset.w") && ContainsSubstring("no equation of this name"));
+  CHECK_THROWS_WITH(traced_of(begin + "[model.pieces.one]\nuntil = \"x - t\"\n" + branch),
+                    ContainsSubstring("is the time, which formulas have beside a period alone"));
+  CHECK_THROWS_WITH(traced_of(begin + "period = 1\n[model.pieces.one]\nuntil = \"y\"\n" + branch),
+                    ContainsSubstring("there are x, v, a, t"));
   CHECK_THROWS_WITH(traced_of(begin + "cycle = [\"two\"]\n[model.pieces.one]\nuntil = \"x\"\n" + branch),
                     ContainsSubstring("model.cycle"));
   const auto none = traced_of(begin + "[model.pieces.one]\nuntil = \"x - 5\"\n" + branch);
