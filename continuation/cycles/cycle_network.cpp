@@ -77,15 +77,20 @@ class OrbitNetwork {
         waiting_.push_back({traced.problem, point, doublings});
       }
     }
-    const auto* cycles = dynamic_cast<const CycleProblem*>(traced.problem.get());
-    const auto keep_end = [&](const BranchPoint& end) {
-      const double rounds = cycles->is_doubled() ? 2 : 1;
-      ends_.push_back({end.parameters, traced.problem->duration(end.unknowns, end.parameters) / rounds});
-    };
-    if (cycles != nullptr && traced.branch.first_stop == Stop::left_regime)
-      keep_end(traced.branch.points.front());
-    if (cycles != nullptr && traced.branch.stop == Stop::left_regime) keep_end(traced.branch.points.back());
+    if (!traced.branch.points.empty()) {
+      keep_end(*traced.problem, traced.branch.points.front());
+      keep_end(*traced.problem, traced.branch.points.back());
+    }
     found_.push_back(std::move(traced));
+  }
+
+  /// Of one on which orbits come to be of a simpler kind.
+  void keep_end(const OrbitProblem& problem, const BranchPoint& end) {
+    constexpr double nothing = 2e-3;  // of what keeps them apart: branches end at half of it
+    const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
+    if (orbits == nullptr || !(std::abs(problem.apart(end.unknowns, end.regime)) < nothing)) return;
+    ends_.push_back(
+        {end.parameters, orbits->period(end.unknowns, end.parameters) / (orbits->is_doubled() ? 2 : 1)});
   }
 
   void leave(const Waiting& from) {
@@ -97,11 +102,11 @@ class OrbitNetwork {
   }
 
   void double_at(const Waiting& from) {
-    const auto& cycles = dynamic_cast<const CycleProblem&>(*from.problem);
-    const double period = cycles.duration(from.point.unknowns, from.point.parameters);
+    const auto& orbits = dynamic_cast<const PeriodicOrbit&>(*from.problem);
+    const double period = orbits.period(from.point.unknowns, from.point.parameters);
     if (from.doublings >= orbits_.doublings || is_reached(from.point.parameters, period)) return;
-    const std::optional<CycleStart> start = cycle_from_doubling(cycles, parameter_, from.point);
-    if (start) follow({start->problem, start->guess, start->both_ways}, from.doublings + 1);
+    const std::optional<OrbitStart> start = orbit_from_doubling(orbits, parameter_, from.point);
+    if (start) follow(*start, from.doublings + 1);
   }
 
   /// Whether a branch has ended there, on a cycle of this period or on an equilibrium.

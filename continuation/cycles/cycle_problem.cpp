@@ -4,16 +4,13 @@
 
 #include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/cycles/orbit_observables.hpp"
-#include "arcslip/continuation/cycles/torus_problem.hpp"
-#include "arcslip/continuation/problem/guess.hpp"
 
 namespace arcslip::continuation {
 
 CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                            const Vector& p, int periods, bool doubled)
-    : OrbitProblem(field, !field->is_periodic()),
+    : PeriodicOrbit(field, !field->is_periodic(), doubled),
       periods_(periods),
-      doubled_(doubled),
       winding_(Vector::Zero(orbit.rows())) {
   for (Index i = 0; i < orbit.rows(); ++i) {
     if (const double turn = field->turn(i); turn > 0)
@@ -23,13 +20,12 @@ CycleProblem::CycleProblem(std::shared_ptr<const Field> field, const OrbitMesh& 
 }
 
 std::string CycleProblem::end_of_kind() const {
-  return doubled_ ? "the cycle becomes two rounds of one of half the period"
-                  : "the cycle shrinks onto an equilibrium";
+  return is_doubled() ? PeriodicOrbit::end_of_kind() : "the cycle shrinks onto an equilibrium";
 }
 
 /// What it is beside its mean or, of a doubled one, half of what tells both of its rounds apart.
 Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
-  if (!doubled_ && !has_duration()) return {};
+  if (!is_doubled() && !has_duration()) return {};
   const CollocationRule& rule = mesh.rule();
   const Index m = rule.degree();
   Matrix part(orbit.rows(), m * mesh.intervals());
@@ -41,7 +37,7 @@ Matrix CycleProblem::part_apart(const OrbitMesh& mesh, const Matrix& orbit) cons
       const double s = mesh.borders()(j) + mesh.length(j) * rule.points()(i);
       mesh.at(orbit, s, here, nullptr);
       here -= s * winding_;
-      if (doubled_) {
+      if (is_doubled()) {
         const double other = s < 0.5 ? s + 0.5 : s - 0.5;
         mesh.at(orbit, other, there, nullptr);
         here = 0.5 * (here - there + other * winding_);
@@ -63,7 +59,21 @@ std::shared_ptr<CycleProblem> CycleProblem::on_intervals(const Vector& u, const 
   unknowns.resize(carried.size() + (has_duration() ? 1 : 0));
   unknowns.head(carried.size()) = carried.reshaped();
   if (has_duration()) unknowns.tail(1) = u.tail(1);
-  return std::make_shared<CycleProblem>(shared_field(), mesh, carried, p, periods_, doubled_);
+  return std::make_shared<CycleProblem>(shared_field(), mesh, carried, p, periods_, is_doubled());
+}
+
+OrbitMesh CycleProblem::mesh_of_two(const OrbitMesh& once) const {
+  Vector borders(2 * once.intervals() + 1);
+  borders << 0.5 * once.borders(), 0.5 + 0.5 * once.borders().tail(once.intervals()).array();
+  return {once.rule(), borders};
+}
+
+Matrix CycleProblem::two_rounds(const Matrix& once, double sign) const {
+  const Index further = once.cols() - 1;
+  Matrix both(once.rows(), once.cols() + further);
+  both << once, sign * once.rightCols(further);
+  if (sign > 0) both.rightCols(further).colwise() += winding_;
+  return both;
 }
 
 bool CycleProblem::end_conditions(const Vector& left, const Vector& right, const Vector& /*p*/,
@@ -79,25 +89,6 @@ double CycleProblem::given_duration(const Vector& p, Vector* by_parameters) cons
   const double period = field().period(p, by_parameters);
   if (by_parameters != nullptr) *by_parameters *= periods_;
   return periods_ * period;
-}
-
-std::atomic<long> CycleProblem::made_ = 0;
-
-/// Stability and period doublings are asked for one after the other, at the end of a step and as it is taken.
-struct CycleProblem::Last {
-  long problem = 0;  // its number
-  Vector unknowns;
-  Vector parameters;
-  Regime regime;
-  ComplexVector logs;
-};
-
-ComplexVector CycleProblem::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
-  thread_local Last last;
-  const bool known =
-      last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
-  if (!known) last = {number_, u, p, regime, found_multipliers(u, p, regime)};
-  return last.logs;
 }
 
 ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
@@ -132,29 +123,6 @@ bool CycleProblem::find_velocities(const Vector& u, const Vector& p, std::vector
     out.push_back(velocity);
   }
   return true;
-}
-
-bool CycleProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                               ComplexVector& values) const {
-  values = exponents(log_multipliers(u, p, regime), duration(u, p));
-  return values.size() > 0 && values.allFinite();
-}
-
-Index count_beside_duration(const Problem& problem) {
-  const auto* cycles = dynamic_cast<const CycleProblem*>(&problem);
-  return problem.size() - (cycles != nullptr && cycles->has_duration() ? 1 : 0);
-}
-
-void CycleProblem::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  const ComplexVector logs = log_multipliers(u, p, regime);
-  values.setConstant(1, logs.size() == 0 && field().size() > 1 ? std::nan("") : doubling_test(logs));
-}
-
-std::unique_ptr<ExtendedProblem> CycleProblem::special(PointType type, Index active, const Guess& at,
-                                                       Vector& extras) const {
-  if (is_trigonometric()) return nullptr;
-  return special_of_multipliers(*this, type, active, log_multipliers(at.unknowns, at.parameters, at.regime),
-                                extras);
 }
 
 std::vector<Observable> CycleProblem::observables() const {

@@ -90,42 +90,30 @@ std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& fie
   return starts;
 }
 
-std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
+std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Index parameter,
                                               const BranchPoint& doubling) {
   if (problem.is_trigonometric()) {
     BranchPoint there = doubling;
     there.regime = {};
-    const auto same =
-        problem.on_intervals(doubling.unknowns, doubling.parameters, doubling.regime, there.unknowns);
-    const auto start = cycle_from_doubling(*same, parameter, there);
+    const auto same = dynamic_cast<const CycleProblem&>(problem).on_intervals(
+        doubling.unknowns, doubling.parameters, doubling.regime, there.unknowns);
+    const auto start = orbit_from_doubling(*same, parameter, there);
     if (!start) return std::nullopt;
     const OrbitMesh mesh(CollocationRule::trigonometric(static_cast<int>(2 * problem.resolution())), 1);
-    const OrbitStart held =
-        refined({start->problem, start->guess}, [&](const Matrix& /*orbit*/) { return mesh; });
-    return CycleStart{std::dynamic_pointer_cast<CycleProblem>(held.problem), held.guess};
+    return refined(*start, [&](const Matrix& /*orbit*/) { return mesh; });
   }
   DoublingProblem conditions(problem, parameter);
   const BasePoint guess{doubling.unknowns, doubling.parameters, doubling.regime, {}};
   const auto located = locate(conditions, guess);
   if (!located || !conditions.adapt(located->point)) return std::nullopt;
-  const OrbitMesh& single = problem.frame(doubling.regime).mesh;
-  const Index count = problem.intervals();
-  Vector borders(2 * count + 1);
-  borders << 0.5 * single.borders(), 0.5 + 0.5 * single.borders().tail(count).array();
-  const OrbitMesh mesh(single.rule(), borders);
-  const auto twice = [&](const Vector& all, double sign) {
-    const Matrix once = problem.orbit(all);
-    Matrix both(once.rows(), mesh.nodes());
-    both << once, sign * once.rightCols(once.cols() - 1);
-    if (sign > 0) both.rightCols(once.cols() - 1).colwise() += problem.winding();
-    return both;
-  };
   const BasePoint& at = located->point;
-  const Matrix both = twice(at.unknowns, 1);
-  const Matrix change = in_units(twice(conditions.right_null(), -1), problem.frame(at.regime).scale);
-  CycleStart start = cycle_from_orbit(problem.shared_field(), mesh, both + shape * change,
-                                      2 * problem.duration(at.unknowns, at.parameters), at.parameters,
-                                      2 * problem.periods(), true);
+  const OrbitFrame& frame = problem.frame(at.regime);
+  const Matrix once = in_units(problem.orbit(conditions.right_null()), frame.scale);
+  const Matrix change = problem.two_rounds(once, -1);
+  const Matrix both = problem.two_rounds(problem.orbit(at.unknowns), 1);
+  OrbitStart start =
+      start_from(problem.doubled(problem.mesh_of_two(frame.mesh), both + shape * change, at.parameters), both,
+                 2 * problem.duration(at.unknowns, at.parameters), at.parameters);
   start.guess.unknowns.head(both.size()) = (both + first * change).reshaped();
   start.guess.direction.setZero(start.guess.unknowns.size() + 1);
   start.guess.direction.head(change.size()) = change.reshaped();

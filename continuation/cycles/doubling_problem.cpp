@@ -10,17 +10,17 @@ namespace arcslip::continuation {
 
 DoublingProblem::DoublingProblem(const Problem& base, Index active)
     : SingularProblem(base, active, count_beside_duration(base)),
-      cycles_(dynamic_cast<const CycleProblem*>(&base)) {}
+      orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
 void DoublingProblem::fill(BorderedSolver& solver) const {
-  if (cycles_ == nullptr) {
+  if (orbits_ == nullptr) {
     solver.set_jacobian(Matrix(at_.jacobian() + 2 * Matrix::Identity(count_, count_)), scale_);
     return;
   }
   SparseMatrix twisted = at_.sparse_jacobian().topLeftCorner(count_, count_);
-  for (Index column = 0; column < cycles_->field().size(); ++column) {
+  for (Index column = 0; column < orbits_->field().size(); ++column) {
     for (SparseMatrix::InnerIterator entry(twisted, column); entry; ++entry) {
-      if (cycles_->is_by_left_end(entry.row(), column)) entry.valueRef() *= -1;
+      if (orbits_->joins_rounds(entry.row(), column)) entry.valueRef() *= -1;
     }
   }
   twisted.makeCompressed();
@@ -34,8 +34,8 @@ void DoublingProblem::test(const Vector& u, const Vector& p, const Regime& regim
       multiplier_form(base(), PointType::period_doubling, {point.unknowns, point.parameters, regime, {}});
   values.setConstant(2, std::nan(""));
   if (form) values(0) = form->coefficient / form->terms;
-  if (cycles_ != nullptr) {
-    values(1) = fold_test(cycles_->log_multipliers(point.unknowns, point.parameters, regime));
+  if (orbits_ != nullptr) {
+    values(1) = fold_test(orbits_->log_multipliers(point.unknowns, point.parameters, regime));
   } else if (at_.evaluate(point.unknowns, point.parameters, regime)) {
     values(1) = at_.jacobian().determinant();
   }

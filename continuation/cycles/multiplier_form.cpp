@@ -38,7 +38,7 @@ class Rounds {
     std::vector<Eigen::Triplet<Complex>> entries;
     for (Index column = 0; column < size; ++column) {
       for (SparseMatrix::InnerIterator entry(jacobian, column); entry && entry.row() < size; ++entry) {
-        const Complex factor = cycles_ != nullptr && cycles_->is_by_left_end(entry.row(), column) ? z : 1;
+        const Complex factor = cycles_ != nullptr && cycles_->joins_rounds(entry.row(), column) ? z : 1;
         entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), factor * entry.value());
       }
       // that of a map is f' - 1
@@ -56,7 +56,7 @@ class Rounds {
     ComplexVector result = ComplexVector::Zero(count_);
     for (Index column = 0; column < cycles_->field().size(); ++column) {
       for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry; ++entry) {
-        if (entry.row() < count_ && cycles_->is_by_left_end(entry.row(), column))
+        if (entry.row() < count_ && cycles_->joins_rounds(entry.row(), column))
           result(entry.row()) += entry.value() * v(column);
       }
     }

@@ -58,7 +58,7 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   frame.ends = end_scale(frame, orbit, p);
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());
-  set_apart(frame, part_apart(mesh, orbit));
+  set_apart(frame, part_apart(mesh, orbit), orbit);
   if (!frames_.empty()) frame.most_apart = std::max(frame.most_apart, frames_.back()->most_apart);
   frames_.push_back(std::make_shared<const OrbitFrame>(std::move(frame)));
   return last_frame();
@@ -80,7 +80,7 @@ Vector OrbitProblem::end_scale(const OrbitFrame& frame, const Matrix& orbit, con
   return (change.array() > 0).select(change, 1);
 }
 
-void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
+void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part, const Matrix& orbit) {
   if (part.size() == 0) return;
   const CollocationRule& rule = frame.mesh.rule();
   const Index m = rule.degree();
@@ -96,11 +96,13 @@ void OrbitProblem::set_apart(OrbitFrame& frame, const Matrix& part) {
   }
   frame.most_apart = std::sqrt(square);
   frame.apart = weights.reshaped() / frame.most_apart;
+  frame.apart_of_turns = frame.apart.dot(orbit.reshaped()) - frame.most_apart;
 }
 
 double OrbitProblem::apart(const Vector& u, const Regime& regime) const {
   const OrbitFrame& at = frame(regime);
-  return at.apart.size() > 0 ? at.apart.dot(u.head(at.apart.size())) / at.most_apart : 1;
+  if (at.apart.size() == 0) return 1;
+  return (at.apart.dot(u.head(at.apart.size())) - at.apart_of_turns) / at.most_apart;
 }
 
 std::string OrbitProblem::describe(const Regime& regime) const {

@@ -73,8 +73,8 @@ class SideBySide : public Field {
 }  // namespace
 
 PiecewiseCycle::PiecewiseCycle(std::shared_ptr<const PiecewiseField> pieces, const OrbitMesh& mesh,
-                               const Matrix& orbit, const Vector& p)
-    : OrbitProblem(std::make_shared<SideBySide>(pieces), false),
+                               const Matrix& orbit, const Vector& p, bool doubled)
+    : PeriodicOrbit(std::make_shared<SideBySide>(pieces), false, doubled),
       pieces_(std::move(pieces)),
       n_(pieces_->size()),
       count_(pieces_->pieces()),
@@ -87,6 +87,41 @@ PiecewiseCycle::PiecewiseCycle(std::shared_ptr<const PiecewiseField> pieces, con
     }
   }
   begin(mesh, orbit, p);
+}
+
+/// Both rounds side by side.
+Matrix PiecewiseCycle::two_rounds(const Matrix& once, double sign) const {
+  const auto places = once.topRows(n_ * count_);
+  const auto times = once.bottomRows(count_);
+  Matrix both(2 * once.rows(), once.cols());
+  both << places, sign * places, times, sign * times;
+  if (sign > 0)
+    both.middleRows(n_ * count_, n_ * count_).colwise() += winding_.replicate(count_, 1).reshaped();
+  return both;
+}
+
+std::shared_ptr<OrbitProblem> PiecewiseCycle::doubled(const OrbitMesh& mesh, const Matrix& orbit,
+                                                      const Vector& p) const {
+  return std::make_shared<PiecewiseCycle>(two_rounds_of(pieces_), mesh, orbit, p, true);
+}
+
+/// Of a doubled one half of what tells both of its rounds apart.
+Matrix PiecewiseCycle::part_apart(const OrbitMesh& mesh, const Matrix& orbit) const {
+  if (!is_doubled()) return {};
+  const CollocationRule& rule = mesh.rule();
+  const Index half = count_ / 2;
+  const Vector turn = 0.5 * winding_.replicate(half, 1).reshaped();
+  Matrix part(orbit.rows(), rule.degree() * mesh.intervals());
+  Vector here;
+  for (Index j = 0; j < part.cols(); ++j) {
+    const Index interval = j / rule.degree();
+    const double within = rule.points()(j % rule.degree());
+    mesh.at(orbit, mesh.borders()(interval) + mesh.length(interval) * within, here, nullptr);
+    const Vector places = 0.5 * (here.head(n_ * half) - here.segment(n_ * half, n_ * half) + turn);
+    const Vector times = 0.5 * (here.segment(n_ * count_, half) - here.tail(half));
+    part.col(j) << places, -places, times, -times;
+  }
+  return part;
 }
 
 double PiecewiseCycle::given_duration(const Vector& p, Vector* by_parameters) const {
@@ -158,7 +193,8 @@ bool PiecewiseCycle::end_conditions(const Vector& left, const Vector& right, con
 }
 
 /// In coordinates on the border that a piece ends on.
-ComplexVector PiecewiseCycle::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+ComplexVector PiecewiseCycle::found_multipliers(const Vector& u, const Vector& p,
+                                                const Regime& regime) const {
   std::vector<Matrix> all;
   if (n_ == 1) return ComplexVector(0);
   if (!transfers(u, p, regime, all)) return {};
@@ -189,17 +225,6 @@ ComplexVector PiecewiseCycle::log_multipliers(const Vector& u, const Vector& p, 
     factors.emplace_back(onto[static_cast<std::size_t>(k)] * from[before]);
   }
   return continuation::log_multipliers(factors);
-}
-
-bool PiecewiseCycle::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const {
-  values = exponents(log_multipliers(u, p, regime), lasts(u).sum());
-  return values.size() > 0 && values.allFinite();
-}
-
-void PiecewiseCycle::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
-  const ComplexVector logs = log_multipliers(u, p, regime);
-  values.setConstant(1, logs.size() == 0 && n_ > 1 ? std::nan("") : doubling_test(logs));
 }
 
 double PiecewiseCycle::border(const Vector& u, const Vector& p, const Regime& regime, int border,

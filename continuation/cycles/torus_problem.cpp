@@ -12,10 +12,10 @@ namespace arcslip::continuation {
 
 TorusProblem::TorusProblem(const Problem& base, Index active)
     : PairProblem(base, active, count_beside_duration(base)),
-      cycles_(dynamic_cast<const CycleProblem*>(&base)) {}
+      orbits_(dynamic_cast<const PeriodicOrbit*>(&base)) {}
 
 void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector& scales) const {
-  if (cycles_ == nullptr) {  // [A, b; -1, A - a], A = df/du
+  if (orbits_ == nullptr) {  // [A, b; -1, A - a], A = df/du
     Matrix doubled = Matrix::Zero(2 * count_, 2 * count_);
     doubled.topLeftCorner(count_, count_) = at_.jacobian() + Matrix::Identity(count_, count_);
     doubled.bottomRightCorner(count_, count_) = at_.jacobian() + (1 - a) * Matrix::Identity(count_, count_);
@@ -33,7 +33,7 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
         entries.emplace_back(static_cast<int>(row_part * count_ + entry.row()),
                              static_cast<int>(column_part * count_ + column), factor * entry.value());
       };
-      if (cycles_->is_by_left_end(entry.row(), column)) {
+      if (orbits_->joins_rounds(entry.row(), column)) {
         add(0, 1, -b);
         add(1, 0, 1);
         add(1, 1, a);
@@ -49,12 +49,12 @@ void TorusProblem::fill(BorderedSolver& solver, double a, double b, const Vector
 }
 
 Vector TorusProblem::turned(const Vector& x) const {
-  if (cycles_ == nullptr) return -x;
+  if (orbits_ == nullptr) return -x;
   Vector result = Vector::Zero(count_);
-  for (Index column = 0; column < cycles_->field().size(); ++column) {
+  for (Index column = 0; column < orbits_->field().size(); ++column) {
     for (SparseMatrix::InnerIterator entry(at_.sparse_jacobian(), column); entry && entry.row() < count_;
          ++entry) {
-      if (cycles_->is_by_left_end(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
+      if (orbits_->joins_rounds(entry.row(), column)) result(entry.row()) += entry.value() * x(column);
     }
   }
   return result;

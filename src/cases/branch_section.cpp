@@ -132,7 +132,8 @@ void check_range(const CaseBranch& branch, const TomlSection& section) {
 }
 
 void check_start(const CaseBranch& branch, const TomlSection& section) {
-  if (branch.switching)
+  const problems::LibraryModel* model = branch.problem.model.get();
+  if (branch.switching && (model == nullptr || !model->orbit))
     section.fail("start", "not beside switching, which follows the branch that begins at branch.from");
 }
 
@@ -265,37 +266,38 @@ std::vector<BranchKey> keys_of_range() {
 
 /// From where and how branches are traced, and what is looked for on them.
 std::vector<BranchKey> keys_of_ways() {
-  return {
-      BranchKey::flag(
-          "switching", &CaseBranch::switching,
-          "follow all branches that meet this one, at branch points and corners, and the cycles of "
-          "flows; of curves of folds or Hopf points those that they meet",
-          beside_curves_that_meet),
-      BranchKey("start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
-                "trace both ways from this value; not beside switching", not_beside_curve, then(check_start)),
-      BranchKey::special(
-          "from_point", "\"DIR:branch/point\"",
-          "trace both ways from a special point of the run in DIR, at its value of the parameter",
-          read_from_point, not_beside_curve, only("not beside start", lacks("start")),
-          only("not beside switching",
-               [](const CaseBranch& branch, const TomlSection&) { return !branch.switching; })),
-      BranchKey::flag(
-          "all_solutions", &CaseBranch::all_solutions,
-          "find all solutions at `start`, by deflation and by branches in all parameters, say whether "
-          "these are all, and trace the branch of each",
-          not_beside_curve, then(check_all)),
-      BranchKey::special(
-          "box", "two numbers, or two for each unknown",
-          "lowest and highest unknowns between which all solutions are found, by proof where "
-          "`[model]` has formulas",
-          read_box,
-          only("only beside all_solutions",
-               [](const CaseBranch& branch, const TomlSection&) { return branch.all_solutions; })),
-      BranchKey::special("extrema_of", "list of names",
-                         "observables whose peaks and troughs are located; of a curve of these the one",
-                         read_extrema, needed("`[\"Y\"]` of forced responses", always)),
-      BranchKey::flag("stability", at(&CaseBranch::problem, &ProblemRequest::stability),
-                      "growth of disturbances in every wave, of forced responses and limit cycles")};
+  return {BranchKey::flag(
+              "switching", &CaseBranch::switching,
+              "follow all branches that meet this one, at branch points and corners, and the cycles of "
+              "flows; of curves of folds or Hopf points those that they meet",
+              beside_curves_that_meet),
+          BranchKey(
+              "start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
+              "trace both ways from this value; beside switching only of pieces and boundary value problems",
+              not_beside_curve, then(check_start)),
+          BranchKey::special(
+              "from_point", "\"DIR:branch/point\"",
+              "trace both ways from a special point of the run in DIR, at its value of the parameter",
+              read_from_point, not_beside_curve, only("not beside start", lacks("start")),
+              only("not beside switching",
+                   [](const CaseBranch& branch, const TomlSection&) { return !branch.switching; })),
+          BranchKey::flag(
+              "all_solutions", &CaseBranch::all_solutions,
+              "find all solutions at `start`, by deflation and by branches in all parameters, say whether "
+              "these are all, and trace the branch of each",
+              not_beside_curve, then(check_all)),
+          BranchKey::special(
+              "box", "two numbers, or two for each unknown",
+              "lowest and highest unknowns between which all solutions are found, by proof where "
+              "`[model]` has formulas",
+              read_box,
+              only("only beside all_solutions",
+                   [](const CaseBranch& branch, const TomlSection&) { return branch.all_solutions; })),
+          BranchKey::special("extrema_of", "list of names",
+                             "observables whose peaks and troughs are located; of a curve of these the one",
+                             read_extrema, needed("`[\"Y\"]` of forced responses", always)),
+          BranchKey::flag("stability", at(&CaseBranch::problem, &ProblemRequest::stability),
+                          "growth of disturbances in every wave, of forced responses and limit cycles")};
 }
 
 }  // namespace

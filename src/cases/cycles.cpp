@@ -61,8 +61,8 @@ const continuation::Torus* torus_of(const TracedBranch& traced) {
   return traced.curve ? nullptr : dynamic_cast<const continuation::Torus*>(traced.base.problem.get());
 }
 
-const CycleProblem* cycles_of(const TracedBranch& traced) {
-  return traced.curve ? nullptr : dynamic_cast<const CycleProblem*>(traced.base.problem.get());
+const continuation::PeriodicOrbit* cycles_of(const TracedBranch& traced) {
+  return traced.curve ? nullptr : dynamic_cast<const continuation::PeriodicOrbit*>(traced.base.problem.get());
 }
 
 const OrbitProblem* orbits_of(const TracedBranch& traced) {

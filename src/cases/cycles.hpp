@@ -8,7 +8,7 @@
 namespace arcslip {
 
 /// The problem of a branch whose solutions are cycles; null of others and of curves.
-const continuation::CycleProblem* cycles_of(const TracedBranch& traced);
+const continuation::PeriodicOrbit* cycles_of(const TracedBranch& traced);
 
 /// The same of all whose solutions are orbits: cycles, and solutions of boundary value problems.
 const continuation::OrbitProblem* orbits_of(const TracedBranch& traced);

@@ -44,7 +44,7 @@ const KeyTable<CaseBranch>& cycles_keys() {
        K("tolerance", of(&CycleOptions::tolerance), inside(0, 1),
          "of an orbit, relative to how far its unknowns go", of_orbits),
        K("doublings", of(&CycleOptions::doublings), within(0, 20),
-         "how often doubled periods are followed, beside switching", of_smooth),
+         "how often doubled periods are followed, beside switching", of_flow),
        K::flag("tori", of(&CycleOptions::tori),
                "whether tori that leave cycles are followed, beside switching", of_smooth),
        K("max_branches", of(&CycleOptions::max_branches), at_least(1, INT_MAX),

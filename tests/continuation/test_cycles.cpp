@@ -216,9 +216,9 @@ TEST_CASE("Roessler's cycles double their periods", "[cycles]") {
   const auto first = of_type(single.branch, PointType::period_doubling);
   REQUIRE(!first.empty());
   CHECK_THAT(first[0].parameters(0), WithinAbs(2.832445, 2e-6));
-  const auto doubled = cycle_from_doubling(*single.problem, 0, first[0]);
+  const auto doubled = orbit_from_doubling(*single.problem, 0, first[0]);
   REQUIRE(doubled);
-  const CycleBranch twice = trace_cycles(*doubled, over("c", 2, 4.5), cycles);
+  const CycleBranch twice = cycle_branch(trace_orbits(*doubled, over("c", 2, 4.5), cycles));
   CHECK(twice.problem->periods() == 2);
   const auto second = of_type(twice.branch, PointType::period_doubling);
   REQUIRE(!second.empty());

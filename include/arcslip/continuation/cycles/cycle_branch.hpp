@@ -20,10 +20,6 @@ struct CycleStart {
 std::vector<CycleStart> cycles_from_hopf(const std::shared_ptr<const Field>& field, const Guess& hopf,
                                          const CycleOptions& options = {});
 
-/// The cycles of twice the period that leave a period doubling; none where it is not located.
-std::optional<CycleStart> cycle_from_doubling(const CycleProblem& problem, Index parameter,
-                                              const BranchPoint& doubling);
-
 /// A cycle close to an orbit: as its values at nodes tell, ends equal, over a time T.
 CycleStart cycle_from_orbit(std::shared_ptr<const Field> field, const OrbitMesh& mesh, const Matrix& orbit,
                             double duration, const Vector& p, int periods = 1, bool doubled = false);

@@ -7,15 +7,13 @@
 // with the last orbit of a frame for u_0. T is an unknown, or the field's own period. Stability by Floquet
 // multipliers, those of the orbit's own velocity left out. w are the whole turns of angles.
 
-#include <atomic>
-
-#include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 
 namespace arcslip::continuation {
 
 /// Unknowns: see OrbitProblem. Observables: T; the largest and the smallest value of each unknown, `x_max`
 /// and `x_min`; `norm`, the root of the mean of |u|^2.
-class CycleProblem : public OrbitProblem {
+class CycleProblem : public PeriodicOrbit {
  public:
   /// `periods` of the field's own period, where it has one, make one of the cycle. A branch of cycles ends
   /// where they shrink onto an equilibrium or, of those that are `doubled`, come to be two rounds of one of
@@ -25,12 +23,21 @@ class CycleProblem : public OrbitProblem {
 
   int periods() const { return periods_; }
   const Vector& winding() const { return winding_; }  ///< w, n
-  bool is_doubled() const { return doubled_; }
   std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                       const Vector& p) const override {
-    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, periods_, doubled_);
+    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, periods_, is_doubled());
   }
   std::string end_of_kind() const override;
+
+  bool joins_rounds(Index row, Index column) const override {
+    return row < field().size() && column < field().size();
+  }
+  OrbitMesh mesh_of_two(const OrbitMesh& once) const override;
+  Matrix two_rounds(const Matrix& once, double sign) const override;
+  std::shared_ptr<OrbitProblem> doubled(const OrbitMesh& mesh, const Matrix& orbit,
+                                        const Vector& p) const override {
+    return std::make_shared<CycleProblem>(shared_field(), mesh, orbit, p, 2 * periods_, true);
+  }
 
   /// The same problem on intervals about a cycle that is held by a trigonometric polynomial, and the unknowns
   /// of this cycle there, which are as good: for what is no cycle itself but goes along one.
@@ -39,21 +46,6 @@ class CycleProblem : public OrbitProblem {
 
   [[nodiscard]] bool series(const Matrix& u, const Vector& p, const Regime& regime,
                             Matrix& out) const override;
-
-  /// ln(mu) of the multipliers, of sparse fields those of the largest; empty where there are none. What a
-  /// thread was told last is known when it asks again.
-  ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
-
-  /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0.
-  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const override;
-  /// Of period doublings and of Neimark-Sacker points, on intervals alone.
-  std::unique_ptr<ExtendedProblem> special(PointType type, Index active, const Guess& at,
-                                           Vector& extras) const override;
-  bool has_multipliers() const override { return true; }
-  PointType pair_crossing() const override { return PointType::neimark_sacker; }
-  std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
-  void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
   std::vector<Observable> observables() const override;
   void observe(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
@@ -66,21 +58,16 @@ class CycleProblem : public OrbitProblem {
   Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const override;
   double given_duration(const Vector& p, Vector* by_parameters) const override;
 
+  /// Of sparse fields those of the largest.
+  ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
+
  private:
-  struct Last;
   /// At the ends of intervals.
   [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const;
   ComplexVector largest_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
-  ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
   int periods_;
-  bool doubled_;
   Vector winding_;
-  static std::atomic<long> made_;
-  long number_ = ++made_;  // which of them this is
 };
-
-/// How many unknowns a cycle has beside T; of another problem all.
-Index count_beside_duration(const Problem& problem);
 
 }  // namespace arcslip::continuation

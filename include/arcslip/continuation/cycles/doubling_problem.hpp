@@ -2,7 +2,7 @@
 
 // Period doublings of cycles and maps as an extended problem.
 
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 #include "arcslip/continuation/points/singular_problem.hpp"
 
 namespace arcslip::continuation {
@@ -12,7 +12,7 @@ namespace arcslip::continuation {
 /// a map f it is df/du + 1. Along a curve generalised period doublings and fold-flip points are found.
 class DoublingProblem : public SingularProblem {
  public:
-  /// Of a CycleProblem or of a map that is not sparse; `active` becomes an unknown. The base is kept by
+  /// Of periodic orbits or of a map that is not sparse; `active` becomes an unknown. The base is kept by
   /// reference.
   DoublingProblem(const Problem& base, Index active);
 
@@ -25,7 +25,7 @@ class DoublingProblem : public SingularProblem {
   void fill(BorderedSolver& solver) const override;
 
  private:
-  const CycleProblem* cycles_;  // null of a map
+  const PeriodicOrbit* orbits_;  // null of a map
 };
 
 }  // namespace arcslip::continuation

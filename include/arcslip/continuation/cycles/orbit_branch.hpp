@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "arcslip/continuation/cycles/orbit_problem.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 #include "arcslip/continuation/path/trace.hpp"
 
 namespace arcslip::continuation {
@@ -51,6 +51,10 @@ std::optional<OrbitStart> orbit_from_branch_point(const OrbitProblem& problem, c
                                                   const BranchPoint& point,
                                                   const Tolerances& tolerances = {});
 
+/// The orbits of twice the period that leave a period doubling; none where it is not located.
+std::optional<OrbitStart> orbit_from_doubling(const PeriodicOrbit& problem, Index parameter,
+                                              const BranchPoint& doubling);
+
 /// The same start on a mesh of this resolution, or on one that is made for its orbit, which comes as values
 /// on the mesh before.
 OrbitStart refined(const OrbitStart& start, Index resolution);
@@ -67,8 +71,8 @@ struct OrbitBranch {
 OrbitBranch trace_orbits(const OrbitStart& start, const TraceOptions& options,
                          const OrbitOptions& orbits = {}, const Observer& observer = {});
 
-/// A branch and all that can be reached from it through branch points and, of cycles, period doublings, each
-/// once.
+/// A branch and all that can be reached from it through branch points and, of periodic ones, period
+/// doublings, each once.
 std::vector<OrbitBranch> trace_connected_orbits(const OrbitStart& start, const TraceOptions& options,
                                                 const OrbitOptions& orbits = {},
                                                 const Observer& observer = {});

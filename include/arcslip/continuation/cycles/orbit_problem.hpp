@@ -47,7 +47,8 @@ struct OrbitFrame {
   /// there was of it; or empty.
   Vector apart;
   double most_apart = 0;
-  double phase_value = 0;  ///< that of the condition for the frame's own orbit
+  double apart_of_turns = 0;  ///< what the whole turns of angles add to it
+  double phase_value = 0;     ///< that of the condition for the frame's own orbit
 };
 
 /// Abstract: see `CycleProblem`. Unknowns: n x nodes of a mesh, node by node, then T if it is one. Equations:
@@ -77,11 +78,6 @@ class OrbitProblem : public Problem {
 
   /// T, and its derivatives by the parameters where that is not null.
   double duration(const Vector& u, const Vector& p, Vector* by_parameters = nullptr) const;
-
-  /// Whether an entry of the Jacobian is that of a condition on both ends by a value at the left one.
-  bool is_by_left_end(Index row, Index column) const {
-    return row < field_->size() && column < field_->size();
-  }
 
   /// When the nodes are reached, 0 to T.
   virtual Vector times(const Vector& u, const Vector& p, const Regime& regime) const;
@@ -166,7 +162,7 @@ class OrbitProblem : public Problem {
   struct Scratch;
   static constexpr Index frame_digits = 4;
 
-  static void set_apart(OrbitFrame& frame, const Matrix& part);
+  static void set_apart(OrbitFrame& frame, const Matrix& part, const Matrix& orbit);
   Vector end_scale(const OrbitFrame& frame, const Matrix& orbit, const Vector& p) const;
   /// How many of the conditions one unknown at an end enters.
   Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }

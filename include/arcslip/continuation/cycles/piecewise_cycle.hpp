@@ -13,6 +13,7 @@
 //   dg_k/du (1 - f_k dh_k/du / (dh_k/du f_k)) X_k
 
 #include "arcslip/continuation/cycles/orbit_branch.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 
 namespace arcslip::continuation {
 
@@ -46,30 +47,37 @@ class PiecewiseField {
   }
 };
 
+/// The same pieces twice, those of the second round with names of their own.
+std::shared_ptr<const PiecewiseField> two_rounds_of(std::shared_ptr<const PiecewiseField> once);
+
 /// Unknowns: see OrbitProblem; at each node those of all pieces, then the T_k. Observables: T; each T_k as
 /// `T_` and the piece's name; the largest and the smallest value of each told unknown on all pieces, `x_max`
-/// and `x_min`. A branch ends where a piece vanishes, or meets its border before it ends.
-class PiecewiseCycle : public OrbitProblem {
+/// and `x_min`. A branch ends where a piece vanishes, or meets its border before it ends, and one of those
+/// that are `doubled` where they come to be two rounds of one of half the period.
+class PiecewiseCycle : public PeriodicOrbit {
  public:
   /// Begins with a frame for this orbit, n K + K values at the nodes.
   PiecewiseCycle(std::shared_ptr<const PiecewiseField> pieces, const OrbitMesh& mesh, const Matrix& orbit,
-                 const Vector& p);
+                 const Vector& p, bool doubled = false);
 
   std::shared_ptr<OrbitProblem> about(const OrbitMesh& mesh, const Matrix& orbit,
                                       const Vector& p) const override {
-    return std::make_shared<PiecewiseCycle>(pieces_, mesh, orbit, p);
+    return std::make_shared<PiecewiseCycle>(pieces_, mesh, orbit, p, is_doubled());
   }
+  bool joins_rounds(Index row, Index column) const override {
+    return row >= n_ * (count_ - 1) && row < n_ * count_ && column < n_;
+  }
+  double period(const Vector& u, const Vector& /*p*/) const override {
+    return u.segment(n_ * count_, count_).sum();
+  }
+  OrbitMesh mesh_of_two(const OrbitMesh& once) const override { return once; }
+  Matrix two_rounds(const Matrix& once, double sign) const override;
+  std::shared_ptr<OrbitProblem> doubled(const OrbitMesh& mesh, const Matrix& orbit,
+                                        const Vector& p) const override;
   Index told() const override { return n_ * count_; }
   std::vector<std::string> told_names() const override;
   Matrix told_orbit(const Vector& u) const override;
   Vector times(const Vector& u, const Vector& p, const Regime& regime) const override;
-
-  ComplexVector log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
-  [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
-                                 ComplexVector& values) const override;
-  PointType pair_crossing() const override { return PointType::neimark_sacker; }
-  std::vector<PointType> test_types() const override { return {PointType::period_doubling}; }
-  void test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const override;
 
   /// Of each piece: that it lasts, then that it meets its border at its end alone.
   int border_count(const Regime& /*regime*/) const override { return 2 * static_cast<int>(count_); }
@@ -90,8 +98,10 @@ class PiecewiseCycle : public OrbitProblem {
  protected:
   [[nodiscard]] bool end_conditions(const Vector& left, const Vector& right, const Vector& p,
                                     const EndConditions& out) const override;
-  Matrix part_apart(const OrbitMesh& /*mesh*/, const Matrix& /*orbit*/) const override { return {}; }
+  Matrix part_apart(const OrbitMesh& mesh, const Matrix& orbit) const override;
   double given_duration(const Vector& p, Vector* by_parameters) const override;
+  ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
+  Index most_multipliers() const override { return n_ - 1; }
 
  private:
   auto lasts(const Vector& u) const { return u.segment(n_ * count_, count_); }  // T_k

@@ -2,7 +2,7 @@
 
 // Neimark-Sacker points of cycles, from which tori leave, as an extended problem.
 
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
 #include "arcslip/continuation/points/pair_problem.hpp"
 
 namespace arcslip::continuation {
@@ -14,7 +14,7 @@ namespace arcslip::continuation {
 /// where z is a root of 1, to the fourth, and Chenciner points.
 class TorusProblem : public PairProblem {
  public:
-  /// Of a CycleProblem or of a map that is not sparse; `active` becomes an unknown. The base is kept by
+  /// Of periodic orbits or of a map that is not sparse; `active` becomes an unknown. The base is kept by
   /// reference.
   TorusProblem(const Problem& base, Index active);
 
@@ -38,7 +38,7 @@ class TorusProblem : public PairProblem {
   Vector turned(const Vector& x) const override;
 
  private:
-  const CycleProblem* cycles_;  // null of a map
+  const PeriodicOrbit* orbits_;  // null of a map
 };
 
 /// Of period doublings and Neimark-Sacker points: the extended problem, and the extras that it begins with,

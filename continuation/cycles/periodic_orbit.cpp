@@ -1,0 +1,57 @@
+#include "arcslip/continuation/cycles/periodic_orbit.hpp"
+
+#include <cmath>
+
+#include "arcslip/continuation/cycles/floquet.hpp"
+#include "arcslip/continuation/cycles/torus_problem.hpp"
+#include "arcslip/continuation/problem/guess.hpp"
+
+namespace arcslip::continuation {
+
+std::string PeriodicOrbit::end_of_kind() const {
+  return doubled_ ? "the cycle becomes two rounds of one of half the period" : "";
+}
+
+std::atomic<long> PeriodicOrbit::made_ = 0;
+
+/// Stability and period doublings are asked for one after the other, at the end of a step and as it is taken.
+struct PeriodicOrbit::Last {
+  long problem = 0;  // its number
+  Vector unknowns;
+  Vector parameters;
+  Regime regime;
+  ComplexVector logs;
+};
+
+ComplexVector PeriodicOrbit::log_multipliers(const Vector& u, const Vector& p, const Regime& regime) const {
+  thread_local Last last;
+  const bool known =
+      last.problem == number_ && last.regime == regime && last.unknowns == u && last.parameters == p;
+  if (!known) last = {number_, u, p, regime, found_multipliers(u, p, regime)};
+  return last.logs;
+}
+
+bool PeriodicOrbit::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
+                                ComplexVector& values) const {
+  values = exponents(log_multipliers(u, p, regime), period(u, p));
+  return values.size() > 0 && values.allFinite();
+}
+
+void PeriodicOrbit::test(const Vector& u, const Vector& p, const Regime& regime, Vector& values) const {
+  const ComplexVector logs = log_multipliers(u, p, regime);
+  values.setConstant(1, logs.size() == 0 && most_multipliers() > 0 ? std::nan("") : doubling_test(logs));
+}
+
+std::unique_ptr<ExtendedProblem> PeriodicOrbit::special(PointType type, Index active, const Guess& at,
+                                                        Vector& extras) const {
+  if (is_trigonometric()) return nullptr;
+  return special_of_multipliers(*this, type, active, log_multipliers(at.unknowns, at.parameters, at.regime),
+                                extras);
+}
+
+Index count_beside_duration(const Problem& problem) {
+  const auto* orbits = dynamic_cast<const PeriodicOrbit*>(&problem);
+  return problem.size() - (orbits != nullptr && orbits->has_duration() ? 1 : 0);
+}
+
+}  // namespace arcslip::continuation
