@@ -73,16 +73,38 @@ class Motion {
       odeint::make_controlled(accuracy, accuracy, odeint::runge_kutta_dopri5<State>());
 };
 
+/// What has changed, but for whole turns.
+Vector change(const Field& field, const Vector& from, const Vector& to) {
+  Vector result = to - from;
+  for (Index i = 0; i < result.size(); ++i) {
+    if (const double turn = field.turn(i); turn > 0) result(i) = std::remainder(result(i), turn);
+  }
+  return result;
+}
+
+/// After how many periods of the field the motion comes back to where it is; one where it does after none of
+/// the first few, as what has not settled.
+int periods_of_return(const Field& field, Motion motion, double period) {
+  constexpr int most = 8;
+  const Vector origin = motion.state();
+  const double begun = motion.time();
+  Vector low = origin;
+  Vector high = origin;
+  for (int periods = 1; periods <= most; ++periods) {
+    while (motion.time() < begun + periods * period) {
+      motion.step(begun + periods * period);
+      low = low.cwiseMin(motion.state());
+      high = high.cwiseMax(motion.state());
+    }
+    if (change(field, origin, motion.state()).norm() <= close * (high - low).norm()) return periods;
+  }
+  return 1;
+}
+
 /// The time after which the motion comes back to where it is, found on `motion`, which it is followed by.
 double time_of_return(const Field& field, Motion motion, double longest) {
   const Vector origin = motion.state();
-  const auto away = [&](const Vector& place) {  // but for whole turns
-    Vector result = place - origin;
-    for (Index i = 0; i < result.size(); ++i) {
-      if (const double turn = field.turn(i); turn > 0) result(i) = std::remainder(result(i), turn);
-    }
-    return result;
-  };
+  const auto away = [&](const Vector& place) { return change(field, origin, place); };
   const Vector across = motion.velocity(origin).normalized();
   const double begun = motion.time();
   Vector low = origin;
@@ -121,7 +143,11 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
   const double time = given.value_or(rounds * period);
   const double settled = field->is_periodic() ? period * std::ceil(time / period) : time;
   motion.go_to(settled);
-  if (!field->is_periodic()) {
+  int periods = 1;
+  if (field->is_periodic()) {
+    periods = periods_of_return(*field, motion, period);
+    period *= periods;
+  } else {
     if (motion.velocity(motion.state()).norm() * time < 1e-6 * (1 + motion.state().norm()))
       refuse(fmt::format("the motion has come to rest at t = {:g}", time));
     period = time_of_return(*field, motion, time);
@@ -144,7 +170,7 @@ CycleStart settled_cycle(const std::shared_ptr<const Field>& field, const Vector
   const OrbitMesh mesh = options.trigonometric
                              ? options.mesh(*field)
                              : fine.equidistributed(orbit, Vector::Ones(orbit.rows()), options.intervals);
-  return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p);
+  return cycle_from_orbit(field, mesh, fine.carried(orbit, mesh), period, p, periods, periods % 2 == 0);
 }
 
 }  // namespace arcslip::continuation
