@@ -10,7 +10,8 @@ from .tables import PRELOADS, unknown_column
 
 LINES = {
     **{"fold": "folds", "branch_point": "branch points", "hopf": "Hopf points", "peak": "peaks", "trough": "troughs"},
-    **{"switch": words.R_IS_S, "phase_resonance": "phase resonances"},
+    **{"switch": words.R_IS_S, "phase_resonance": "phase resonances", "cycle_fold": "folds of cycles"},
+    **{"period_doubling": "period doublings", "neimark_sacker": "Neimark-Sacker points"},
 }
 SI = {"eta": ["frequency_Hz"], "P": PRELOADS, "Y": ["Y_m"], "U": ["U_m"], "R": ["R_m"]}
 

@@ -159,6 +159,27 @@ TEST_CASE("plot draws a curve of special points in the plane of its two paramete
   CHECK_THAT(svg, !ContainsSubstring("requested"));  // the value from which the curve starts is no request
 }
 
+TEST_CASE("plot draws curves of special points of cycles and maps", "[plots][outside]") {
+  if (!has_matplotlib()) return;
+  const std::string wall =
+      "[model]\nkind = 'piecewise'\nperiod = '2*pi/w'\nparameters = { w = 2.8, r = 0.8 }\n"
+      "equations = { x = 'v', v = 'cos(w*t) - 0.1*v - x' }\nstart = { v = 0.5 }\n"
+      "[model.pieces.free]\nuntil = 'x - 0.5'\nreset = { v = '-r*v' }\n[cycles]\nsettle = 400\n"
+      "[branch]\nparameters = ['w', 'r']\nfrom = 0.8\nto = 0.7\n";
+  const std::string map =
+      "[model]\nkind = 'map'\nparameters = { a = 1.5, b = 0 }\n"
+      "equations = { x = 'a*x*(1 - y) + b', y = 'x' }\nstart = { x = 0.4, y = 0.4 }\n"
+      "[branch]\nparameters = ['a', 'b']\nfrom = 0\nto = 0.05\nwindow = [1.5, 2.5]\n";
+  const auto [kind, title, text] = GENERATE_REF(table<std::string, std::string, std::string>(
+      {{"cycle_fold", "folds of cycles", wall + "window = [2.8, 3.5]\n"},
+       {"period_doubling", "period doublings", wall + "window = [2.8, 2]\n"},
+       {"neimark_sacker", "Neimark-Sacker points", map}}));
+  CAPTURE(kind);
+  const TemporaryFolder folder;
+  draw(folder, text + "curve = '" + kind + "'\n", {"curve"});
+  CHECK_THAT(read(folder.path("r/curve.svg")), ContainsSubstring("<!-- " + title + " -->"));
+}
+
 TEST_CASE(
     "plot draws a curve of a system with friction a second time, as amplitude over its second parameter",
     "[plots]") {
