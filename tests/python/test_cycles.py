@@ -140,7 +140,28 @@ def test_pieces_follow_each_other():
     np.testing.assert_allclose(branch["T_slip"], np.pi + 2 * np.arctan(0.5 / d), atol=1e-7)
     np.testing.assert_allclose(branch["T_stick"], 2 * d / 0.5, atol=1e-7)
     assert abs(branch.multipliers(0)).max() < 1e-12
+    with pytest.raises(ValueError, match='discretisation: only "collocation"'):
+        arcslip.trace_cycles(model, parameter="mu_s", range=(0.6, 0.9), discretisation="balance")
     with pytest.raises(ValueError, match="pieces.slip: expected until"):
         arcslip.Model({"x": "1"}, {"a": 1}, kind="piecewise", pieces={"slip": {"reset": {"x": 0}}})
     with pytest.raises(ValueError, match="cycle: there is no 'b' among a"):
         arcslip.Model({"x": "1"}, {"a": 1}, kind="piecewise", pieces={"a": {"until": "x - 1"}}, cycle=["b"])
+
+
+def test_pieces_have_branches_that_leave_them_and_curves():
+    wall = arcslip.Model(
+        {"x": "v", "v": "cos(w*t) - 0.1*v - x"},
+        {"w": 2.8, "r": 0.8},
+        {"v": 0.5},
+        kind="piecewise",
+        period="2*pi/w",
+        pieces={"free": {"until": "x - 0.5", "reset": {"v": "-r*v"}}},
+    )
+    once, twice, _ = arcslip.trace_cycles(wall, parameter="w", range=(2.8, 1.9), settle=400)
+    doubling = next(i for i, kind in enumerate(once["type"]) if kind == "period_doubling")
+    assert abs(once["w"][doubling] - twice["w"][0]) < 1e-5
+    np.testing.assert_allclose(twice["T_free"] + twice["T_free_2"], 8 * np.pi / twice["w"], atol=1e-9)
+    curve = once.continue_in_two(doubling, "r", (0.8, 0.5))
+    assert abs(once["w"][doubling] - curve["w"][0]) < 1e-8 and min(curve["r"]) < 0.6
+    (single,) = arcslip.trace_cycles(wall, parameter="w", range=(2.8, 1.9), settle=400, follow=False)
+    assert len(single) == len(once)

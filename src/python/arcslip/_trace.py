@@ -214,7 +214,7 @@ def trace_cycles(
             raise ValueError(f"u0: a motion through pieces begins at the start of its Model, got {u0!r}")
         if discretisation == "balance":
             raise ValueError('discretisation: only "collocation" for what is made of pieces, got "balance"')
-        return _orbits(problem, p0, parameter, range, settle, False, held, options, progress)
+        return _orbits(problem, p0, parameter, range, settle, follow, held, options, progress)
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter or _first_but_time(p0, is_driven), 0)
     options["parameter"] = prepared.parameter
