@@ -63,6 +63,7 @@ struct Differentiated {
   std::function<Vector(const Vector& direction)> along;
   Matrix by_parameters;
   const SparseMatrix* pattern = nullptr;
+  Vector here = {};  // its value, where it may have a kink: then any slope between both sides' is one
 };
 
 class Checker {
@@ -126,6 +127,7 @@ class Checker {
     Differentiated f{name, {}, {}, gradient.parameters.transpose()};
     f.value = [&](const Vector& u, const Vector& p) { return Vector{{scalar(u, p, unused)}}; };
     f.along = [&](const Vector& direction) { return Vector{{gradient.unknowns.dot(direction)}}; };
+    f.here = f.value(u_, p_);
     compare_parameters(f);
     const std::vector<Columns> singles = one_by_one(u_.size());
     if (u_.size() <= most_single) {
@@ -147,7 +149,7 @@ class Checker {
     Vector direction = Vector::Zero(u_.size());
     for (const Index j : columns) direction(j) = signs_(j) * scale_u_(j);
     const Vector errors =
-        errors_of(f.along(direction), [&](double h) { return f.value(u_ + h * direction, p_); });
+        errors_of(f, f.along(direction), [&](double h) { return f.value(u_ + h * direction, p_); });
     const double largest = errors.maxCoeff<Eigen::PropagateNaN>();
     if (!is_worse(largest)) return;
     if (columns.size() > 1 && !(largest <= surely_wrong)) {
@@ -166,22 +168,29 @@ class Checker {
   void compare_parameters(const Differentiated& f) {
     for (Index j = 0; j < p_.size(); ++j) {
       const Vector direction = scale_p_(j) * Vector::Unit(p_.size(), j);
-      const Vector errors =
-          errors_of(f.by_parameters * direction, [&](double h) { return f.value(u_, p_ + h * direction); });
+      const Vector errors = errors_of(f, f.by_parameters * direction,
+                                      [&](double h) { return f.value(u_, p_ + h * direction); });
       note(f, errors, [&](Index) { return problem_.parameter_names()[static_cast<std::size_t>(j)]; });
     }
   }
 
   template <class Along>
-  static Vector errors_of(const Vector& exact, const Along& along) {
-    const auto central = [&](double h) -> Vector { return (along(h) - along(-h)) / (2 * h); };
+  static Vector errors_of(const Differentiated& f, const Vector& exact, const Along& along) {
     const auto errors_by = [&](double h) -> Vector {
-      const Vector difference = (4 * central(h) - central(2 * h)) / 3;
-      return (exact - difference).array().abs() / (1 + exact.array().abs());
+      const Vector up[2] = {along(h), along(2 * h)};
+      const Vector down[2] = {along(-h), along(-2 * h)};
+      const Vector difference = (8 * (up[0] - down[0]) - (up[1] - down[1])) / (12 * h);
+      Vector errors = (exact - difference).cwiseAbs();
+      if (f.here.size() > 0) {  // how far beside what lies between both sides' slopes
+        const Vector ahead = (4 * up[0] - 3 * f.here - up[1]) / (2 * h);
+        const Vector behind = (3 * f.here - 4 * down[0] + down[1]) / (2 * h);
+        const Vector outside = (ahead.cwiseMin(behind) - exact).cwiseMax(exact - ahead.cwiseMax(behind));
+        errors = errors.cwiseMin(outside.cwiseMax(0));
+      }
+      return errors.array() / (1 + exact.array().abs());
     };
     constexpr double widest = 5e-5;
-    constexpr double narrowest =
-        5e-9;  // beside a needle, or an amplitude that is nearly zero, which has a kink
+    constexpr double narrowest = 5e-9;  // beside a needle
     constexpr double close = 1e-8;
     Vector errors = errors_by(widest);
     for (double width = widest / 10; width > narrowest && errors.allFinite() && errors.maxCoeff() > close;

@@ -223,7 +223,8 @@ TEST_CASE("An interrupt ends the run cleanly, with what was traced") {
 
 TEST_CASE("check --derivatives finds those of every kind of problem exact, with status 0") {
   for (const std::string name : {"figure_8", "cubic_response", "harmonics", "nonlinear_mode", "limit_cycle",
-                                 "ridge", "enz", "bratu_2d", "lorenz84_fold_curve"}) {
+                                 "ridge", "enz", "bratu_2d", "lorenz84_fold_curve", "bratu_boundary",
+                                 "impact_oscillator", "stick_slip", "localised_ring"}) {
     const Outcome outcome = arcslip_program("check --derivatives " + case_named(name));
     INFO(outcome.out << outcome.err);
     CHECK(outcome.status == 0);

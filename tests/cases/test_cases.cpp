@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <numbers>
-#include "arcslip/continuation/cycles/cycle_problem.hpp"
 
 #include "arcslip/cases/study_case.hpp"
 #include "arcslip/continuation/cycles/cycle_problem.hpp"

@@ -16,7 +16,8 @@ struct [[nodiscard]] DerivativeReport {
 
 /// Compares Jacobian, parameter derivatives, and the gradients of borders and observables at (u, p) with
 /// central differences, extrapolated once (error of order h^4). The point must lie at least 1e-3 of the scale
-/// inside its regime.
+/// inside its regime. Borders and observables may have kinks there, as a maximum in two places has: any slope
+/// between those of both sides is one.
 ///
 /// A sparse Jacobian is compared by groups of columns without a common row, of which there are about as many
 /// as its fullest row has entries. Entries that its pattern lacks are found, too, and named as "dF0/du7,
