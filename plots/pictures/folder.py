@@ -8,6 +8,7 @@ import matplotlib
 
 from . import style
 from .of_modes import PicturesOfModes
+from .of_orbits import PicturesOfOrbits
 from .of_run import PicturesOfRun
 from .of_study import PicturesOfStudy
 from .page import new_measure
@@ -79,6 +80,8 @@ def _decide(folder, summary, options):
     own = bool(options.x or options.y)
     run = RunData(folder, summary) if has_run else None
     parts = [PicturesOfRun(run, options, measure)] if has_run else []
+    if has_run and not own and "parameter" in run.branch:
+        parts.append(PicturesOfOrbits(folder, run, options, measure))
     if (not has_run or "study" in summary) and not (own and has_run):
         case = (summary["study"] if has_run else summary)["case"]
         parts.append(PicturesOfStudy(folder, case, options, measure))

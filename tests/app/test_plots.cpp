@@ -27,7 +27,8 @@ constexpr const char* stiffening =
     "interface_stiffness = 1000\ncubic_stiffness = 10\ndamping = { base = 5e-3, damper = 1e-4 }\n";
 
 /// Traces a case file of this text and draws it; the pictures are required to be whole and to be these.
-void draw(const TemporaryFolder& folder, const std::string& text, const std::vector<std::string>& drawn) {
+void draw(const TemporaryFolder& folder, const std::string& text, const std::vector<std::string>& drawn,
+          const std::set<std::string>& results = run_results) {
   const std::string file = folder.write("case.toml", text);
   const Outcome run = arcslip_program("run " + file + " --quiet -o " + folder.path("r"));
   REQUIRE(run.err.empty());
@@ -35,7 +36,7 @@ void draw(const TemporaryFolder& folder, const std::string& text, const std::vec
   const Outcome outcome = plotted(folder.path("r"));
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
-  require_pictures(folder.path("r"), 8'000, drawn, run_results);
+  require_pictures(folder.path("r"), 8'000, drawn, results);
 }
 
 }  // namespace
@@ -191,6 +192,30 @@ TEST_CASE(
        std::string(rods) + stiffening + "preload = 0.1\n[branch]\ncurve = '" + curve +
            "'\nparameters = ['eta', 'P']\nwindow = [0.5, 12]\nfrom = 0.05\nto = 10\n",
        {"curve", "amplitude"});
+}
+
+TEST_CASE("plot draws orbits of special points, and tori as nets", "[plots][outside]") {
+  if (!has_matplotlib()) return;
+  const TemporaryFolder folder;
+  draw_case("langford_tori", folder.path("r"), "--set branch.to=0.605");
+  const Outcome outcome = plotted(folder.path("r"));
+  CHECK(outcome.err.empty());
+  require_pictures(folder.path("r"), 8'000, {"branch", "orbits", "tori"},
+                   {"branches.csv", "curves.csv", "orbits.csv", "tori.csv", "summary.json"});
+  const std::string orbits = read(folder.path("r/orbits.svg"));
+  CHECK_THAT(orbits,
+             ContainsSubstring("<!-- Neimark\u2013Sacker") || ContainsSubstring("Sacker, $\\rho$ = 0.61"));
+  CHECK_THAT(read(folder.path("r/tori.svg")), ContainsSubstring("<!-- end, $\\rho$ = 0.605 -->"));
+
+  const TemporaryFolder between_ends;
+  draw(between_ends,
+       "[model]\nkind = 'boundary'\nparameters = { lambda = 0.1 }\n"
+       "equations = { u = 'v', v = '-lambda*exp(u)' }\ninterval = { x = [0, 1] }\n"
+       "conditions = ['u_left', 'u_right']\nstart = { u = 0, v = 0 }\n"
+       "[branch]\nparameter = 'lambda'\nfrom = 0.1\nto = 4\n",
+       {"branch", "orbits"}, {"branches.csv", "curves.csv", "orbits.csv", "summary.json"});
+  CHECK_THAT(read(between_ends.path("r/orbits.svg")),
+             ContainsSubstring("<!-- fold, $\\lambda$ = 3.51383 -->"));
 }
 
 TEST_CASE("plot draws limit cycles: their size and their frequency", "[plots][outside]") {
