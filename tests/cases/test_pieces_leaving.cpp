@@ -130,6 +130,16 @@ TEST_CASE("Curves of doublings and folds of impacts are those of the exact motio
   }
 }
 
+TEST_CASE("A curve of points that a branch of impacts has none of has no start", "[pieces]") {
+  const auto none =
+      traced_of(one_wall + "[branch]\ncurve = \"neimark_sacker\"\nparameters = [\"w\", \"r\"]\n" +
+                "window = [2.8, 2]\nfrom = 0.8\nto = 0.7\n");
+  REQUIRE(none.size() == 1);
+  CHECK(none[0].branch.stop == Stop::no_start);
+  CHECK_THAT(none[0].branch.explanation,
+             ContainsSubstring("no neimark_sacker was found") && ContainsSubstring("a piece vanishes there"));
+}
+
 TEST_CASE("Impacts on two walls lose their symmetry where one passage of the exact motion turns it",
           "[cycles][pieces]") {
   const auto all = traced_of(two_walls +
