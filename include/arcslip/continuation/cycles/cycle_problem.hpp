@@ -68,8 +68,8 @@ class CycleProblem : public OrbitProblem {
 
  private:
   struct Last;
-  /// At the ends of intervals.
-  [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const;
+  /// At the ends of intervals, n x (N + 1).
+  [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, Matrix& out) const;
   ComplexVector largest_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
