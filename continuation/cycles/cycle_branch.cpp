@@ -64,7 +64,7 @@ class MeshWatch {
 
   /// A frame for an orbit; none where no mesh of this resolution is good enough.
   std::optional<Regime> renewed(const Vector& u, const Vector& p, const Regime& regime) {
-    constexpr double margin = 0.3;  // or the next point would ask again
+    constexpr double margin = 0.5;  // or the next point would ask again; a finer mesh starts all over
     const OrbitFrame& frame = problem_.frame(regime);
     const Matrix orbit = problem_.orbit(u);
     OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.resolution());

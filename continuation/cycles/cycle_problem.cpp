@@ -100,7 +100,7 @@ ComplexVector CycleProblem::found_multipliers(const Vector& u, const Vector& p, 
   std::vector<Matrix> factors;
   if (!transfers(u, p, regime, factors)) return {};
   if (!has_duration()) return continuation::log_multipliers(factors);
-  std::vector<Vector> velocities;
+  Matrix velocities;
   if (!find_velocities(u, p, velocities)) return {};
   return log_multipliers_beside(factors, velocities);
 }
@@ -111,18 +111,16 @@ ComplexVector CycleProblem::largest_multipliers(const Vector& u, const Vector& p
   SparseMatrix jacobian;
   Evaluation out;
   out.sparse_jacobian = &jacobian;
-  std::vector<Vector> velocities;
+  Matrix velocities;
   if (!evaluate(u, p, regime, out) || (has_duration() && !find_velocities(u, p, velocities))) return {};
   return largest_log_multipliers(jacobian, field().size(), intervals(), degree(), velocities, count);
 }
 
-bool CycleProblem::find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const {
-  Vector velocity(field().size());
-  for (Index j = 0; j <= intervals(); ++j) {
-    if (!field().evaluate(0, orbit(u).col(j * degree()), p, {&velocity})) return false;
-    out.push_back(velocity);
-  }
-  return true;
+bool CycleProblem::find_velocities(const Vector& u, const Vector& p, Matrix& out) const {
+  out.resize(field().size(), intervals() + 1);
+  Matrix ends(out.rows(), out.cols());
+  for (Index j = 0; j < ends.cols(); ++j) ends.col(j) = orbit(u).col(j * degree());
+  return field().evaluate_columns(Vector::Zero(ends.cols()), ends, p, {&out});
 }
 
 std::vector<Observable> CycleProblem::observables() const {

@@ -19,6 +19,29 @@ bool observes_unknowns(const Problem& problem) {
 
 }  // namespace
 
+bool Field::evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                             const FieldColumns& out) const {
+  const Index n = size();
+  Vector place;
+  Vector velocity(n);
+  Vector by_time(n);
+  Matrix by_unknowns(n, n);
+  Matrix by_parameters(n, p.size());
+  FieldValues wanted{&velocity};
+  if (out.by_unknowns != nullptr) wanted.by_unknowns = &by_unknowns;
+  if (out.by_parameters != nullptr) wanted.by_parameters = &by_parameters;
+  if (out.by_time != nullptr) wanted.by_time = &by_time;
+  for (Index k = 0; k < u.cols(); ++k) {
+    place = u.col(k);
+    if (!evaluate(times(k), place, p, wanted)) return false;
+    out.velocity->col(k) = velocity;
+    if (out.by_unknowns != nullptr) out.by_unknowns->middleCols(k * n, n) = by_unknowns;
+    if (out.by_parameters != nullptr) out.by_parameters->middleCols(k * p.size(), p.size()) = by_parameters;
+    if (out.by_time != nullptr) out.by_time->col(k) = by_time;
+  }
+  return true;
+}
+
 EquilibriumField::EquilibriumField(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {
   if (!problem_->is_equilibrium() || problem_->switch_count() > 0)
     throw std::invalid_argument("cycles are followed of smooth problems u' = F(u, p) alone");
@@ -35,6 +58,12 @@ bool EquilibriumField::evaluate(double /*t*/, const Vector& u, const Vector& p,
                                 const FieldValues& out) const {
   return problem_->evaluate(u, p, {},
                             {out.velocity, out.by_unknowns, out.by_parameters, out.sparse_by_unknowns});
+}
+
+bool EquilibriumField::evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                                        const FieldColumns& out) const {
+  return problem_->evaluate_columns(u, p, out.velocity, out.by_unknowns, out.by_parameters) ||
+         Field::evaluate_columns(times, u, p, out);
 }
 
 bool EquilibriumField::second(double /*t*/, const Vector& u, const Vector& p, const Vector& w,

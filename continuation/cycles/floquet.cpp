@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 
@@ -12,22 +14,43 @@ namespace {
 
 constexpr double plain = 1e4;  // ratio of stretches of which a product loses no digits that matter
 
-/// The largest stretch over the smallest, about.
-double spread(const Matrix& matrix) {
-  const Eigen::ColPivHouseholderQR<Matrix> qr(matrix);
-  const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
-  const double least = diagonal.minCoeff();
-  return least > 0 ? diagonal.maxCoeff() / least : std::numeric_limits<double>::infinity();
+/// The largest stretch over the smallest, about: of pivots, each the largest entry that is left.
+double spread(Matrix matrix) {
+  double* const a = matrix.data();
+  const Index n = matrix.rows();
+  double most = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < n; ++k) {
+    Index row = k;
+    Index column = k;
+    for (Index j = k; j < n; ++j) {
+      for (Index i = k; i < n; ++i) {
+        if (std::abs(a[j * n + i]) > std::abs(a[column * n + row])) std::tie(row, column) = std::pair(i, j);
+      }
+    }
+    for (Index i = 0; i < n; ++i) std::swap(a[k * n + i], a[column * n + i]);
+    for (Index j = 0; j < n; ++j) std::swap(a[j * n + k], a[j * n + row]);
+    const double pivot = a[k * n + k];
+    most = std::max(most, std::abs(pivot));
+    least = std::min(least, std::abs(pivot));
+    if (pivot == 0) break;
+    for (Index j = k + 1; j < n; ++j) {
+      const double factor = a[j * n + k] / pivot;
+      for (Index i = k + 1; i < n; ++i) a[j * n + i] -= factor * a[k * n + i];
+    }
+  }
+  return least > 0 ? most / least : std::numeric_limits<double>::infinity();
 }
 
 /// The same product of fewer factors, where digits allow it.
 std::vector<Matrix> gathered(const std::vector<Matrix>& factors) {
   std::vector<Matrix> result;
+  Matrix product;
   for (const Matrix& factor : factors) {
     const bool begins = result.empty();
-    Matrix product = begins ? factor : Matrix(factor * result.back());
+    if (!begins) product = factor.lazyProduct(result.back());
     if (!begins && spread(product) < plain) {
-      result.back() = std::move(product);
+      result.back().swap(product);
     } else {
       result.push_back(factor);
     }
@@ -111,21 +134,29 @@ ComplexVector log_multipliers(const std::vector<Matrix>& factors) {
   return Eigen::Map<const ComplexVector>(logs.data(), std::ssize(logs));
 }
 
-ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const std::vector<Vector>& along) {
-  const Index n = factors.front().rows();
+ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const Matrix& along) {
+  const Index n = along.rows();
   if (n == 1) return ComplexVector(0);
-  const auto beside = [n](const Vector& direction) -> Matrix {
-    const Matrix column = direction;
-    const Matrix all = Eigen::HouseholderQR<Matrix>(column).householderQ();
-    return all.rightCols(n - 1);
-  };
+  Matrix mirrors = along;  // v of 1 - 2 v v^T, which turns a direction into the first axis
+  mirrors.rightCols(1) = along.leftCols(1);
+  for (auto mirror : mirrors.colwise()) {
+    mirror.normalize();
+    mirror(0) += std::copysign(1, mirror(0));
+    mirror.normalize();
+  }
   std::vector<Matrix> reduced;
-  const Matrix first = beside(along.front());
-  Matrix before = first;
+  reduced.reserve(factors.size());
+  Matrix turned(n, n);
+  Vector image(n);
   for (std::size_t j = 0; j < factors.size(); ++j) {
-    const Matrix after = j + 1 < factors.size() ? beside(along[j + 1]) : first;
-    reduced.emplace_back(after.transpose() * factors[j] * before);
-    before = after;
+    const auto before = mirrors.col(static_cast<Index>(j));
+    const auto after = mirrors.col(static_cast<Index>(j) + 1);
+    turned = factors[j];
+    image = 2 * turned.lazyProduct(before);
+    turned -= image.lazyProduct(before.transpose());
+    image = 2 * turned.transpose().lazyProduct(after);
+    turned -= after.lazyProduct(image.transpose());
+    reduced.emplace_back(turned.bottomRightCorner(n - 1, n - 1));
   }
   return log_multipliers(reduced);
 }

@@ -15,10 +15,9 @@ namespace {
 /// du at the end by du at the start, interval by interval: R (inner nodes, right end) = -L (left end).
 class Monodromy {
  public:
-  Monodromy(const SparseMatrix& jacobian, Index n, Index intervals, Index degree,
-            const std::vector<Vector>& along)
+  Monodromy(const SparseMatrix& jacobian, Index n, Index intervals, Index degree, const Matrix& along)
       : n_(n), along_(along), right_(n * degree) {
-    for (Vector& one : along_) one.normalize();
+    along_.colwise().normalize();
     const Index rows = n * degree;
     const Vector ones = Vector::Ones(rows);
     for (Index j = 0; j < intervals; ++j) {
@@ -53,11 +52,12 @@ class Monodromy {
 
  private:
   void project(Vector& x, std::size_t border) const {
-    if (!along_.empty()) x -= along_[border].dot(x) * along_[border];
+    const auto column = static_cast<Index>(border);
+    if (along_.size() > 0) x -= along_.col(column).dot(x) * along_.col(column);
   }
 
   Index n_;
-  std::vector<Vector> along_;  // of length 1, at the borders of intervals
+  Matrix along_;  // of length 1, at the borders of intervals; or empty
   mutable Vector right_;
   std::vector<SparseMatrix> left_;
   std::vector<std::unique_ptr<BorderedSolver>> solvers_;
@@ -102,7 +102,7 @@ std::vector<Complex> known_eigenvalues(const Monodromy& monodromy, Index most) {
 }  // namespace
 
 ComplexVector largest_log_multipliers(const SparseMatrix& jacobian, Index n, Index intervals, Index degree,
-                                      const std::vector<Vector>& along, Index count) {
+                                      const Matrix& along, Index count) {
   constexpr Index widest = 200;       // basis
   constexpr double rounding = 1e-12;  // of the largest: what Arnoldi's method leaves
   const Monodromy monodromy(jacobian, n, intervals, degree, along);

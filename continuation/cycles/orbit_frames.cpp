@@ -15,18 +15,27 @@ namespace {
 Vector phase_weights(const OrbitMesh& mesh, const Matrix& orbit, const Vector& scale) {
   const CollocationRule& rule = mesh.rule();
   const Index m = rule.degree();
-  Matrix weights = Matrix::Zero(orbit.rows(), orbit.cols());
+  const Index n = orbit.rows();
+  Vector weights = Vector::Zero(orbit.size());
+  Vector change(n);  // over the interval
+  const Vector in_units = scale.cwiseInverse();
   double square = 0;
   for (Index j = 0; j < mesh.intervals(); ++j) {
+    const double* const values = orbit.col(j * m).data();
     for (Index i = 0; i < m; ++i) {
-      const Vector change = (orbit.middleCols(j * m, m + 1) * rule.derivatives().row(i).transpose())
-                                .cwiseQuotient(scale);  // over the interval
+      change.setZero();
+      for (Index k = 0; k <= m; ++k) {
+        for (Index r = 0; r < n; ++r) change(r) += values[k * n + r] * rule.derivatives()(i, k);
+      }
+      change.array() *= in_units.array();
       square += rule.weights()(i) * change.squaredNorm() / mesh.length(j);
-      weights.middleCols(j * m, m + 1) +=
-          rule.weights()(i) * change.cwiseQuotient(scale) * rule.values().row(i);
+      change.array() *= rule.weights()(i) * in_units.array();
+      for (Index k = 0; k <= m; ++k) {
+        for (Index r = 0; r < n; ++r) weights((j * m + k) * n + r) += change(r) * rule.values()(i, k);
+      }
     }
   }
-  return weights.reshaped() / square;
+  return weights / square;
 }
 
 }  // namespace
@@ -54,7 +63,7 @@ Regime OrbitProblem::add_frame(const OrbitMesh& mesh, const Matrix& orbit, const
   Vector scale(orbit.rows());
   Vector unused(p.size());
   field_->scale(orbit.cwiseAbs().rowwise().maxCoeff(), p, scale, unused);
-  OrbitFrame frame{mesh, scale, {}, ranges(orbit, scale), {}, {}};
+  OrbitFrame frame{mesh, scale, scale.cwiseInverse(), {}, ranges(orbit, scale), {}, {}};
   frame.ends = end_scale(frame, orbit, p);
   if (has_duration_) frame.phase = phase_weights(mesh, orbit, scale);
   if (has_duration_) frame.phase_value = frame.phase.dot(orbit.reshaped());

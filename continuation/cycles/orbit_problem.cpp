@@ -1,52 +1,60 @@
 #include "arcslip/continuation/cycles/orbit_problem.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "arcslip/continuation/linear/blocks_side_by_side.hpp"
+
 namespace arcslip::continuation {
-namespace {
-
-/// Eliminates the first columns from the others, with pivots of all rows below those before.
-void eliminate(Matrix& matrix, Index columns) {
-  for (Index k = 0; k < columns; ++k) {
-    const Index below = matrix.rows() - k - 1;
-    double* const column = matrix.col(k).data() + k;
-    const double* const largest = std::max_element(
-        column, column + below + 1, [](double a, double b) { return std::abs(a) < std::abs(b); });
-    const Index exchanged = largest - column;
-    std::swap(column[0], column[exchanged]);
-    for (Index j = k + 1; j < matrix.cols(); ++j) {
-      double* const other = matrix.col(j).data() + k;
-      std::swap(other[0], other[exchanged]);
-      const double factor = other[0] / column[0];
-      for (Index i = 1; i <= below; ++i) other[i] -= factor * column[i];
-    }
-  }
-}
-
-}  // namespace
-
-/// What is found of the field at the points of an interval.
+/// What is found of the field at the points of some intervals, side by side.
 struct OrbitProblem::Scratch {
-  Scratch(Index n, Index parameters, Index degree, const SparseMatrix* block)
-      : place(n), velocity(n), by_time(n), velocities(n, degree), changes(n, degree) {
-    if (block != nullptr) {
-      sparse_by_unknowns.assign(static_cast<std::size_t>(degree), *block);
+  Scratch(const OrbitProblem& problem, Index parameters) {
+    const Index groups =
+        problem.field().sparse() ? problem.intervals() : 1 + problem.intervals() * problem.degree() / most;
+    together = (problem.intervals() + groups - 1) / groups;
+    const Index n = problem.field().size();
+    const Index points = together * problem.degree();
+    const CollocationRule& rule = problem.frames_.front()->mesh.rule();
+    values = rule.values().transpose();
+    derivatives = rule.derivatives().transpose();
+    times.resize(points);
+    for (Matrix* one : {&places, &changes, &velocities}) one->resize(n, points);
+    by_parameters.resize(n, parameters * points);
+    block.resize(problem.block_.nonZeros());
+    if (problem.field().is_periodic()) by_time.resize(n, points);
+    if (problem.field().sparse()) {
+      sparse_by_unknowns.assign(static_cast<std::size_t>(points), problem.block_);
     } else {
-      by_unknowns.assign(static_cast<std::size_t>(degree), Matrix(n, n));
+      by_unknowns.resize(n, n * points);
     }
-    by_parameters.assign(static_cast<std::size_t>(degree), Matrix(n, parameters));
   }
-  Vector place;
-  Vector velocity;
-  Vector by_time;
+
+  /// df/du of one, the entries of the block.
+  const double* entries(Index point) const {
+    if (!sparse_by_unknowns.empty()) return sparse_by_unknowns[static_cast<std::size_t>(point)].valuePtr();
+    return by_unknowns.data() + point * by_unknowns.rows() * by_unknowns.rows();
+  }
+  auto by_unknowns_at(Index point) const {
+    return by_unknowns.middleCols(point * by_unknowns.rows(), by_unknowns.rows());
+  }
+  auto by_parameters_at(Index point) const {
+    const Index count = by_parameters.cols() / times.size();
+    return by_parameters.middleCols(point * count, count);
+  }
+
+  Matrix values;                     // of the rule, those of a point side by side, and
+  Matrix derivatives;                // these
+  static constexpr Index most = 64;  // points: few enough to stay near
+  Index together = 1;                // intervals
+  Vector times;
+  Matrix places;
   Matrix velocities;  // f
   Matrix changes;     // sum_k D_ik u_k
-  std::vector<Matrix> by_unknowns;
-  std::vector<Matrix> by_parameters;
+  Matrix by_unknowns;
+  Matrix by_parameters;
+  Matrix by_time;
+  Vector block;                                  // of one point, in the units of the equations
   std::vector<SparseMatrix> sparse_by_unknowns;  // of a sparse field, in place of the others
-  SparseMatrix of_field;
 };
 
 OrbitProblem::OrbitProblem(std::shared_ptr<const Field> field, bool has_duration)
@@ -70,87 +78,139 @@ Vector OrbitProblem::times(const Vector& u, const Vector& p, const Regime& regim
   return result * duration(u, p);
 }
 
-bool OrbitProblem::at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
-                            Index interval, Index point, bool derivatives, Scratch& scratch) const {
+void OrbitProblem::find_places(const OrbitFrame& frame, const Vector& u, double duration, Index first,
+                               Scratch& scratch) const {
+  const Index n = field_->size();
+  const Index m = degree();
   const CollocationRule& rule = frame.mesh.rule();
-  const auto within = orbit(u).middleCols(interval * degree(), degree() + 1);
-  scratch.place = within.lazyProduct(rule.values().row(point).transpose());
-  scratch.changes.col(point) = within.lazyProduct(rule.derivatives().row(point).transpose());
-  const double s = frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(point);
-  const auto i = static_cast<std::size_t>(point);
-  FieldValues wanted{&scratch.velocity, nullptr, nullptr, nullptr};
-  if (derivatives) {
-    if (field_->sparse()) {
-      wanted.sparse_by_unknowns = &scratch.of_field;
-    } else {
-      wanted.by_unknowns = &scratch.by_unknowns[i];
+  for (Index q = 0; q < scratch.times.size(); ++q) {
+    const Index interval = std::min(first + q / m, intervals() - 1);
+    const Index i = q % m;
+    scratch.times(q) =
+        (frame.mesh.borders()(interval) + frame.mesh.length(interval) * rule.points()(i)) * duration;
+    const double* const values = scratch.values.data() + i * (m + 1);
+    const double* const derivatives = scratch.derivatives.data() + i * (m + 1);
+    const double* node = u.data() + interval * m * n;
+    for (Index r = 0; r < n; ++r, ++node) {
+      double place = 0;
+      double change = 0;
+      for (Index k = 0; k <= m; ++k) {
+        place += values[k] * node[k * n];
+        change += derivatives[k] * node[k * n];
+      }
+      scratch.places(r, q) = place;
+      scratch.changes(r, q) = change;
     }
-    wanted.by_parameters = &scratch.by_parameters[i];
+  }
+}
+
+bool OrbitProblem::at_points(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
+                             Index first, bool derivatives, Scratch& scratch) const {
+  find_places(frame, u, duration, first, scratch);
+  if (field_->sparse()) return at_sparse_points(p, derivatives, scratch);
+  FieldColumns wanted{&scratch.velocities};
+  if (derivatives) {
+    wanted.by_unknowns = &scratch.by_unknowns;
+    wanted.by_parameters = &scratch.by_parameters;
     if (field_->is_periodic()) wanted.by_time = &scratch.by_time;
   }
-  if (!field_->evaluate(s * duration, scratch.place, p, wanted)) return false;
-  scratch.velocities.col(point) = scratch.velocity;
-  if (wanted.sparse_by_unknowns != nullptr) {
-    auto entries = scratch.sparse_by_unknowns[i].coeffs();
+  return field_->evaluate_columns(scratch.times, scratch.places, p, wanted);
+}
+
+bool OrbitProblem::at_sparse_points(const Vector& p, bool derivatives, Scratch& scratch) const {
+  SparseMatrix of_field;
+  Vector place;
+  Vector velocity(field_->size());
+  Matrix by_parameters(field_->size(), p.size());
+  FieldValues wanted{&velocity};
+  if (derivatives) {
+    wanted.by_parameters = &by_parameters;
+    wanted.sparse_by_unknowns = &of_field;
+  }
+  for (Index q = 0; q < scratch.times.size(); ++q) {
+    place = scratch.places.col(q);
+    if (!field_->evaluate(scratch.times(q), place, p, wanted)) return false;
+    scratch.velocities.col(q) = velocity;
+    if (!derivatives) continue;
+    scratch.by_parameters.middleCols(q * p.size(), p.size()) = by_parameters;
+    auto entries = scratch.sparse_by_unknowns[static_cast<std::size_t>(q)].coeffs();
     entries.setZero();
     for (std::size_t k = 0; k < places_.size(); ++k)
-      entries(places_[k]) = scratch.of_field.valuePtr()[static_cast<Index>(k)];
-  }
-  if (derivatives) {  // of T f
-    scratch.by_parameters[i] *= duration;
-    Vector by_parameters;
-    if (!has_duration_) {
-      given_duration(p, &by_parameters);
-      Vector change = scratch.velocity;
-      if (wanted.by_time != nullptr) change += duration * s * scratch.by_time;
-      scratch.by_parameters[i] += change * by_parameters.transpose();
-    }
+      entries(places_[k]) = of_field.valuePtr()[static_cast<Index>(k)];
   }
   return true;
 }
 
-void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index interval,
-                                 const Scratch& scratch, const Evaluation& out) const {
+/// Of T f.
+void OrbitProblem::change_with_parameters(double duration, const Vector& p, Scratch& scratch) const {
+  scratch.by_parameters *= duration;
+  if (has_duration_) return;
+  Vector by_parameters;
+  given_duration(p, &by_parameters);
+  for (Index q = 0; q < scratch.times.size(); ++q) {
+    Vector change = scratch.velocities.col(q);
+    if (scratch.by_time.size() > 0) change += scratch.times(q) * scratch.by_time.col(q);
+    scratch.by_parameters.middleCols(q * p.size(), p.size()) += change * by_parameters.transpose();
+  }
+}
+
+void OrbitProblem::fill_interval(const OrbitFrame& frame, double duration, Index interval, Index from,
+                                 Scratch& scratch, const Evaluation& out) const {
   const Index n = field_->size();
-  const Index m = degree();
-  const CollocationRule& rule = frame.mesh.rule();
   const double h = frame.mesh.length(interval);
-  const Vector in_units = frame.scale.cwiseInverse();
-  const bool is_sparse = field_->sparse();
-  for (Index i = 0; i < m; ++i) {
-    const Index first = (interval * m + i + 1) * n;
-    const auto at = static_cast<std::size_t>(i);
+  const double* const in_units = frame.in_units.data();
+  const int* const rows = block_.innerIndexPtr();
+  for (Index i = 0; i < degree(); ++i) {
+    const Index first = (interval * degree() + i + 1) * n;
+    const double* const velocity = scratch.velocities.col(from + i).data();
     if (out.residual != nullptr) {
-      out.residual->segment(first, n) =
-          (scratch.changes.col(i) - h * duration * scratch.velocities.col(i)).cwiseProduct(in_units);
+      const double* const change = scratch.changes.col(from + i).data();
+      double* const residual = out.residual->data() + first;
+      for (Index r = 0; r < n; ++r) residual[r] = (change[r] - h * duration * velocity[r]) * in_units[r];
     }
     if (out.parameter_jacobian != nullptr) {
-      out.parameter_jacobian->middleRows(first, n) = -h * in_units.asDiagonal() * scratch.by_parameters[at];
-    }
-    if (out.sparse_jacobian == nullptr) continue;
-    double* values = out.sparse_jacobian->valuePtr();
-    const int* starts = out.sparse_jacobian->outerIndexPtr();
-    const double* by_unknowns =
-        is_sparse ? scratch.sparse_by_unknowns[at].valuePtr() : scratch.by_unknowns[at].data();
-    for (Index k = 0; k <= m; ++k) {
-      const Index node = interval * m + k;
-      const bool is_end = node == 0 || node + 1 == nodes();
-      const Index conditions = is_end ? end_entries() : 0;
-      const Index blocks = i + (k == 0 && interval > 0 ? m : 0);  // those of the interval before come first
-      const double weight = -h * duration * rule.values()(i, k);
-      for (Index c = 0; c < n; ++c) {
-        const Index begin = block_.outerIndexPtr()[c];
-        const Index count = block_.outerIndexPtr()[c + 1] - begin;
-        const int* const rows = block_.innerIndexPtr() + begin;
-        double* block = values + starts[node * n + c] + conditions + blocks * count;
-        for (Index entry = 0; entry < count; ++entry)
-          block[entry] = weight * by_unknowns[begin + entry] * in_units(rows[entry]);
-        block[diagonal_[static_cast<std::size_t>(c)]] += rule.derivatives()(i, k) * in_units(c);
+      const auto by_parameters = scratch.by_parameters_at(from + i);
+      for (Index c = 0; c < by_parameters.cols(); ++c) {
+        const double* const entries = by_parameters.col(c).data();
+        double* const column = out.parameter_jacobian->col(c).data() + first;
+        for (Index r = 0; r < n; ++r) column[r] = -h * entries[r] * in_units[r];
       }
     }
+    if (out.sparse_jacobian == nullptr) continue;
+    const double* const entries = scratch.entries(from + i);
+    for (Index entry = 0; entry < scratch.block.size(); ++entry)
+      scratch.block(entry) = -h * duration * entries[entry] * in_units[rows[entry]];
+    fill_blocks(frame, interval, i, scratch.block.data(), *out.sparse_jacobian);
     if (!has_duration_) continue;
-    double* block = values + starts[size() - 1] + first - n;
-    for (Index row = 0; row < n; ++row) block[row] = -h * scratch.velocities(row, i) * in_units(row);
+    double* const block =
+        out.sparse_jacobian->valuePtr() + out.sparse_jacobian->outerIndexPtr()[size() - 1] + first - n;
+    for (Index r = 0; r < n; ++r) block[r] = -h * velocity[r] * in_units[r];
+  }
+}
+
+/// The rows of point i: with the diagonal, multiples of one block.
+void OrbitProblem::fill_blocks(const OrbitFrame& frame, Index interval, Index i, const double* of_point,
+                               SparseMatrix& out) const {
+  const Index m = degree();
+  const Index n = field_->size();
+  const CollocationRule& rule = frame.mesh.rule();
+  const double* const in_units = frame.in_units.data();
+  const int* const begins = block_.outerIndexPtr();
+  for (Index k = 0; k <= m; ++k) {
+    const Index node = interval * m + k;
+    const bool is_end = node == 0 || node + 1 == nodes();
+    const Index blocks = i + (k == 0 && interval > 0 ? m : 0);  // those of the interval before come first
+    const double value = rule.values()(i, k);
+    const double derivative = rule.derivatives()(i, k);
+    const int* const starts = out.outerIndexPtr() + node * n;
+    double* const begin = out.valuePtr() + (is_end ? end_entries() : 0);
+    for (Index c = 0; c < n; ++c) {
+      const Index count = begins[c + 1] - begins[c];
+      double* const block = begin + starts[c] + blocks * count;
+      const double* const entries = of_point + begins[c];
+      for (Index entry = 0; entry < count; ++entry) block[entry] = value * entries[entry];
+      block[diagonal_[static_cast<std::size_t>(c)]] += derivative * in_units[c];
+    }
   }
 }
 
@@ -206,12 +266,12 @@ bool OrbitProblem::evaluate(const Vector& u, const Vector& p, const Regime& regi
   if (out.sparse_jacobian != nullptr && out.sparse_jacobian->nonZeros() != pattern_.nonZeros())
     *out.sparse_jacobian = pattern_;
   const bool derivatives = out.sparse_jacobian != nullptr || out.parameter_jacobian != nullptr;
-  Scratch scratch(field_->size(), p.size(), degree(), field_->sparse() ? &block_ : nullptr);
-  for (Index j = 0; j < intervals(); ++j) {
-    for (Index i = 0; i < degree(); ++i) {
-      if (!at_point(at, u, p, length, j, i, derivatives, scratch)) return false;
-    }
-    fill_interval(at, length, j, scratch, out);
+  Scratch scratch(*this, p.size());
+  for (Index first = 0; first < intervals(); first += scratch.together) {
+    if (!at_points(at, u, p, length, first, derivatives, scratch)) return false;
+    if (out.parameter_jacobian != nullptr) change_with_parameters(length, p, scratch);
+    for (Index j = first; j < std::min(first + scratch.together, intervals()); ++j)
+      fill_interval(at, length, j, (j - first) * degree(), scratch, out);
   }
   return fill_conditions(at, u, p, out);
 }
@@ -224,20 +284,22 @@ bool OrbitProblem::second(const Vector& u, const Vector& p, const Regime& regime
   const CollocationRule& rule = at.mesh.rule();
   const Index n = field_->size();
   const Index m = degree();
-  Scratch scratch(n, p.size(), m, nullptr);
+  Scratch scratch(*this, p.size());
+  Vector place;
   Vector row(n + p.size());
   Vector direction(n);
   Vector weight(n);
   out.setZero(size() + p.size());
   for (Index j = 0; j < intervals(); ++j) {
+    if (j % scratch.together == 0 && !at_points(at, u, p, 1, j, true, scratch)) return false;
     for (Index i = 0; i < m; ++i) {
-      if (!at_point(at, u, p, 1, j, i, true, scratch)) return false;
-      const auto point = static_cast<std::size_t>(i);
-      const Matrix& by_unknowns = scratch.by_unknowns[point];
-      const Matrix& by_parameters = scratch.by_parameters[point];
+      const Index point = j % scratch.together * m + i;
+      const auto by_unknowns = scratch.by_unknowns_at(point);
+      const auto by_parameters = scratch.by_parameters_at(point);
+      place = scratch.places.col(point);
       direction.noalias() = orbit(du).middleCols(j * m, m + 1) * rule.values().row(i).transpose();
       weight = w.segment((j * m + i + 1) * n, n).cwiseQuotient(at.scale) * -at.mesh.length(j);
-      if (!field_->second(0, scratch.place, p, weight, direction, dp, row)) return false;
+      if (!field_->second(0, place, p, weight, direction, dp, row)) return false;
       row *= duration(u, p);
       row.head(n).noalias() += du(size() - 1) * (by_unknowns.transpose() * weight);
       row.tail(p.size()).noalias() += du(size() - 1) * (by_parameters.transpose() * weight);
@@ -264,23 +326,38 @@ bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& reg
   const Index n = field_->size();
   const Index m = degree();
   const double length = duration(u, p);
-  Scratch scratch(n, p.size(), m, nullptr);
-  Matrix all(n * m, n * (m + 1));  // of the inner nodes, then of the left end and of the right one
-  out.resize(static_cast<std::size_t>(intervals()));
-  for (Index j = 0; j < intervals(); ++j) {
-    for (Index i = 0; i < m; ++i) {
-      if (!at_point(at, u, p, length, j, i, true, scratch)) return false;
-      const Matrix& by_unknowns = scratch.by_unknowns[static_cast<std::size_t>(i)];
-      for (Index k = 0; k <= m; ++k) {
-        const Index place = k < m ? (k + m - 1) % m : m;
-        auto block = all.block(i * n, place * n, n, n);
-        block = -at.mesh.length(j) * length * rule.values()(i, k) * by_unknowns;
-        block.diagonal().array() += rule.derivatives()(i, k);
+  Scratch scratch(*this, p.size());
+  BlocksSideBySide blocks(n * m, n * (m + 1));  // of the inner nodes, then of the right end and of the left
+  out.assign(static_cast<std::size_t>(intervals()), Matrix(n, n));
+  for (Index first = 0; first < intervals(); first += scratch.together) {
+    if (!at_points(at, u, p, length, first, true, scratch)) return false;
+    const Index end = std::min(first + scratch.together, intervals());
+    for (Index j = first; j < end; j += BlocksSideBySide::lanes) {
+      const auto interval = [&](Index lane) { return std::min(j + lane, end - 1); };
+      for (Index lane = 0; lane < BlocksSideBySide::lanes; ++lane) {
+        const double h = at.mesh.length(interval(lane));
+        for (Index i = 0; i < m; ++i) {
+          const double* const by_unknowns = scratch.entries((interval(lane) - first) * m + i);
+          for (Index k = 0; k <= m; ++k) {
+            const double weight = -h * length * rule.values()(i, k);
+            for (Index c = 0; c < n; ++c) {
+              double* const column = blocks.at(i * n, (k + m) % (m + 1) * n + c) + lane;
+              for (Index r = 0; r < n; ++r)
+                column[r * BlocksSideBySide::lanes] = weight * by_unknowns[c * n + r];
+              column[c * BlocksSideBySide::lanes] += rule.derivatives()(i, k);
+            }
+          }
+        }
+      }
+      blocks.eliminate();
+      blocks.solve_last(n);
+      for (Index lane = 0; lane < BlocksSideBySide::lanes; ++lane) {
+        Matrix& transfer = out[static_cast<std::size_t>(interval(lane))];
+        for (Index c = 0; c < n; ++c) {
+          for (Index r = 0; r < n; ++r) transfer(r, c) = -blocks.at(n * (m - 1) + r, n * m + c)[lane];
+        }
       }
     }
-    eliminate(all, n * (m - 1));
-    const auto left = all.middleCols(n * (m - 1), n).bottomRows(n);
-    out[static_cast<std::size_t>(j)] = -all.rightCols(n).bottomRows(n).partialPivLu().solve(left);
   }
   return true;
 }

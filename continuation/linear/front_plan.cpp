@@ -107,6 +107,7 @@ class Planner {
     front.first = first;
     front.rows = rows;
     front.height = is_last ? rows : rows + static_cast<int>(staying_.size());
+    front.stride = (front.height + 3) / 4 * 4;
     front.pivots = pivots;
     front.columns = static_cast<int>(now.size());
     std::vector<int> order;
@@ -137,7 +138,7 @@ class Planner {
       const bool is_last = f + 1 == plan_.fronts.size();
       front.values = values;
       front.exchanged.resize(number(front.pivots));
-      values += static_cast<std::ptrdiff_t>(front.height) * front.columns;
+      values += static_cast<std::ptrdiff_t>(front.stride) * front.columns;
       const std::vector<int>& columns = front_columns_[f];
       for (std::size_t c = 0; c < columns.size(); ++c) {
         if (c >= number(front.pivots)) front.kept.push_back(position[number(columns[c])]);
@@ -151,7 +152,7 @@ class Planner {
           if (!enters) continue;
           const int place = stays && !is_last ? front.rows + own - entering_ : own - front.first;
           front.entries.push_back(k);
-          front.places.push_back(static_cast<int>(c) * front.height + place);
+          front.places.push_back(static_cast<int>(c) * front.stride + place);
         }
         has_entered[number(columns[c])] = 1;
       }

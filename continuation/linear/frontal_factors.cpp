@@ -23,7 +23,7 @@ inline void subtract(double* __restrict x, const double* __restrict l, double u,
 }
 
 /// x <- x - sum_k l_k u_k of a panel's columns l, which stand one `stride` apart: its own rows first, below a
-/// diagonal of 1.
+/// diagonal of 1. The length is a multiple of 4: short loops that may end anywhere are all overhead.
 inline void subtract(double* __restrict x, const double* __restrict l, std::ptrdiff_t stride, int length) {
   const double* __restrict b = l + stride;
   const double* __restrict c = b + stride;
@@ -35,7 +35,9 @@ inline void subtract(double* __restrict x, const double* __restrict l, std::ptrd
   x[1] = v;
   x[2] = w;
   x[3] = z;
-  for (int i = panel; i < length; ++i) x[i] -= (l[i] * u + b[i] * v) + (c[i] * w + d[i] * z);
+  for (int i = panel; i < length; i += 4) {
+    for (int k = i; k < i + 4; ++k) x[k] -= (l[k] * u + b[k] * v) + (c[k] * w + d[k] * z);
+  }
 }
 
 class FrontalFactors final : public SparseFactors {
@@ -48,7 +50,7 @@ class FrontalFactors final : public SparseFactors {
     std::vector<char> seen(row_order_.size());
     orders_sign_ = permutation_sign(row_order_.data(), seen) * permutation_sign(column_order_.data(), seen);
     const Front& last = fronts_.back();
-    values_.resize(static_cast<std::size_t>(last.values) + at(last.height) * at(last.columns));
+    values_.resize(static_cast<std::size_t>(last.values) + at(last.stride) * at(last.columns));
   }
 
   double factor(SparseMatrix& matrix) override {
@@ -64,7 +66,7 @@ class FrontalFactors final : public SparseFactors {
   void multiply_determinant(LogProduct& product) const override {
     for (const Front& front : fronts_) {
       const double* a = values_.data() + front.values;
-      for (int k = 0; k < front.pivots; ++k) product *= a[static_cast<std::ptrdiff_t>(k) * front.height + k];
+      for (int k = 0; k < front.pivots; ++k) product *= a[static_cast<std::ptrdiff_t>(k) * front.stride + k];
     }
   }
 
@@ -79,7 +81,7 @@ class FrontalFactors final : public SparseFactors {
       double* own = y + front.first;
       const double* l = values_.data() + front.values;
       for (int k = 0; k < front.pivots; ++k) std::swap(own[k], own[front.exchanged[at(k)]]);
-      for (int k = 0; k < front.pivots; ++k, l += front.height) {
+      for (int k = 0; k < front.pivots; ++k, l += front.stride) {
         subtract(own + k + 1, l + k + 1, own[k], front.rows - k - 1);
         subtract(staying - stay, l + front.rows, own[k], stay);
       }
@@ -87,13 +89,13 @@ class FrontalFactors final : public SparseFactors {
     for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
       double* own = y + front->first;
       const double* u = values_.data() + front->values;
-      const double* kept = u + static_cast<std::ptrdiff_t>(front->pivots) * front->height;
+      const double* kept = u + static_cast<std::ptrdiff_t>(front->pivots) * front->stride;
       for (const int position : front->kept) {
         subtract(own, kept, y[position], front->pivots);
-        kept += front->height;
+        kept += front->stride;
       }
       for (int k = front->pivots; k-- > 0;) {
-        const double* column = u + static_cast<std::ptrdiff_t>(k) * front->height;
+        const double* column = u + static_cast<std::ptrdiff_t>(k) * front->stride;
         own[k] /= column[k];
         subtract(own, column, own[k], k);
       }
@@ -108,20 +110,20 @@ class FrontalFactors final : public SparseFactors {
     for (const Front& front : fronts_) {
       double* own = y + front.first;
       const double* u = values_.data() + front.values;
-      for (int k = 0; k < front.pivots; ++k, u += front.height) {
+      for (int k = 0; k < front.pivots; ++k, u += front.stride) {
         for (int i = 0; i < k; ++i) own[k] -= u[i] * own[i];
         own[k] /= u[k];
       }
       for (const int position : front.kept) {
         for (int i = 0; i < front.pivots; ++i) y[position] -= u[i] * own[i];
-        u += front.height;
+        u += front.stride;
       }
     }
     for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
       const int stay = front->height - front->rows;
       double* own = y + front->first;
       for (int k = front->pivots; k-- > 0;) {
-        const double* l = values_.data() + front->values + static_cast<std::ptrdiff_t>(k) * front->height;
+        const double* l = values_.data() + front->values + static_cast<std::ptrdiff_t>(k) * front->stride;
         for (int i = k + 1; i < front->rows; ++i) own[k] -= l[i] * own[i];
         for (int i = 0; i < stay; ++i) own[k] -= l[front->rows + i] * (staying - stay)[i];
       }
@@ -135,19 +137,19 @@ class FrontalFactors final : public SparseFactors {
   void assemble(const SparseMatrix& matrix, std::size_t number) {
     const Front& front = fronts_[number];
     double* a = values_.data() + front.values;
-    std::fill_n(a, static_cast<std::ptrdiff_t>(front.height) * front.columns, 0.0);
+    std::fill_n(a, static_cast<std::ptrdiff_t>(front.stride) * front.columns, 0.0);
     if (number > 0) {
       const Front& before = fronts_[number - 1];
       const double* left = values_.data() + before.values +
-                           static_cast<std::ptrdiff_t>(before.pivots) * before.height + before.pivots;
+                           static_cast<std::ptrdiff_t>(before.pivots) * before.stride + before.pivots;
       const int rows = before.rows - before.pivots;
       const int stay = before.height - before.rows;
       const int own_stay = front.first + front.pivots == work_.size() ? front.rows - stay : front.rows;
       for (const int place : front.carried) {
-        double* column = a + static_cast<std::ptrdiff_t>(place) * front.height;
+        double* column = a + static_cast<std::ptrdiff_t>(place) * front.stride;
         std::copy_n(left, rows, column);
         std::copy_n(left + rows, stay, column + own_stay);
-        left += before.height;
+        left += before.stride;
       }
     }
     const double* values = matrix.valuePtr();
@@ -157,8 +159,9 @@ class FrontalFactors final : public SparseFactors {
   /// The sign of the pivots and of the exchanges of rows.
   double eliminate(Front& front) {
     double* a = values_.data() + front.values;
-    const std::ptrdiff_t stride = front.height;
+    const std::ptrdiff_t stride = front.stride;
     double sign = 1;
+    double growth = growth_;
     for (int from = 0; from < front.pivots; from += panel) {
       const int to = std::min(from + panel, front.pivots);
       for (int k = from; k < to; ++k) sign *= take_pivot(front, k, to);
@@ -167,21 +170,22 @@ class FrontalFactors final : public SparseFactors {
         double* x = a + j * stride;
         for (int k = from; k < to; ++k) std::swap(x[k], x[front.exchanged[at(k)]]);
         if (to - from == panel) {
-          subtract(x + from, a + from * stride + from, stride, front.height - from);
+          subtract(x + from, a + from * stride + from, stride, front.stride - from);
         } else {
           for (int k = from; k < to; ++k)
             subtract(x + k + 1, a + k * stride + k + 1, x[k], front.height - k - 1);
         }
-        for (int k = from; k < to; ++k) growth_ = std::max(growth_, std::abs(x[k]));
+        for (int k = from; k < to; ++k) growth = std::max(growth, std::abs(x[k]));
       }
     }
-    return growth_ < worst_growth ? sign : 0;
+    growth_ = growth;
+    return growth < worst_growth ? sign : 0;
   }
 
   /// Eliminates a column from those up to `to`.
   double take_pivot(Front& front, int k, int to) {
     double* a = values_.data() + front.values;
-    const std::ptrdiff_t stride = front.height;
+    const std::ptrdiff_t stride = front.stride;
     double* column = a + k * stride;
     int best = k;
     for (int i = k + 1; i < front.rows; ++i) {

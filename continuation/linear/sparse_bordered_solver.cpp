@@ -119,19 +119,19 @@ void SparseBorderedSolver::set_borders() {
 
 /// Powers of two, exact. False if a row is zero or not finite.
 bool SparseBorderedSolver::scale_rows(double weight_of_last) {
-  const double* values = matrix_.valuePtr();
-  const int* rows = matrix_.innerIndexPtr();
+  const double* const values = matrix_.valuePtr();
+  const int* const rows = matrix_.innerIndexPtr();
   const Index count = matrix_.nonZeros();
   row_scale_.setZero();
-  double finite = 0;
-  for (Index k = 0; k < count; ++k) {
-    row_scale_(rows[k]) = std::max(row_scale_(rows[k]), std::abs(values[k]));
-    finite += 0 * values[k];  // stays 0, or is nan from then on
-  }
-  if (!(finite == 0) || !(row_scale_.minCoeff() > 0)) return false;
+  double* const scales = row_scale_.data();
+  double* const scaled = scaled_.valuePtr();
+  for (Index k = 0; k < count; ++k) scales[rows[k]] = std::max(scales[rows[k]], std::abs(values[k]));
+  double finite[4] = {0, 0, 0, 0};  // stay 0, or are nan from then on; each waits for its last addition
+  for (Index k = 0; k < count; ++k) finite[k % 4] += 0 * values[k];
+  if (!(finite[0] + finite[1] + finite[2] + finite[3] == 0) || !(row_scale_.minCoeff() > 0)) return false;
   for (double& scale : row_scale_) scale = scale_to_one(scale);
   for (const Index row : last_rows_) row_scale_(row) *= weight_of_last;
-  for (Index k = 0; k < count; ++k) scaled_.valuePtr()[k] = values[k] * row_scale_(rows[k]);
+  for (Index k = 0; k < count; ++k) scaled[k] = values[k] * scales[rows[k]];
   return true;
 }
 

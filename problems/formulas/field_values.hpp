@@ -30,4 +30,32 @@ inline bool evaluate_field(const Tape& tape, double t, const Vector& u, const Ve
   return true;
 }
 
+/// The same at several places, by a tape of u and p, or of t, u and p where times are given.
+inline bool evaluate_columns(const Tape& tape, const Vector* times, const Matrix& u, const Vector& p,
+                             const continuation::FieldColumns& out) {
+  const Index n = tape.results();
+  const Index first = times != nullptr ? 1 : 0;
+  Matrix at(first + n + p.size(), u.cols());
+  if (times != nullptr) at.row(0) = times->transpose();
+  at.middleRows(first, n) = u;
+  at.bottomRows(p.size()).colwise() = p;
+  Matrix gradients(at.rows(), n * u.cols());
+  if (!tape.evaluate(at.data(), u.cols(), out.velocity->data(), gradients.data())) return false;
+  /// Those by so many variables from one on.
+  const auto spread = [&](Matrix* by, Index from, Index count) {
+    if (by == nullptr) return;
+    double* entry = by->data();
+    for (Index k = 0; k < u.cols(); ++k) {
+      for (Index c = 0; c < count; ++c) {
+        const double* gradient = gradients.data() + k * n * at.rows() + from + c;
+        for (Index r = 0; r < n; ++r, gradient += at.rows()) *entry++ = *gradient;
+      }
+    }
+  };
+  spread(out.by_time, 0, 1);
+  spread(out.by_unknowns, first, n);
+  spread(out.by_parameters, first + n, p.size());
+  return true;
+}
+
 }  // namespace arcslip::problems

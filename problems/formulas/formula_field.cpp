@@ -23,6 +23,11 @@ bool FormulaField::evaluate(double t, const Vector& u, const Vector& p,
   return evaluate_field(equations_, t, u, p, out);
 }
 
+bool FormulaField::evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                                    const continuation::FieldColumns& out) const {
+  return problems::evaluate_columns(equations_, &times, u, p, out);
+}
+
 bool FormulaField::series(double t, const Matrix& u, const Vector& p, Matrix& out) const {
   return series_by(equations_, &t, u, p, out);
 }

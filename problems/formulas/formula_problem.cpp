@@ -8,6 +8,7 @@
 #include "arcslip/continuation/linear/eigenvalues.hpp"
 #include "arcslip/continuation/problem/guess.hpp"
 #include "arcslip/interval/enclosed_tape.hpp"
+#include "field_values.hpp"
 #include "numbers.hpp"
 #include "series_by.hpp"
 
@@ -87,6 +88,12 @@ bool FormulaProblem::evaluate(const Vector& u, const Vector& p, const Regime& /*
   }
   if (out.parameter_jacobian != nullptr) *out.parameter_jacobian = rows.rightCols(p.size());
   return true;
+}
+
+bool FormulaProblem::evaluate_columns(const Matrix& u, const Vector& p, Matrix* values, Matrix* by_unknowns,
+                                      Matrix* by_parameters) const {
+  return kind_ != FormulaKind::map &&
+         problems::evaluate_columns(equations_, nullptr, u, p, {values, by_unknowns, by_parameters});
 }
 
 bool FormulaProblem::second(const Vector& u, const Vector& p, const Regime& /*regime*/, const Vector& w,

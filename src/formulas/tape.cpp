@@ -35,9 +35,67 @@ std::size_t right_of(const Operation& one) {
   return static_cast<std::size_t>(has_two(one.kind) ? one.right : one.left);
 }
 
+/// Four sums at once, as each waits for its last addition: 0, or nan from what is not finite on.
 bool are_finite(const double* numbers, std::size_t count) {
-  return std::all_of(numbers, numbers + count, [](double one) { return std::isfinite(one); });
+  double sums[4] = {0, 0, 0, 0};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += 0 * numbers[i + k];
+  }
+  for (; i < count; ++i) sums[0] += 0 * numbers[i];
+  return sums[0] + sums[1] + sums[2] + sums[3] == 0;
 }
+
+/// Numbers of several points, side by side.
+template <std::size_t lanes>
+class Lanes {
+ public:
+  explicit Lanes(double* first) : first_(first) {}
+  template <class Place>
+  double* operator[](Place place) const {
+    return first_ + lanes * static_cast<std::size_t>(place);
+  }
+
+  template <class Number>
+  void set(std::size_t place, Number number) const {
+    double* __restrict const out = (*this)[place];
+    for (std::size_t k = 0; k < lanes; ++k) out[k] = number(k);
+  }
+
+  void set_value(std::size_t place, const Operation& one) const {
+    const double* const a = (*this)[one.left];
+    const double* const b = (*this)[right_of(one)];
+    switch (one.kind) {
+      case Operator::add: return set(place, [=](std::size_t k) { return a[k] + b[k]; });
+      case Operator::subtract: return set(place, [=](std::size_t k) { return a[k] - b[k]; });
+      case Operator::multiply: return set(place, [=](std::size_t k) { return a[k] * b[k]; });
+      default: return set(place, [=, &one](std::size_t k) { return value_of(one, a[k], b[k]); });
+    }
+  }
+
+  void set_slopes(std::size_t place, const Operation& one, double* left, double* right) const {
+    const double* const a = (*this)[one.left];
+    const double* const b = (*this)[right_of(one)];
+    if (one.kind == Operator::multiply) {
+      std::copy_n(b, lanes, left);
+      std::copy_n(a, lanes, right);
+      return;
+    }
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const Slopes slopes = slopes_of(one, a[k], b[k], (*this)[place][k], false);
+      left[k] = slopes.left;
+      right[k] = slopes.right;
+    }
+  }
+
+  void add_product(int place, const double* __restrict a, const double* __restrict b) const {
+    double* __restrict const out = (*this)[place];
+    for (std::size_t k = 0; k < lanes; ++k) out[k] += a[k] * b[k];
+  }
+
+ private:
+  double* first_;
+};
 
 }  // namespace
 
@@ -89,38 +147,64 @@ bool Tape::evaluate(const double* x, double* values) const {
   return take_values(at, values);
 }
 
-bool Tape::evaluate(const double* x, double* values, double* gradients) const {
-  const std::size_t count = operations_.size();
-  Scratch scratch(2 * slots() + 2 * count);
-  double* const at = scratch.take(slots());
-  go_forward(x, at);
-  if (!take_values(at, values)) return false;
-  double* const left = scratch.take(count);
-  double* const right = scratch.take(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Operation& one = operations_[i];
-    const Slopes slopes = slopes_of(one, at[one.left], at[right_of(one)], at[first_ + i], false);
-    left[i] = slopes.left;
-    right[i] = slopes.right;
-  }
-  double* const adjoint = scratch.zeros(slots());
+/// Of several points side by side.
+template <std::size_t lanes>
+bool Tape::evaluate_lanes(const double* x, double* values, double* gradients) const {
   const auto variables = static_cast<std::size_t>(variables_);
+  const std::size_t results = results_.size();
+  const std::size_t count = operations_.size();
+  Scratch scratch(lanes * (2 * slots() + 2 * count));
+  const Lanes<lanes> at(scratch.take(lanes * slots()));
+  for (std::size_t i = 0; i < variables; ++i) at.set(i, [&](std::size_t k) { return x[k * variables + i]; });
+  for (std::size_t i = 0; i < constants_.size(); ++i)
+    at.set(variables + i, [&](std::size_t) { return constants_[i]; });
+  for (std::size_t i = 0; i < count; ++i) at.set_value(first_ + i, operations_[i]);
+  for (std::size_t r = 0; r < results; ++r) {
+    for (std::size_t k = 0; k < lanes; ++k) values[k * results + r] = at[results_[r]][k];
+  }
+  if (!are_finite(values, lanes * results)) return false;
+  const Lanes<lanes> left(scratch.take(lanes * count));
+  const Lanes<lanes> right(scratch.take(lanes * count));
+  for (std::size_t i = 0; i < count; ++i) at.set_slopes(first_ + i, operations_[i], left[i], right[i]);
+  const Lanes<lanes> adjoint(scratch.take(lanes * slots()));
   std::size_t begin = 0;
-  for (std::size_t r = 0; r < results_.size(); ++r) {
-    std::fill_n(adjoint, variables, 0.0);
+  for (std::size_t r = 0; r < results; ++r) {
+    std::fill_n(adjoint[0], lanes * variables, 0.0);
     for (std::size_t k = begin; k < needed_to_[r]; ++k)
-      adjoint[first_ + static_cast<std::size_t>(needed_[k])] = 0;
-    adjoint[results_[r]] = 1;
+      std::fill_n(adjoint[first_ + static_cast<std::size_t>(needed_[k])], lanes, 0.0);
+    std::fill_n(adjoint[results_[r]], lanes, 1.0);
     for (std::size_t k = needed_to_[r]; k-- > begin;) {
       const auto i = static_cast<std::size_t>(needed_[k]);
-      const double here = adjoint[first_ + i];
-      adjoint[operations_[i].left] += left[i] * here;
-      if (has_two(operations_[i].kind)) adjoint[operations_[i].right] += right[i] * here;
+      adjoint.add_product(operations_[i].left, left[i], adjoint[first_ + i]);
+      if (has_two(operations_[i].kind))
+        adjoint.add_product(operations_[i].right, right[i], adjoint[first_ + i]);
     }
-    std::copy_n(adjoint, variables, gradients + r * variables);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      double* const gradient = gradients + (k * results + r) * variables;
+      for (std::size_t i = 0; i < variables; ++i) gradient[i] = adjoint[i][k];
+    }
     begin = needed_to_[r];
   }
-  return are_finite(gradients, results_.size() * variables);
+  return are_finite(gradients, lanes * results * variables);
+}
+
+bool Tape::evaluate(const double* x, double* values, double* gradients) const {
+  return evaluate_lanes<1>(x, values, gradients);
+}
+
+bool Tape::evaluate(const double* x, Index points, double* values, double* gradients) const {
+  constexpr Index lanes = 8;
+  const Index size = results();
+  for (Index k = 0; k < points;) {
+    const bool many = k + lanes <= points;
+    double* const value = values + k * size;
+    double* const gradient = gradients + k * size * variables_;
+    if (!(many ? evaluate_lanes<lanes>(x + k * variables_, value, gradient)
+               : evaluate_lanes<1>(x + k * variables_, value, gradient)))
+      return false;
+    k += many ? lanes : 1;
+  }
+  return true;
 }
 
 bool Tape::second(const double* x, const double* w, const double* dx, double* out) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "arcslip/continuation/cycles/cycle_branch.hpp"
+#include "arcslip/continuation/cycles/floquet.hpp"
 #include "arcslip/continuation/points/hopf_form.hpp"
 #include "arcslip/problems/library/brusselator_1d.hpp"
 #include "branches.hpp"
@@ -108,9 +109,12 @@ std::vector<double> sizes(const ComplexVector& logs) {
   return result;
 }
 
+std::vector<double> multipliers_at(const CycleBranch& found, const BranchPoint& at) {
+  return sizes(found.problem->log_multipliers(at.unknowns, at.parameters, at.regime));
+}
+
 std::vector<double> multipliers_at_end(const CycleBranch& found) {
-  const BranchPoint& end = found.branch.points.back();
-  return sizes(found.problem->log_multipliers(end.unknowns, end.parameters, end.regime));
+  return multipliers_at(found, found.branch.points.back());
 }
 
 }  // namespace
@@ -177,4 +181,55 @@ TEST_CASE("What decays within an interval has no multiplier, however fine the li
   const std::vector<double> coarse = largest(60);
   const std::vector<double> fine = largest(120);
   for (std::size_t i = 0; i < 5; ++i) CHECK_THAT(fine[i], WithinAbs(coarse[i], 1e-3));
+}
+
+TEST_CASE("A branch point of sparse cycles is that of dense ones, as is what leaves it") {
+  constexpr Index points = 20;
+  const CycleOptions cycles = few_intervals(10);
+  const auto sparse_problem = std::make_shared<BrusselatorLine>(points);
+  const CycleBranch begun = cycles_of(sparse_problem, cycles, 1.2);
+  const BranchPoint& from = begun.branch.points.back();
+  const auto traced = [&](const std::shared_ptr<const Problem>& problem) {
+    const CycleStart start =
+        cycle_from_orbit(std::make_shared<EquilibriumField>(problem), begun.problem->frame(from.regime).mesh,
+                         begun.problem->orbit(from.unknowns), period_at_end(begun), from.parameters);
+    auto found = trace_connected_cycles(start, over_length(1.26), cycles);
+    REQUIRE(found.size() == 2);
+    return found;
+  };
+  const auto sparse = traced(sparse_problem);
+  const auto dense = traced(std::make_shared<Filled>(points));
+  const auto located = [](const std::vector<CycleBranch>& found) {
+    const auto all = of_type(found[0].branch, PointType::branch_point);
+    REQUIRE(all.size() == 1);
+    return all[0];
+  };
+  const BranchPoint one = located(sparse);
+  const BranchPoint other = located(dense);
+  CHECK_THAT(one.parameters(0), WithinRel(other.parameters(0), 1e-8));
+  CHECK_THAT(one.unknowns.tail(1)(0), WithinRel(other.unknowns.tail(1)(0), 1e-8));
+  CHECK_THAT(multipliers_at(sparse[0], one)[0], WithinAbs(1, 1e-6));
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK_THAT(period_at_end(sparse[i]), WithinRel(period_at_end(dense[i]), 1e-8));
+  CHECK(std::abs(period_at_end(sparse[1]) - period_at_end(sparse[0])) > 1e-3);  // it has left
+  CHECK(multipliers_at_end(sparse[0])[0] > 1);
+  CHECK(multipliers_at_end(sparse[1])[0] < 1);
+}
+
+TEST_CASE("The multiplier of a sparse cycle's own velocity is 1, as exactly as the cycle is known") {
+  const auto distance = [](Index intervals) {
+    const CycleBranch found = cycles_of(std::make_shared<BrusselatorLine>(20), few_intervals(intervals), 0.6);
+    const BranchPoint& end = found.branch.points.back();
+    SparseMatrix jacobian;
+    Evaluation out;
+    out.sparse_jacobian = &jacobian;
+    REQUIRE(found.problem->evaluate(end.unknowns, end.parameters, end.regime, out));
+    const ComplexVector all = largest_log_multipliers(jacobian, found.problem->field().size(), intervals,
+                                                      found.problem->degree(), Matrix(), 20);
+    return all.cwiseAbs().minCoeff();
+  };
+  const double coarse = distance(10);
+  const double fine = distance(20);
+  CHECK(fine < 1e-4);
+  CHECK(coarse > 16 * fine);  // of order 2 m - 1 = 5
 }

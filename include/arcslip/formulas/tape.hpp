@@ -73,6 +73,9 @@ class Tape {
   /// Also their gradients, row by row: results x variables.
   [[nodiscard]] bool evaluate(const double* x, double* values, double* gradients) const;
 
+  /// The same at several points, one after the other: as many x, values and gradients.
+  [[nodiscard]] bool evaluate(const double* x, Index points, double* values, double* gradients) const;
+
   /// w^T d/dh [dF/dx](x + h dx) at h = 0: one entry for each variable. False where one is not finite.
   [[nodiscard]] bool second(const double* x, const double* w, const double* dx, double* out) const;
 
@@ -80,6 +83,8 @@ class Tape {
   [[nodiscard]] bool series(const Series* x, Series* values) const;
 
  private:
+  template <std::size_t lanes>
+  bool evaluate_lanes(const double* x, double* values, double* gradients) const;
   std::size_t slots() const { return first_ + operations_.size(); }
   void go_forward(const double* x, double* slots) const;
   bool take_values(const double* slots, double* values) const;

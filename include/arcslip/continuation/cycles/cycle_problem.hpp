@@ -62,8 +62,8 @@ class CycleProblem : public PeriodicOrbit {
   ComplexVector found_multipliers(const Vector& u, const Vector& p, const Regime& regime) const override;
 
  private:
-  /// At the ends of intervals.
-  [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, std::vector<Vector>& out) const;
+  /// At the ends of intervals, n x (N + 1).
+  [[nodiscard]] bool find_velocities(const Vector& u, const Vector& p, Matrix& out) const;
   ComplexVector largest_multipliers(const Vector& u, const Vector& p, const Regime& regime) const;
 
   int periods_;

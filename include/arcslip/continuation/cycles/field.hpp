@@ -23,6 +23,14 @@ struct FieldValues {
   SparseMatrix* sparse_by_unknowns = nullptr;  ///< df/du of a sparse field, compressed, always of one pattern
 };
 
+/// The same at several places, side by side.
+struct FieldColumns {
+  Matrix* velocity = nullptr;       ///< n x places
+  Matrix* by_unknowns = nullptr;    ///< n x (n places)
+  Matrix* by_parameters = nullptr;  ///< n x (number of parameters times places)
+  Matrix* by_time = nullptr;        ///< n x places
+};
+
 /// All functions are called from several threads and must not change the field.
 class Field {
  public:
@@ -35,6 +43,11 @@ class Field {
   /// Fills what is asked for, with exact derivatives. False where the field has no value.
   [[nodiscard]] virtual bool evaluate(double t, const Vector& u, const Vector& p,
                                       const FieldValues& out) const = 0;
+
+  /// The same at several times and places, the columns of u, of a field that is not sparse: one after the
+  /// other, unless there is a faster way.
+  [[nodiscard]] virtual bool evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                                              const FieldColumns& out) const;
 
   /// w^T d/dh [df/du  df/dp](u + h du, p + h dp) at h = 0, n + number of parameters entries. False where the
   /// field does not give it: then differences take its place.
@@ -86,6 +99,8 @@ class EquilibriumField : public Field {
   }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const FieldValues& out) const override;
+  [[nodiscard]] bool evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                                      const FieldColumns& out) const override;
   [[nodiscard]] bool series(double /*t*/, const Matrix& u, const Vector& p, Matrix& out) const override {
     return problem_->series(u, p, {}, out);
   }

@@ -18,15 +18,15 @@ namespace arcslip::continuation {
 ComplexVector log_multipliers(const std::vector<Matrix>& factors);
 
 /// The same without that of the directions that the factors carry into each other: v_(j+1) = X_j v_j but for
-/// its length, one more than there are factors, the last a multiple of the first.
-ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const std::vector<Vector>& along);
+/// its length, one column more than there are factors, the last a multiple of the first.
+ComplexVector log_multipliers_beside(const std::vector<Matrix>& factors, const Matrix& along);
 
 /// The largest ones of a large, sparse orbit, up to `count` of them, but for that of its own velocity, and
 /// without those that rounding hides beside these, by Arnoldi's method: `jacobian` is that of the collocation
 /// equations of `intervals` of `degree` in the values of n unknowns at the nodes, one after the other, and
 /// `along` the velocity at the ends of intervals, or none. Empty where they are not found.
 ComplexVector largest_log_multipliers(const SparseMatrix& jacobian, Index n, Index intervals, Index degree,
-                                      const std::vector<Vector>& along, Index count);
+                                      const Matrix& along, Index count);
 
 /// ln(mu)/T, with ln(-mu) in place of ln(mu) of those below 0: what crosses the imaginary axis where |mu|
 /// = 1.

@@ -38,9 +38,10 @@ CollocationRule rule_for(const Field& field, int degree);
 /// What is fixed while a stretch of a branch is traced.
 struct OrbitFrame {
   OrbitMesh mesh;
-  Vector scale;  ///< n, of the unknowns of the field
-  Vector ends;   ///< n, of the conditions at the ends: how far these change as unknowns do by their scale
-  Vector range;  ///< n, how far these go along the orbit
+  Vector scale;     ///< n, of the unknowns of the field
+  Vector in_units;  ///< its inverse
+  Vector ends;      ///< n, of the conditions at the ends: how far these change as unknowns do by their scale
+  Vector range;     ///< n, how far these go along the orbit
   Vector phase;  ///< n x nodes: weights of the condition that keeps the orbit from sliding along itself; or
                  ///< empty
   /// n x nodes: of what is left of the motion that keeps the orbit apart from others, over the most that
@@ -168,10 +169,16 @@ class OrbitProblem : public Problem {
   Index end_entries() const { return field_->sparse() ? 1 : field_->size(); }
   void build_block(const Matrix& orbit, const Vector& p);
   void build_pattern();
-  [[nodiscard]] bool at_point(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
-                              Index interval, Index point, bool derivatives, Scratch& scratch) const;
-  void fill_interval(const OrbitFrame& frame, double duration, Index interval, const Scratch& scratch,
+  void find_places(const OrbitFrame& frame, const Vector& u, double duration, Index first,
+                   Scratch& scratch) const;
+  [[nodiscard]] bool at_points(const OrbitFrame& frame, const Vector& u, const Vector& p, double duration,
+                               Index first, bool derivatives, Scratch& scratch) const;
+  [[nodiscard]] bool at_sparse_points(const Vector& p, bool derivatives, Scratch& scratch) const;
+  void change_with_parameters(double duration, const Vector& p, Scratch& scratch) const;
+  void fill_interval(const OrbitFrame& frame, double duration, Index interval, Index from, Scratch& scratch,
                      const Evaluation& out) const;
+  void fill_blocks(const OrbitFrame& frame, Index interval, Index i, const double* of_point,
+                   SparseMatrix& out) const;
   [[nodiscard]] bool fill_conditions(const OrbitFrame& frame, const Vector& u, const Vector& p,
                                      const Evaluation& out) const;
 

@@ -14,6 +14,7 @@ struct Front {
   int first = 0;               // its first pivot in the order of all: of its rows as well
   int rows = 0;                // that may give pivots
   int height = 0;              // these and those that stay to the end
+  int stride = 0;              // from column to column: this, or up to three more
   int pivots = 0;              // the columns that are eliminated, its first ones
   int columns = 0;             // all
   std::vector<int> kept;       // where the other columns are in the order of all

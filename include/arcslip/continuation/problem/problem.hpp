@@ -78,6 +78,14 @@ class Problem {
   [[nodiscard]] virtual bool evaluate(const Vector& u, const Vector& p, const Regime& regime,
                                       const Evaluation& out) const = 0;
 
+  /// F of a smooth problem and where they are not null its derivatives at several places, the columns of u,
+  /// side by side: n x places, n x (n places) and n x (number of parameters times places). False where it has
+  /// no value at one of them, or no faster way than `evaluate`.
+  [[nodiscard]] virtual bool evaluate_columns(const Matrix& /*u*/, const Vector& /*p*/, Matrix* /*values*/,
+                                              Matrix* /*by_unknowns*/, Matrix* /*by_parameters*/) const {
+    return false;
+  }
+
   /// Second derivatives of F along one direction, contracted from the left,
   ///
   ///   w^T d/dh [dF/du  dF/dp](u + h du, p + h dp)  at h = 0,

@@ -23,6 +23,8 @@ class FormulaField : public continuation::Field {
   std::vector<std::string> parameter_names() const override { return parameters_; }
   [[nodiscard]] bool evaluate(double t, const Vector& u, const Vector& p,
                               const continuation::FieldValues& out) const override;
+  [[nodiscard]] bool evaluate_columns(const Vector& times, const Matrix& u, const Vector& p,
+                                      const continuation::FieldColumns& out) const override;
   [[nodiscard]] bool series(double t, const Matrix& u, const Vector& p, Matrix& out) const override;
   double turn(Index unknown) const override { return turns_[static_cast<std::size_t>(unknown)]; }
   bool is_periodic() const override { return true; }

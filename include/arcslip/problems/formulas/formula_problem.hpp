@@ -90,6 +90,8 @@ class FormulaProblem : public continuation::Problem {
   std::vector<std::string> parameter_names() const override { return parameters_; }
   [[nodiscard]] bool evaluate(const Vector& u, const Vector& p, const continuation::Regime& regime,
                               const continuation::Evaluation& out) const override;
+  [[nodiscard]] bool evaluate_columns(const Matrix& u, const Vector& p, Matrix* values, Matrix* by_unknowns,
+                                      Matrix* by_parameters) const override;
   [[nodiscard]] bool second(const Vector& u, const Vector& p, const continuation::Regime& regime,
                             const Vector& w, const Vector& du, const Vector& dp, Vector& out) const override;
   [[nodiscard]] bool series(const Matrix& u, const Vector& p, const continuation::Regime& regime,
