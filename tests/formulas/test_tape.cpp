@@ -154,6 +154,30 @@ TEST_CASE("Gradients of formulas are the limits of their differences") {
   }
 }
 
+TEST_CASE("Several points at once have the values and gradients of one by one, or none where one has none") {
+  const Tape tape = compile({.variables = {"x", "y"},
+                             .results = {{"f", "x*sin(y) - min(x, y)/y"}, {"g", "y^1.5 + 2*x - x^3 + 4"}}});
+  constexpr Index points = 19;  // two lots of eight, and three
+  Matrix x(2, points);
+  x.row(0).setLinSpaced(-2, 3);
+  x.row(1).setLinSpaced(0.5, 4);
+  Matrix values(2, points);
+  Matrix gradients(4, points);
+  REQUIRE(tape.evaluate(x.data(), points, values.data(), gradients.data()));
+  for (Index k = 0; k < points; ++k) {
+    Vector value(2);
+    Vector gradient(4);
+    REQUIRE(tape.evaluate(x.col(k).data(), value.data(), gradient.data()));
+    CHECK(value == values.col(k));
+    CHECK(gradient == gradients.col(k));
+  }
+  for (const Index bad : {0, 12, 18}) {
+    Matrix there = x;
+    there(1, bad) = -1;  // no y^1.5
+    CHECK_FALSE(tape.evaluate(there.data(), points, values.data(), gradients.data()));
+  }
+}
+
 TEST_CASE("Second derivatives of formulas are the limits of differences of gradients") {
   const Tape tape = compile(mixed);
   const auto n = static_cast<std::size_t>(tape.variables()), m = static_cast<std::size_t>(tape.results());
