@@ -34,9 +34,6 @@ std::array<AtlasSide, 2> sides_of(const Problem& problem, const AtlasOptions& op
 
 void check(const Problem& problem, const std::vector<Guess>& starts, const std::array<AtlasSide, 2>& sides) {
   if (starts.empty()) throw std::invalid_argument("cover: at least one guess is needed");
-  if (problem.switch_count() > 0 || problem.border_count(starts.front().regime) > 0)
-    throw std::invalid_argument(
-        "cover: F is smooth only in pieces, and its surface has edges, which charts do not follow");
   const std::vector<std::string> names = problem.parameter_names();
   for (const Guess& start : starts) {
     for (const AtlasSide& side : sides) {

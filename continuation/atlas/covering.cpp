@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace arcslip::continuation {
@@ -126,22 +127,50 @@ void Covering::fail(const Vector& x) {
   if (!failure_.empty()) return;
   const Guess at = surface_.solution(x);
   const auto value = [&](std::size_t k) { return at.parameters(surface_.sides()[k].parameter); };
-  failure_ = fmt::format("Newton's method found no further chart at {} = {:.10g}, {} = {:.10g}",
+  failure_ = fmt::format("{} at {} = {:.10g}, {} = {:.10g}",
+                         has_left_ ? "the surface leaves its regime, beyond which it has another slope,"
+                                   : "Newton's method found no further chart",
                          options_.parameters[0], value(0), options_.parameters[1], value(1));
 }
 
-/// Makes a disc's polygon: it ends at the box and half way to its neighbours, however large these are, so
-/// that discs become larger step by step.
-void Covering::outline(Disc& disc) const {
+/// The discs to which it is less than twice the radius, or theirs, with the distance, the nearest first.
+std::vector<std::pair<double, std::size_t>> Covering::near(const Vector& x, double radius) const {
+  const auto count = static_cast<Index>(discs_.size());
+  const Vector squares = (centres_.leftCols(count).colwise() - x).colwise().squaredNorm();
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const double distance = std::sqrt(squares(static_cast<Index>(i)));
+    if (distance < 2 * std::max(radius, discs_[i].radius)) found.emplace_back(distance, i);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Makes a disc's polygon, and cuts those of its neighbours: each ends at the box and half way to the next
+/// one, however large these are, so that discs become larger step by step.
+void Covering::outline(std::size_t which) {
+  constexpr double rounding = 1e-12;
+  Disc& disc = discs_[which];
   disc.polygon = Polygon(disc.radius, Disc::open);
   for (int side = 0; side < 4; ++side) {
     const Eigen::Vector2d out = towards(disc, side);
     if (out.norm() > upright && !has(disc.missed, side))
       disc.polygon.cut(out, gap(disc, side), Disc::side(side));
   }
-  for (const std::size_t i : disc.near) {
-    const Eigen::Vector2d s = disc.plane.transpose() * (discs_[i].at - disc.at);
-    disc.polygon.cut(s, s.squaredNorm() / 2, static_cast<int>(i));
+  const auto way = [](const Disc& from, const Disc& to) -> Eigen::Vector2d {
+    return from.plane.transpose() * (to.at - from.at);
+  };
+  const auto reaches = [&](const Disc& one, const Eigen::Vector2d& s) {
+    return one.polygon.reach(s) > (0.5 + rounding) * s.squaredNorm();
+  };
+  for (const auto& [distance, i] : near(disc.at, disc.radius)) {
+    Disc& other = discs_[i];
+    const Eigen::Vector2d there = way(disc, other);
+    const Eigen::Vector2d back = way(other, disc);
+    if (i == which || (!reaches(disc, there) && !reaches(other, back))) continue;
+    if (!is_one_sheet(disc, other) && !is_one_sheet(other, disc)) continue;
+    if (reaches(disc, there)) disc.polygon.cut(there, there.squaredNorm() / 2, static_cast<int>(i));
+    if (reaches(other, back)) other.polygon.cut(back, back.squaredNorm() / 2, static_cast<int>(which));
   }
 }
 
@@ -223,29 +252,20 @@ bool Covering::put_on_near_sides(Disc& disc) {
 
 /// Adds a disc with at most this radius, and cuts its polygon and those of its neighbours.
 bool Covering::add(Disc disc, double radius) {
-  if (!fit_radius(disc, radius)) return false;
+  has_left_ = !surface_.is_inside(disc.at);
+  if (has_left_ || !fit_radius(disc, radius)) return false;
   const int before = disc.sides;
   if (!put_on_near_sides(disc)) return false;
   if (disc.sides != before && !fit_radius(disc, disc.radius)) return false;
+  const auto others = near(disc.at, 0);
+  if (!others.empty() && others.front().first < same && is_one_sheet(disc, discs_[others.front().second]))
+    return false;
   const auto count = static_cast<Index>(discs_.size());
-  const Vector squares = (centres_.leftCols(count).colwise() - disc.at).colwise().squaredNorm();
-  for (std::size_t i = 0; i < discs_.size(); ++i) {
-    const double distance = std::sqrt(squares(static_cast<Index>(i)));
-    if (distance >= 2 * std::max(disc.radius, discs_[i].radius)) continue;
-    if (!is_one_sheet(disc, discs_[i]) && !is_one_sheet(discs_[i], disc)) continue;
-    if (distance < same) return false;
-    disc.near.push_back(i);
-  }
   if (count == centres_.cols()) centres_.conservativeResize(Eigen::NoChange, 2 * count);
   centres_.col(count) = disc.at;
-  unfinished_.push_back(discs_.size());
   discs_.push_back(std::move(disc));
-  outline(discs_.back());
-  for (const std::size_t i : discs_.back().near) {
-    discs_[i].near.push_back(discs_.size() - 1);
-    const Eigen::Vector2d s = discs_[i].plane.transpose() * (discs_.back().at - discs_[i].at);
-    discs_[i].polygon.cut(s, s.squaredNorm() / 2, static_cast<int>(discs_.size() - 1));
-  }
+  unfinished_.push_back(discs_.size() - 1);
+  outline(discs_.size() - 1);
   return true;
 }
 
@@ -256,6 +276,7 @@ bool Covering::extend(std::size_t which) {
   if (!found) return false;
   Disc next;
   const double radius = std::min(options_.max_radius, growth * discs_[which].radius);
+  has_left_ = false;
   const bool added = put(discs_[which], *found, next) && add(next, radius);
   Disc& disc = discs_[which];
   if (added) {
@@ -264,7 +285,7 @@ bool Covering::extend(std::size_t which) {
   }
   if (const int met = found->sides & ~disc.sides; met != 0) {  // it may bend away from them
     disc.missed |= met;
-    outline(disc);
+    outline(which);
     return true;
   }
   constexpr double inside = 0.9;

@@ -6,7 +6,8 @@ namespace arcslip::continuation {
 
 Surface::Surface(const Problem& problem, const std::array<AtlasSide, 2>& sides, const Guess& guess,
                  const Vector& scale)
-    : size_(problem.size()),
+    : problem_(problem),
+      size_(problem.size()),
       sides_(sides),
       guess_(guess),
       origin_(guess.unknowns),
@@ -108,6 +109,13 @@ bool Surface::tangent(const Vector& x, const Matrix& like, Matrix& plane) {
   plane.applyOnTheLeft(factors.householderQ());
   if (like.size() > 0 && (like.transpose() * plane).determinant() < 0) plane.col(1) *= -1;
   return true;
+}
+
+bool Surface::is_inside(const Vector& x) const {
+  constexpr double outside =
+      1e-9;  // of a border function, which is 0 on it: solutions there belong to both sides
+  const Guess at = solution(x);
+  return crossed_border(problem_, at.unknowns, at.parameters, at.regime, outside) < 0;
 }
 
 int Surface::orientation(const Matrix& plane) {

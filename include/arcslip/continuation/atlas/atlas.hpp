@@ -75,8 +75,9 @@ struct [[nodiscard]] Atlas {
 };
 
 /// Covers the surface through each of the guesses, which share their regime and further parameters; those on
-/// a component that is covered already add nothing. Throws std::invalid_argument where the parameters, the
-/// ranges or the number of guesses are wrong, a guess lies outside the box, or F is smooth only in pieces.
+/// a component that is covered already add nothing. Of a problem in pieces the part in the guesses' regime is
+/// covered, and told to be no more than that. Throws std::invalid_argument where the parameters, the ranges
+/// or the number of guesses are wrong, or a guess lies outside the box.
 Atlas cover(const Problem& problem, const std::vector<Guess>& starts, const AtlasOptions& options);
 
 }  // namespace arcslip::continuation

@@ -3,7 +3,9 @@
 // Charts that are added to each other until they cover a surface.
 
 #include <deque>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arcslip/continuation/atlas/atlas.hpp"
@@ -17,11 +19,10 @@ struct Disc {
   Vector at;     ///< N, the centre
   Matrix plane;  ///< N x 2, as Surface::tangent has it
   double radius = 0;
-  int sides = 0;                  ///< of the box that it lies on, as bits
-  int missed = 0;                 ///< sides that its plane meets and the surface does not
-  std::vector<std::size_t> near;  ///< those that its polygon was cut by
-  Polygon polygon;                ///< what lies beyond its edges: another disc, or one of those below
-  bool is_torn = false;           ///< whether no disc could be added somewhere on its rim
+  int sides = 0;         ///< of the box that it lies on, as bits
+  int missed = 0;        ///< sides that its plane meets and the surface does not
+  Polygon polygon;       ///< what lies beyond its edges: another disc, or one of those below
+  bool is_torn = false;  ///< whether no disc could be added somewhere on its rim
 
   static constexpr int open = -1;                              ///< nothing is known to lie beyond
   static constexpr int side(int which) { return -2 - which; }  ///< that of the box
@@ -57,11 +58,12 @@ class Covering {
   bool put_on_near_sides(Disc& disc);
   bool fit_radius(Disc& disc, double radius);
   bool is_flat(const Disc& disc, double radius);
-  void outline(Disc& disc) const;
+  void outline(std::size_t which);
   double gap(const Disc& disc, int side) const;
   Eigen::Vector2d towards(const Disc& disc, int side) const;
   bool is_one_sheet(const Disc& disc, const Disc& other);
   bool is_covered(const Vector& x);
+  std::vector<std::pair<double, std::size_t>> near(const Vector& x, double radius) const;
   void fail(const Vector& x);
 
   Surface& surface_;
@@ -71,7 +73,8 @@ class Covering {
   Matrix centres_;  // N x capacity, of the discs
   std::deque<std::size_t> unfinished_;
   std::string failure_;
-  Matrix rows_;  // 2 x N
+  bool has_left_ = false;  // the regime, where the last disc was to be
+  Matrix rows_;            // 2 x N
   Vector lifted_;
   Matrix plane_;
 };

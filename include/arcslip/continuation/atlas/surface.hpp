@@ -46,6 +46,9 @@ class Surface {
   /// empty. False where F_x lacks rank or F a value.
   [[nodiscard]] bool tangent(const Vector& x, const Matrix& like, Matrix& plane);
 
+  /// Whether x lies in the regime, and not beyond one of its borders.
+  [[nodiscard]] bool is_inside(const Vector& x) const;
+
   /// The sign of det [F_x; plane^T] at the point last evaluated: the same all over a surface but for lines
   /// where F_x lacks rank, as where others cross it.
   int orientation(const Matrix& plane);
@@ -64,6 +67,7 @@ class Surface {
  private:
   [[nodiscard]] bool evaluate(const Vector& x);
 
+  const Problem& problem_;
   Index size_;
   std::array<AtlasSide, 2> sides_;
   Guess guess_;    // of which unknowns and both parameters are replaced
