@@ -256,6 +256,8 @@ bool Covering::add(Disc disc, double radius) {
   if (has_left_ || !fit_radius(disc, radius)) return false;
   const int before = disc.sides;
   if (!put_on_near_sides(disc)) return false;
+  has_left_ = !surface_.is_inside(disc.at);
+  if (has_left_) return false;
   if (disc.sides != before && !fit_radius(disc, disc.radius)) return false;
   const auto others = near(disc.at, 0);
   if (!others.empty() && others.front().first < same && is_one_sheet(disc, discs_[others.front().second]))

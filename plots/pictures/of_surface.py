@@ -48,7 +48,7 @@ class PicturesOfSurface:
         faces += np.searchsorted(branch, of_face)[:, None]  # charts are counted anew in each branch
         width, tall = self.options.size or (style.WIDTH, 7.2)
         page = Page(width, tall, self.measure)
-        ax = page.figure.add_axes([0.1, 0.02, 0.86, 0.98], projection="3d", computed_zorder=False)
+        ax = page.figure.add_axes([0.1, 0.07, 0.84, 0.95], projection="3d", computed_zorder=False)
         ax.plot_trisurf(Triangulation(place[0], place[1], faces), place[2], cmap=COLOURS, linewidth=0.1,
                         edgecolor="#FFFFFF40", antialiased=True, alpha=0.92, zorder=1)
         for kind, at in self._folds():
