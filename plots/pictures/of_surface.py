@@ -33,10 +33,10 @@ class PicturesOfSurface:
 
     def _folds(self):
         try:
-            table = self._table("folds.csv", ["branch", "curve", "type", *self.parameters, self.height])
+            table = self._table("folds.csv", ["branch", "fold_curve", "type", *self.parameters, self.height])
         except Refused:  # there are none
             return []
-        branch, curve, kind, *at = table.read(["branch", "curve", "type", *self.parameters, self.height])
+        branch, curve, kind, *at = table.read(["branch", "fold_curve", "type", *self.parameters, self.height])
         keys = np.stack([branch, curve], axis=1)
         starts = np.r_[0, np.flatnonzero(np.any(np.diff(keys, axis=0) != 0, axis=1)) + 1, len(keys)]
         return [(kind[a:b], [values[a:b] for values in at]) for a, b in zip(starts[:-1], starts[1:])]

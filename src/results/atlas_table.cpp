@@ -95,7 +95,7 @@ std::string face_rows(std::size_t number, const TracedBranch& traced) {
 
 std::string folds_header(const TracedBranch& traced) {
   const Values values(traced);
-  return "branch,curve,point,type" + values.names() + values.physical_names() + "\n";
+  return "branch,fold_curve,point,type" + values.names() + values.physical_names() + "\n";
 }
 
 std::string fold_rows(std::size_t number, const TracedBranch& traced) {

@@ -18,7 +18,7 @@ std::string atlas_rows(std::size_t number, const TracedBranch& traced);
 std::string faces_header(const TracedBranch& traced);
 std::string face_rows(std::size_t number, const TracedBranch& traced);
 
-/// One row for each fold on an edge: branch, curve, point, type, the parameters, the observables.
+/// One row for each fold on an edge: branch, fold_curve, point, type, the parameters, the observables.
 std::string folds_header(const TracedBranch& traced);
 std::string fold_rows(std::size_t number, const TracedBranch& traced);
 
