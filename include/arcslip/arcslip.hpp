@@ -11,6 +11,7 @@
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/runs.hpp"
 #include "arcslip/cases/study_case.hpp"
+#include "arcslip/continuation/atlas/atlas.hpp"
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/checkpoint.hpp"

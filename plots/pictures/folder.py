@@ -11,6 +11,7 @@ from .of_modes import PicturesOfModes
 from .of_orbits import PicturesOfOrbits
 from .of_run import PicturesOfRun
 from .of_study import PicturesOfStudy
+from .of_surface import PicturesOfSurface
 from .page import new_measure
 from .run import RunData
 from .tables import Refused, summary_of
@@ -78,6 +79,8 @@ def _decide(folder, summary, options):
     measure = new_measure()
     has_run = "study" not in summary["case"]
     own = bool(options.x or options.y)
+    if has_run and summary["case"]["branch"].get("surface"):
+        return _chosen(folder, PicturesOfSurface(folder, summary["case"], options, measure).pictures(), options)
     run = RunData(folder, summary) if has_run else None
     parts = [PicturesOfRun(run, options, measure)] if has_run else []
     if has_run and not own and "parameter" in run.branch:

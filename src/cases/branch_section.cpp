@@ -62,6 +62,16 @@ bool of_friction(const CaseBranch& branch, const TomlSection& /*section*/) {
 }
 bool is_curve(const CaseBranch& branch, const TomlSection& /*section*/) { return branch.curve.has_value(); }
 bool is_branch(const CaseBranch& branch, const TomlSection& /*section*/) { return !branch.curve; }
+bool is_no_curve(const CaseBranch& branch, const TomlSection& /*section*/) {
+  return !branch.curve || branch.curve->is_surface();
+}
+
+void read_surface(CaseBranch& branch, const TomlSection& section) {
+  if (!section.boolean("surface")) return;
+  branch.curve.emplace();
+  branch.curve->name = "surface";
+  branch.curve->type = PointType::regular;
+}
 
 void read_parameters(CaseBranch& branch, const TomlSection& section) {
   const std::vector<std::string> names = names_of_parameters(branch.problem);
@@ -158,7 +168,7 @@ void read_box(CaseBranch& branch, const TomlSection& section) {
 
 void check_all(const CaseBranch& branch, const TomlSection& section) {
   if (!branch.all_solutions) return;
-  section.require("start", "the value of the parameter to find all solutions at");
+  if (!branch.curve) section.require("start", "the value of the parameter to find all solutions at");
   const problems::LibraryModel* model = branch.problem.model.get();
   if (model != nullptr && (model->is_driven || model->orbit))
     section.fail("all_solutions", "not of orbits, which begin with the one next to a guess");
@@ -167,6 +177,10 @@ void check_all(const CaseBranch& branch, const TomlSection& section) {
 void read_extrema(CaseBranch& branch, const TomlSection& section) {
   const char* expected = "the one observable whose extrema the curve is made of";
   const bool curve = branch.curve.has_value();
+  if (curve && branch.curve->is_surface()) {
+    if (section.has("extrema_of")) section.fail("extrema_of", "not beside surface");
+    return;
+  }
   const bool ridge =
       curve && (branch.curve->type == PointType::peak || branch.curve->type == PointType::trough);
   std::vector<std::string>& observables = branch.options.extrema_of;
@@ -189,7 +203,8 @@ const auto beside_curves_that_meet =
     only("beside curve only of \"fold\" or \"hopf\"", [](const CaseBranch& branch, const TomlSection&) {
       return !branch.curve || branch.curve->name == "fold" || branch.curve->name == "hopf";
     });
-const auto beside_curve = only("only beside curve", is_curve);
+const auto beside_curve = only("only beside curve or surface", is_curve);
+const auto beside_neither = only("not beside curve", is_no_curve, "not beside curve");
 const auto with_friction = only("only for systems with friction", of_friction);
 const auto beside_level = only("only beside curve = \"level\"", is_level);
 
@@ -206,6 +221,8 @@ std::vector<BranchKey> keys_of_request() {
                         "what is asked of a system with friction", "", with_friction),
       BranchKey::special("curve", one_of(curve_names()), "a curve of such points in two parameters",
                          read_curve),
+      BranchKey::special("surface", "true or false", "all solutions over two parameters, as triangles",
+                         read_surface, not_beside_curve),
       BranchKey::special(
           "level_of", "name", "the observable that has a given value along the curve",
           [](CaseBranch& branch, const TomlSection& section) {
@@ -237,7 +254,8 @@ std::vector<BranchKey> keys_of_request() {
           needed("required", lacks("parameters")), not_beside_curve),
       BranchKey::special(
           "parameters", "two names",
-          "of a curve: its first points are looked for over the first, at the second of `[system]`",
+          "of a curve: its first points are looked for over the first, at the second of `[system]`; of a "
+          "surface, which begins at both of `[system]` if they are within the ranges",
           read_parameters, required, beside_curve),
       BranchKey::special("window", "two numbers",
                          "range of the first parameter of a curve, searched from its first value on",
@@ -284,8 +302,8 @@ std::vector<BranchKey> keys_of_ways() {
           BranchKey::flag(
               "all_solutions", &CaseBranch::all_solutions,
               "find all solutions at `start`, by deflation and by branches in all parameters, say whether "
-              "these are all, and trace the branch of each",
-              not_beside_curve, then(check_all)),
+              "these are all, and trace the branch of each; of a surface where it begins",
+              beside_neither, then(check_all)),
           BranchKey::special(
               "box", "two numbers, or two for each unknown",
               "lowest and highest unknowns between which all solutions are found, by proof where "

@@ -16,6 +16,7 @@
 #include "cases/cycles.hpp"
 #include "cases/departures.hpp"
 #include "cases/ring_amplification.hpp"
+#include "cases/surfaces.hpp"
 
 namespace arcslip {
 namespace {
@@ -126,6 +127,11 @@ CaseBranch seed_branch(const CaseBranch& request) {
   seeds.options.parameter = request.curve->active;
   seeds.options.from = request.curve->from;
   seeds.options.to = request.curve->to;
+  if (request.curve->is_surface()) {  // no branch, but a point
+    const double value = fixed_value(request.problem, request.curve->active);
+    if (value >= request.curve->window.low && value <= request.curve->window.high) seeds.options.from = value;
+    seeds.start = seeds.options.from;
+  }
   seeds.options.stop_at.clear();
   seeds.options.stop_after.clear();
   seeds.curve.reset();
@@ -179,6 +185,7 @@ std::vector<TracedBranch> trace_given(const Request& request, const TimeBudget& 
       may_leave_cycles(*subject.built.problem) && request->cycles.options.trigonometric)
     subject.failure = "cycles of sparse systems are held on intervals, not by balance";
   if (!subject.failure.empty()) return {unstarted(request, subject, subject.failure)};
+  if (request->curve && request->curve->is_surface()) return {cover_surface(request, subject, time)};
   if (request->curve)
     return trace_curves(request, subject, branches_across(*request->curve, first, subject, time), time,
                         observer);

@@ -49,6 +49,10 @@ std::string fixed(const CaseBranch& branch) {
 
 std::string describe(const CaseBranch& branch) {
   const continuation::TraceOptions& options = branch.options;
+  if (branch.curve && branch.curve->is_surface()) {
+    return fmt::format("surface over {} from {:g} to {:g} and {} from {:g} to {:g}", branch.curve->active,
+                       branch.curve->from, branch.curve->to, options.parameter, options.from, options.to);
+  }
   if (branch.curve) {
     return fmt::format(
         "curve of {} points: {} from {:g} to {:g}, {} from {:g} to {:g}, looked for at {} = {:g}",

@@ -20,6 +20,7 @@
 #include "arcslip/version.hpp"
 #include "cases/cycles.hpp"
 #include "cases/stored_point.hpp"
+#include "results/atlas_table.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/solution_results.hpp"
@@ -283,6 +284,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                      {"rejected_steps", work.rejected_steps}};
   summary["seconds"] = traced.seconds;
   if (traced.solutions) summary["solutions"] = solutions_to_json(*traced.solutions);
+  if (traced.surface) summary["surface"] = surface_to_json(*traced.surface);
   if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
   return summary;
 }

@@ -7,6 +7,7 @@
 #include "arcslip/continuation/path/stop.hpp"
 #include "cases/unit_names.hpp"
 #include "results/answer.hpp"
+#include "results/atlas_table.hpp"
 #include "results/solution_results.hpp"
 
 namespace arcslip {
@@ -274,6 +275,14 @@ Sentences solutions_answer(const ordered_json& branches) {
   return sentences;
 }
 
+Sentences surfaces_answer(const ordered_json& branches) {
+  Sentences sentences;
+  for (const ordered_json& branch : branches) {
+    if (branch.contains("surface")) sentences.push_back(surface_sentence(branch.at("surface")));
+  }
+  return sentences;
+}
+
 }  // namespace
 
 std::vector<std::string> run_answer(const ordered_json& summary) {
@@ -283,9 +292,10 @@ std::vector<std::string> run_answer(const ordered_json& summary) {
   Sentences sentences;
   if (response == "forced" || response == "one_way")
     sentences = peaks_answer(branches, input.value("parameter", "eta"));
-  sentences.push_back(count_answer(branches));
+  const Sentences surfaces = surfaces_answer(branches);
+  if (surfaces.empty()) sentences.push_back(count_answer(branches));
   for (const Sentences& more :
-       {solutions_answer(branches), hopf_answer(branches), multipliers_answer(branches),
+       {surfaces, solutions_answer(branches), hopf_answer(branches), multipliers_answer(branches),
         normal_forms_answer(branches), symmetries_answer(branches), ends_answer(branches),
         certificates_answer(branches)})
     sentences.insert(sentences.end(), more.begin(), more.end());

@@ -8,6 +8,7 @@
 
 #include "arcslip/continuation/path/polyline.hpp"
 #include "arcslip/version.hpp"
+#include "results/atlas_table.hpp"
 #include "results/branch_columns.hpp"
 #include "results/certificate_results.hpp"
 #include "results/orbit_table.hpp"
@@ -26,6 +27,9 @@ ordered_json beginning(const CasePlan& plan) {
 constexpr const char* sectors_name = "/sectors.csv";
 constexpr const char* orbits_name = "/orbits.csv";
 constexpr const char* tori_name = "/tori.csv";
+constexpr const char* atlas_name = "/atlas.csv";
+constexpr const char* faces_name = "/faces.csv";
+constexpr const char* folds_name = "/folds.csv";
 constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
 
 /// The branch as a polyline that looks like the curve.
@@ -49,13 +53,16 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
       branches_(folder + "/branches.csv", BranchTable::Detail::full),
       curves_(folder + "/curves.csv", BranchTable::Detail::drawn),
       summary_(folder, beginning(plan)) {
-  const auto add_table = [&](const char* section, const char* name, auto header_of, auto rows_of) {
-    if (plan.resolved.contains(section))
+  const auto add_table = [&](const char* place, const char* name, auto header_of, auto rows_of) {
+    if (plan.resolved.contains(ordered_json::json_pointer(place)))
       tables_.push_back({header_of, rows_of, std::make_unique<AtomicFile>(folder + name)});
   };
-  add_table("ring", sectors_name, sectors_header, sector_rows);
-  add_table("cycles", orbits_name, orbits_header, orbit_rows);
-  add_table("cycles", tori_name, tori_header, torus_rows);
+  add_table("/ring", sectors_name, sectors_header, sector_rows);
+  add_table("/cycles", orbits_name, orbits_header, orbit_rows);
+  add_table("/cycles", tori_name, tori_header, torus_rows);
+  add_table("/branch/surface", atlas_name, atlas_header, atlas_rows);
+  add_table("/branch/surface", faces_name, faces_header, face_rows);
+  add_table("/branch/surface", folds_name, folds_header, fold_rows);
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());
@@ -178,7 +185,7 @@ void RunFiles::finish(double seconds, bool interrupted) {
     if (!verification_) std::filesystem::remove(folder_ + name, ignored);
   }
   std::erase_if(tables_, [](const PointTable& table) { return !table.has_header; });  // without a row
-  for (const char* name : {sectors_name, orbits_name, tori_name}) {
+  for (const char* name : {sectors_name, orbits_name, tori_name, atlas_name, faces_name, folds_name}) {
     const auto is_own = [&](const PointTable& table) { return table.file->path() == folder_ + name; };
     if (std::none_of(tables_.begin(), tables_.end(), is_own))
       std::filesystem::remove(folder_ + name, ignored);

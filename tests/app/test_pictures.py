@@ -477,3 +477,12 @@ def test_modes_are_drawn_beside_a_run(results, tmp_path):
         os.link(results["pp2"] / name, tmp_path / name)
     write_modes(tmp_path, None)
     assert list(figures_of(tmp_path)) == ["branch", "modes"]
+
+
+def test_a_surface_is_drawn_over_both_parameters(tmp_path):
+    run("tank_surface", tmp_path)
+    names = sorted(pathlib.Path(path).name for path in folders.draw_folder(str(tmp_path)))
+    assert names == ["surface.png", "surface.svg"]
+    first = (tmp_path / "surface.svg").read_bytes()
+    folders.draw_folder(str(tmp_path))
+    assert (tmp_path / "surface.svg").read_bytes() == first

@@ -33,6 +33,9 @@ struct CurveRequest {
 
   bool of_cycles = false;  ///< whether the points are looked for on cycles
 
+  /// Whether what is asked for are not special points, but all solutions over both parameters.
+  bool is_surface() const { return name == "surface"; }
+
   /// Whether it is a backbone: what the load does work on lags by a quarter of a period, as at a resonance.
   bool is_backbone() const { return name == "phase_resonance"; }
 };

@@ -9,6 +9,7 @@
 
 #include "arcslip/cases/case_file.hpp"
 #include "arcslip/cases/solution_count.hpp"
+#include "arcslip/continuation/atlas/atlas.hpp"
 #include "arcslip/continuation/path/branch.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/problems/proof/certificate.hpp"
@@ -57,6 +58,8 @@ struct TracedBranch {
   std::shared_ptr<const Matrix> told = nullptr;
   /// Of the solutions that it was traced from, where all were asked for.
   std::shared_ptr<const SolutionCount> solutions = nullptr;
+  /// Of two parameters, in place of points.
+  std::shared_ptr<const continuation::Atlas> surface = nullptr;
 
   /// That of which the branch holds solutions.
   const continuation::Problem& problem() const {

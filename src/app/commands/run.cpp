@@ -18,6 +18,7 @@
 #include "arcslip/results/results.hpp"
 #include "cases/case_warnings.hpp"
 #include "keys/printable.hpp"
+#include "results/atlas_table.hpp"
 #include "results/certificate_results.hpp"
 #include "results/output.hpp"
 #include "results/output_folder.hpp"
@@ -203,7 +204,7 @@ void Run::trace_request(std::size_t i, RunFiles& files, const std::string& folde
 }
 
 void Run::report(const TracedBranch& traced, std::size_t number) {
-  points_ += traced.branch.points.size();
+  points_ += traced.surface ? traced.surface->charts.size() : traced.branch.points.size();
   if (!options_.quiet) show(described(traced, number));
   const std::string why = complaint(traced.branch);
   if (why.empty()) return;
@@ -217,8 +218,10 @@ std::string Run::described(const TracedBranch& traced, std::size_t number) {
   if (!values.empty()) text += fmt::format("{}{}\n", number == 0 ? "" : "\n", values);
   const ProblemRequest& problem = traced.request->problem;
   if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
-  text += describe_harmonics(traced) + special_table_header(traced) + special_table(number, traced) +
-          describe_stability(traced);
+  text += describe_harmonics(traced);
+  text += traced.surface
+              ? surface_sentence(surface_to_json(*traced.surface)) + "\n"
+              : special_table_header(traced) + special_table(number, traced) + describe_stability(traced);
   if (traced.branch.stop != continuation::Stop::reached_end)
     text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);
   return text;

@@ -17,6 +17,7 @@ from ._element import Element
 from ._model import Model
 from ._problem import Problem
 from ._structure import Structure
+from ._surface import Surface, surface
 from ._trace import solve_all, trace, trace_all, trace_boundary, trace_cycles
 
 __all__ = [
@@ -30,12 +31,14 @@ __all__ = [
     "Sample",
     "Structure",
     "Study",
+    "Surface",
     "__version__",
     "check",
     "marched",
     "run",
     "solve_all",
     "study",
+    "surface",
     "trace",
     "trace_all",
     "trace_boundary",

@@ -122,6 +122,40 @@ def solve_all(
     parameter: str | None = None,
     **functions: Any,
 ) -> list[_Array]: ...
+def surface(
+    problem: _Function | Problem,
+    u0: ArrayLike | list[ArrayLike] | None = None,
+    p0: _Parameters | None = None,
+    parameters: tuple[str, str] | None = None,
+    ranges: tuple[tuple[float, float], tuple[float, float]] | None = None,
+    *,
+    max_radius: float = 0.1,
+    max_turn: float = 0.2,
+    max_charts: int = 10000,
+    max_seconds: float = ...,
+    **functions: Any,
+) -> Surface: ...
+
+class Surface:
+    parameters: tuple[str, str]
+    parameter_names: list[str]
+    unknown_names: list[str]
+    charts: _Array
+    values: _Array
+    faces: _Array
+    radius: _Array
+    component: _Array
+    determinant: _Array
+    unstable: _Array
+    folds: _Array
+    fold_values: _Array
+    fold_curve: _Array
+    fold_type: _Array
+    components: list[dict[str, Any]]
+    complete: bool
+    stop: str
+    reason: str
+    def __getitem__(self, name: str) -> _Array: ...
 
 class Problem:
     parameters: Sequence[str]

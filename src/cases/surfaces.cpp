@@ -1,0 +1,45 @@
+#include "cases/surfaces.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "cases/all_solutions.hpp"
+
+namespace arcslip {
+
+TracedBranch cover_surface(const std::shared_ptr<const CaseBranch>& request, const Subject& subject,
+                           const continuation::TimeBudget& time) {
+  constexpr double widest = 0.5;  // radius of a chart
+  const auto begun = std::chrono::steady_clock::now();
+  const CurveRequest& asked = *request->curve;
+  TracedBranch traced{request, subject.built, nullptr, {}, 0};
+  std::vector<continuation::Guess> starts{subject.guess};
+  if (request->all_solutions) {
+    AllSolutions all = find_all_solutions(*request, subject, time);
+    starts = std::move(all.solutions);
+    traced.solutions = std::make_shared<const SolutionCount>(std::move(all.count));
+  }
+  const continuation::TraceOptions given = time.rest();
+  continuation::AtlasOptions options;
+  options.parameters = {asked.active, given.parameter};
+  options.from = {asked.from, given.from};
+  options.to = {asked.to, given.to};
+  options.max_radius = std::min(given.max_step, widest);
+  options.most_charts = given.max_points;
+  options.max_seconds = given.max_seconds;
+  options.go_on = given.go_on;
+  traced.branch.stop = continuation::Stop::no_start;
+  traced.branch.explanation = "there is no solution at the parameters of [system]";
+  if (starts.empty()) return traced;
+  auto atlas =
+      std::make_shared<continuation::Atlas>(continuation::cover(*subject.built.problem, starts, options));
+  traced.branch.stop = atlas->stop;
+  traced.branch.explanation =
+      atlas->complete() ? "the surface is covered as far as the box goes" : atlas->reason;
+  traced.branch.work.evaluations = atlas->evaluations;
+  traced.surface = std::move(atlas);
+  traced.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return traced;
+}
+
+}  // namespace arcslip
