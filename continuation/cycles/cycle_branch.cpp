@@ -64,7 +64,8 @@ class MeshWatch {
 
   /// A frame for an orbit; none where no mesh of this resolution is good enough.
   std::optional<Regime> renewed(const Vector& u, const Vector& p, const Regime& regime) {
-    constexpr double margin = 0.5;  // or the next point would ask again; a finer mesh starts all over
+    // or the next point would ask again; a finer mesh starts all over, which takes long where it is large
+    const double margin = problem_.field().sparse() ? 0.5 : 0.3;
     const OrbitFrame& frame = problem_.frame(regime);
     const Matrix orbit = problem_.orbit(u);
     OrbitMesh mesh = frame.mesh.equidistributed(orbit, frame.range, problem_.resolution());

@@ -68,6 +68,9 @@ bool is_no_curve(const CaseBranch& branch, const TomlSection& /*section*/) {
 
 void read_surface(CaseBranch& branch, const TomlSection& section) {
   if (!section.boolean("surface")) return;
+  const problems::LibraryModel* model = branch.problem.model.get();
+  if (model != nullptr && (model->orbit || model->is_driven))
+    section.fail("surface", "not of cycles and of boundary value problems");
   branch.curve.emplace();
   branch.curve->name = "surface";
   branch.curve->type = PointType::regular;

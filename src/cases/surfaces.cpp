@@ -1,18 +1,26 @@
 #include "cases/surfaces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
 #include "cases/all_solutions.hpp"
+#include "cases/curves.hpp"
 
 namespace arcslip {
 
 TracedBranch cover_surface(const std::shared_ptr<const CaseBranch>& request, const Subject& subject,
                            const continuation::TimeBudget& time) {
-  constexpr double widest = 0.5;  // radius of a chart
+  constexpr double widest = 0.5;        // radius of a chart
+  constexpr Index most_unknowns = 100;  // full matrices of all are factored
   const auto begun = std::chrono::steady_clock::now();
   const CurveRequest& asked = *request->curve;
   TracedBranch traced{request, subject.built, nullptr, {}, 0};
+  if (const Index n = subject.built.problem->size(); n > most_unknowns)
+    return unstarted(
+        request, subject,
+        fmt::format("a surface is covered in up to {} unknowns, and there are {}", most_unknowns, n));
   std::vector<continuation::Guess> starts{subject.guess};
   if (request->all_solutions) {
     AllSolutions all = find_all_solutions(*request, subject, time);
@@ -25,7 +33,7 @@ TracedBranch cover_surface(const std::shared_ptr<const CaseBranch>& request, con
   options.from = {asked.from, given.from};
   options.to = {asked.to, given.to};
   options.max_radius = std::min(given.max_step, widest);
-  options.most_charts = given.max_points;
+  if (given.max_points != continuation::TraceOptions().max_points) options.most_charts = given.max_points;
   options.max_seconds = given.max_seconds;
   options.go_on = given.go_on;
   traced.branch.stop = continuation::Stop::no_start;

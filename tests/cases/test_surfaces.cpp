@@ -118,3 +118,13 @@ TEST_CASE("Requests for surfaces that do not fit are refused") {
   CHECK(refused({"branch.extrema_of=[\"x\"]"}).find("not beside surface") != std::string::npos);
   CHECK(refused({"branch.from=20"}).find("which is not between 20 and 24") != std::string::npos);
 }
+
+TEST_CASE("Surfaces of cycles and of many unknowns are refused") {
+  CHECK_THROWS_WITH(surface_of("forced_duffing",
+                               "parameters = [\"W\", \"force\"]\nwindow = [0.5, 2]\nfrom = 1\nto = 2\n", {}),
+                    ContainsSubstring("branch.surface") && ContainsSubstring("not of cycles"));
+  const TracedBranch large = surface_of(
+      "brusselator_1d", "parameters = [\"L\", \"A\"]\nwindow = [0.3, 0.5]\nfrom = 1.9\nto = 2.1\n", {});
+  CHECK(large.branch.stop == Stop::no_start);
+  CHECK_THAT(large.branch.explanation, ContainsSubstring("up to 100 unknowns, and there are 998"));
+}
