@@ -33,7 +33,7 @@ void DoublingProblem::test(const Vector& u, const Vector& p, const Regime& regim
   const auto form =
       multiplier_form(base(), PointType::period_doubling, {point.unknowns, point.parameters, regime, {}});
   values.setConstant(2, std::nan(""));
-  if (form) values(0) = form->coefficient / form->terms;
+  if (form) values(0) = form->relative();
   if (orbits_ != nullptr) {
     values(1) = fold_test(orbits_->log_multipliers(point.unknowns, point.parameters, regime));
   } else if (at_.evaluate(point.unknowns, point.parameters, regime)) {

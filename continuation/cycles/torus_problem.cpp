@@ -69,7 +69,7 @@ void TorusProblem::test(const Vector& u, const Vector& p, const Regime& regime, 
   if (!(std::abs(kappa) < 1 - surely)) return;
   const auto form = multiplier_form(base(), PointType::neimark_sacker,
                                     {point.unknowns, point.parameters, regime, {}}, std::acos(kappa));
-  if (form) values(4) = form->coefficient / form->terms;  // jumps where terms have poles
+  if (form) values(4) = form->relative();  // jumps where terms have poles
 }
 
 std::vector<Observable> TorusProblem::observables() const {

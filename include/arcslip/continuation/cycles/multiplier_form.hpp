@@ -16,6 +16,7 @@
 // their Jacobian is K(mu), and u + sum_a h_a w^a solves them order by order, K(mu^a) h_a = -r_a, r_a read
 // from series of F along curves. T changes with |w|^2.
 
+#include <cmath>
 #include <optional>
 
 #include "arcslip/continuation/cycles/cycle_problem.hpp"
@@ -29,6 +30,13 @@ struct MultiplierForm {
   double coefficient = 0;  ///< c, Re d, or |b|, whose sign is that of v
   double error = 0;        ///< estimated; 0 where derivatives are exact
   double terms = 0;        ///< the sum of the sizes of what makes up c or d, and what is usual
+
+  /// The coefficient over its terms; 0 where it is no more than its error may be, as all along a curve of
+  /// what is linear.
+  double relative() const {
+    constexpr double surely = 10;
+    return std::abs(coefficient) > surely * error ? coefficient / terms : 0;
+  }
 };
 
 /// At a period doubling, a Neimark-Sacker point or a fold of a CycleProblem or a map. None where F cannot be
