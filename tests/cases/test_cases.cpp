@@ -15,6 +15,20 @@
 using namespace arcslip;
 using namespace arcslip::testing;
 
+namespace {
+
+double residual_of(const continuation::Atlas& surface, const continuation::Problem& problem) {
+  Vector residual(problem.size());
+  double worst = 0;
+  for (const continuation::Chart& chart : surface.charts) {
+    REQUIRE(problem.evaluate(chart.unknowns, chart.parameters, {}, {&residual}));
+    worst = std::max(worst, residual.lpNorm<Eigen::Infinity>());
+  }
+  return worst;
+}
+
+}  // namespace
+
 TEST_CASE("Every case is traced to its end, and every point of it solves its equations", "[cases]") {
   int cases = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source_folder() + "/problems")) {
@@ -32,8 +46,8 @@ TEST_CASE("Every case is traced to its end, and every point of it solves its equ
       const Stop first = one.branch.first_stop.value_or(Stop::reached_end);  // of what is traced both ways
       CHECK((first == Stop::reached_end || first == Stop::left_range || first == Stop::left_regime ||
              first == Stop::infinite_period || first == Stop::requested));
-      CHECK(one.branch.points.size() > 1);
-      double worst = 0;
+      CHECK((one.surface ? one.surface->charts.size() : one.branch.points.size()) > 1);
+      double worst = one.surface ? residual_of(*one.surface, one.problem()) : 0;
       for (const BranchPoint& point : one.branch.points)
         worst = std::max(worst, one.curve ? residual_of_base(one, point) : point.residual);
       CHECK(worst <= one.request->options.tolerance);
