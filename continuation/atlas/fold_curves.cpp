@@ -2,9 +2,10 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <map>
 #include <set>
+
+#include "arcslip/zero_between.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -14,17 +15,6 @@ constexpr double one_place = 1e-9;  // distance of places that are the same
 
 struct NoPlace {};  // leaves the search for a zero
 
-/// Where a function has a zero between 0 and 1. Throws what the function throws.
-template <class Function>
-double zero_between(const Function& function, double at_0, double at_1) {
-  if (std::abs(at_0) <= vanishes) return 0;
-  if (std::abs(at_1) <= vanishes) return 1;
-  std::uintmax_t most = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      function, 0.0, 1.0, at_0, at_1, [](double a, double b) { return b - a < 1e-15; }, most);
-  return (low + high) / 2;
-}
-
 }  // namespace
 
 FoldCurves::FoldCurves(const Problem& problem, Surface& surface, Covering& covering,
@@ -32,8 +22,7 @@ FoldCurves::FoldCurves(const Problem& problem, Surface& surface, Covering& cover
     : surface_(surface), covering_(covering), triangles_(triangles), second_(problem) {}
 
 /// Where the shadow vanishes above the straight way between two places in a disc's plane, on sides of the box
-/// that both are on, or of a crossing
-/// where the orientation turns over.
+/// that both are on, or of a crossing where the orientation turns over.
 std::optional<FoldCurves::Place> FoldCurves::between(const Disc& disc, const Vector& a, const Vector& b,
                                                      int sides, bool is_crossing) {
   Place found{a, &disc, is_crossing};
@@ -57,7 +46,7 @@ std::optional<FoldCurves::Place> FoldCurves::between(const Disc& disc, const Vec
     const double at_a = value(0);
     const double at_b = value(1);
     if (at_a * at_b > 0 && std::min(std::abs(at_a), std::abs(at_b)) > vanishes) return std::nullopt;
-    value(zero_between(value, at_a, at_b));
+    value(zero_between(value, 0, 1, at_a, at_b));
   } catch (const NoPlace&) {
     return std::nullopt;
   }
@@ -103,7 +92,7 @@ std::optional<FoldCurves::Place> FoldCurves::cusp(const Place& a, const Place& b
   };
   try {
     const double at_b = b.turn * (b.across.dot(a.across) < 0 ? -1 : 1);
-    turn(zero_between(turn, a.turn, at_b));
+    turn(zero_between(turn, 0, 1, a.turn, at_b));
   } catch (const NoPlace&) {
     return std::nullopt;
   }

@@ -117,6 +117,13 @@ std::vector<double> multipliers_at_end(const CycleBranch& found) {
   return multipliers_at(found, found.branch.points.back());
 }
 
+/// The last cycle of a branch as a start on that of another problem with the same solutions.
+CycleStart from_end(const CycleBranch& begun, const std::shared_ptr<const Problem>& problem) {
+  const BranchPoint& from = begun.branch.points.back();
+  return cycle_from_orbit(std::make_shared<EquilibriumField>(problem), begun.problem->frame(from.regime).mesh,
+                          begun.problem->orbit(from.unknowns), period_at_end(begun), from.parameters);
+}
+
 }  // namespace
 
 TEST_CASE("Cycles of a sparse field are those of the same dense one, and their multipliers") {
@@ -124,11 +131,8 @@ TEST_CASE("Cycles of a sparse field are those of the same dense one, and their m
   const CycleOptions cycles = few_intervals(10);
   const auto sparse_problem = std::make_shared<BrusselatorLine>(points);
   const CycleBranch begun = cycles_of(sparse_problem, cycles, 0.52);
-  const BranchPoint& from = begun.branch.points.back();
   const auto traced = [&](const std::shared_ptr<const Problem>& problem) {
-    const CycleStart start =
-        cycle_from_orbit(std::make_shared<EquilibriumField>(problem), begun.problem->frame(from.regime).mesh,
-                         begun.problem->orbit(from.unknowns), period_at_end(begun), from.parameters);
+    const CycleStart start = from_end(begun, problem);
     CycleBranch found = trace_cycles(start, over_length(0.53), cycles);
     INFO(found.branch.explanation);
     REQUIRE(found.branch.complete());
@@ -188,11 +192,8 @@ TEST_CASE("A branch point of sparse cycles is that of dense ones, as is what lea
   const CycleOptions cycles = few_intervals(10);
   const auto sparse_problem = std::make_shared<BrusselatorLine>(points);
   const CycleBranch begun = cycles_of(sparse_problem, cycles, 1.2);
-  const BranchPoint& from = begun.branch.points.back();
   const auto traced = [&](const std::shared_ptr<const Problem>& problem) {
-    const CycleStart start =
-        cycle_from_orbit(std::make_shared<EquilibriumField>(problem), begun.problem->frame(from.regime).mesh,
-                         begun.problem->orbit(from.unknowns), period_at_end(begun), from.parameters);
+    const CycleStart start = from_end(begun, problem);
     auto found = trace_connected_cycles(start, over_length(1.26), cycles);
     REQUIRE(found.size() == 2);
     return found;
