@@ -77,19 +77,16 @@ class Polyline {
   }
 
   /// Whether the middle lies on the line from end to end, for each observable over the parameter and for both
-  /// of their axes.
-  bool is_straight(const Segment& segment, const Coordinates& here) const {
+  /// of their axes. What is not a number, or of no size, is.
+  bool is_straight(const Segment& segment, const Coordinates& here) {
     const Index count = here.size() / 2;
+    per_size_ = (segment.size > 0).select(segment.size.inverse(), 0);
+    middle_ = (here - segment.begin) * per_size_;
+    end_ = (segment.end - segment.begin) * per_size_;
     for (const Index x : {Index{0}, count}) {
-      for (Index i = 1; i < 2 * count; ++i) {
-        if (i == count) continue;
-        const auto place = [&](const Coordinates& c, Index k) {
-          return segment.size(k) > 0 ? (c(k) - segment.begin(k)) / segment.size(k) : 0;
-        };
-        const double across = place(segment.end, x), up = place(segment.end, i);
-        const double off = place(here, x) * up - place(here, i) * across;
-        if (std::abs(off) > straight * std::hypot(across, up)) return false;
-      }
+      off_ = middle_(x) * end_ - middle_ * end_(x);
+      off_(0) = off_(count) = 0;  // the parameter over itself
+      if ((off_.square() > straight * straight * (end_(x) * end_(x) + end_.square())).any()) return false;
     }
     return true;
   }
@@ -112,6 +109,7 @@ class Polyline {
   const Drawn& drawn_;
   InterpolatedBranch curve_;
   Coordinates extent_;
+  Coordinates per_size_, middle_, end_, off_;  ///< of the last segment that was looked at
   std::vector<BranchPoint> result_;
 };
 

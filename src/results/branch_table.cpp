@@ -1,6 +1,8 @@
 #include <fmt/compile.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -61,7 +63,10 @@ std::string BranchTable::rows(std::size_t number, const TracedBranch& traced, De
     if (detail == Detail::full) {
       fmt::format_to(out, FMT_COMPILE(",{}"), value);  // the shortest text that reads as the same number
     } else {
-      fmt::format_to(out, FMT_COMPILE(",{:.10g}"), value);
+      std::array<char, 32> digits;
+      const auto end = std::to_chars(digits.begin(), digits.end(), value, std::chars_format::general, 10).ptr;
+      text.push_back(',');
+      text.append(digits.begin(), end);
     }
   };
   Columns columns(traced, detail);
