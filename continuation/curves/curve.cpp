@@ -43,8 +43,11 @@ TraceOptions bounded(const ExtendedProblem& problem, const TraceOptions& options
 /// One that has come to the last point of its kind goes no further.
 void settle(const ExtendedProblem& problem, Branch& half) {
   const std::vector<PointType> last = problem.last_of_curve();
-  if (half.stop == Stop::requested && std::count(last.begin(), last.end(), half.points.back().type) > 0)
-    half.checkpoint.reset();
+  if (half.stop != Stop::requested) return;
+  const BranchPoint& end = half.points.back();
+  if (std::count(last.begin(), last.end(), end.type) == 0) return;
+  half.checkpoint.reset();
+  half.explanation = fmt::format("the curve ends on a {} point", end.type_name());
 }
 
 Branch begin_half(ExtendedProblem& problem, const Guess& start, bool towards_to, const TraceOptions& options,

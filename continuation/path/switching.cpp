@@ -155,6 +155,42 @@ std::vector<Guess> all_other_ways(SymmetricBranches& symmetric, Index active, co
   return ways;
 }
 
+/// Whether a point is the solution, at the same value of the parameter.
+bool is_solution(const BranchPoint& point, const Problem& problem, const Guess& solution,
+                 const TraceOptions& options) {
+  const Index active = index_of(problem.parameter_names(), options.parameter);
+  if (point.parameters(active) != solution.parameters(active) || point.regime != solution.regime)
+    return false;
+  Vector scale(solution.unknowns.size());
+  Vector parameter_scale(solution.parameters.size());
+  problem.scale(solution.unknowns, solution.parameters, scale, parameter_scale);
+  return (point.unknowns - solution.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
+         options.tolerances.same_solution;
+}
+
+/// Whether one of the branches passes the solution, or its image under one of the options' symmetries.
+bool passes(const std::vector<Branch>& branches, const Problem& problem, const Guess& solution,
+            const TraceOptions& options) {
+  std::vector<Guess> images{solution};
+  for (const Symmetry& symmetry : options.symmetries) {
+    images.push_back(solution);
+    images.back().unknowns = symmetry.map * solution.unknowns;
+  }
+  return std::any_of(images.begin(), images.end(), [&](const Guess& image) {
+    return std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
+      return std::any_of(branch.points.begin(), branch.points.end(), [&](const BranchPoint& point) {
+        return is_solution(point, problem, image, options);
+      });
+    });
+  });
+}
+
+/// With a point of each branch at the solution's value of the parameter.
+TraceOptions landing_on(const Guess& solution, const Problem& problem, TraceOptions options) {
+  options.stop_at.push_back(solution.parameters(index_of(problem.parameter_names(), options.parameter)));
+  return options;
+}
+
 /// Traces branches one after the other, each way once.
 class Network {
  public:
@@ -183,13 +219,19 @@ class Network {
   void follow(const Guess& guess) {
     Guess start = guess;
     const Problem& within = symmetric_.of(start);
-    Branch branch = trace(within, start, time_.rest(), observer_);
-    interrupted_ = is_unfinished(branch.stop);
-    if (!interrupted_ && is_known(branch)) return;
-    if (branch.stop == Stop::closed_loop) map_.pass(branch.points.back());
-    if (branch.stop == Stop::own_image) pass_settled(within, branch.points.back());
-    leave(branch.points);
-    branches_.push_back(std::move(branch));
+    take(within, trace(within, start, time_.rest(), observer_));
+  }
+
+  /// Both ways, unless a branch has come by.
+  void follow_both(const Guess& solution) {
+    if (interrupted_ || passes(branches_, problem_, solution, options_)) return;
+    Guess start = solution;
+    const Problem& within = symmetric_.of(start);
+    Branch branch = trace_both(within, start, landing_on(solution, problem_, time_.rest()), observer_);
+    for (const BranchPoint& point : branch.points) {
+      if (is_solution(point, problem_, start, options_)) map_.pass(point);
+    }
+    take(within, std::move(branch));
   }
 
   std::vector<Branch> all(const FollowOptions& follow_options) {
@@ -204,6 +246,15 @@ class Network {
   }
 
  private:
+  void take(const Problem& within, Branch branch) {
+    interrupted_ = is_unfinished(branch.stop);
+    if (!interrupted_ && is_known(branch)) return;
+    if (branch.stop == Stop::closed_loop) map_.pass(branch.points.back());
+    if (branch.stop == Stop::own_image) pass_settled(within, branch.points.back());
+    leave(branch.points);
+    branches_.push_back(std::move(branch));
+  }
+
   /// The way along which a branch became its own image, both ways, as other branches through the point know
   /// it.
   void pass_settled(const Problem& within, const BranchPoint& point) {
@@ -275,29 +326,21 @@ std::vector<Branch> trace_leaving(const Problem& problem, const std::vector<Bran
   return network.all(follow);
 }
 
+std::vector<Branch> trace_connected_through(const Problem& problem, const std::vector<Guess>& solutions,
+                                            const TraceOptions& options, const FollowOptions& follow,
+                                            const Observer& observer) {
+  Network network(problem, options, observer);
+  for (const Guess& solution : solutions) network.follow_both(solution);
+  return network.all(follow);
+}
+
 std::vector<Branch> trace_through(const Problem& problem, const std::vector<Guess>& solutions,
                                   const TraceOptions& options, const Observer& observer) {
-  const Index active = index_of(problem.parameter_names(), options.parameter);
   const TimeBudget time(options);
   std::vector<Branch> branches;
-  const auto passed = [&](const Guess& solution) {
-    Vector scale(solution.unknowns.size());
-    Vector parameter_scale(solution.parameters.size());
-    problem.scale(solution.unknowns, solution.parameters, scale, parameter_scale);
-    const auto here = [&](const BranchPoint& point) {
-      return point.parameters(active) == solution.parameters(active) && point.regime == solution.regime &&
-             (point.unknowns - solution.unknowns).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() <
-                 options.tolerances.same_solution;
-    };
-    return std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
-      return std::any_of(branch.points.begin(), branch.points.end(), here);
-    });
-  };
   for (const Guess& solution : solutions) {
-    if (passed(solution)) continue;
-    TraceOptions landing = time.rest();
-    landing.stop_at.push_back(solution.parameters(active));
-    branches.push_back(trace_both(problem, solution, landing, observer));
+    if (passes(branches, problem, solution, options)) continue;
+    branches.push_back(trace_both(problem, solution, landing_on(solution, problem, time.rest()), observer));
     if (is_unfinished(branches.back().stop)) break;
   }
   return branches;

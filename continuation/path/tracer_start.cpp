@@ -86,7 +86,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
     if (form && form->directions[0].size() > 0) {
       const double rate = form->directions[0](corrector_.size());
       return stepper_.start_along(at.unknowns, at.parameters, guess.regime,
-                                  (rate * forward < 0 ? -1 : 1) * form->directions[0]);
+                                  (rate != 0 ? std::copysign(1.0, rate) : 1) * forward * form->directions[0]);
     }
   }
   FoldProblem fold(problem_, parameter_);
@@ -94,7 +94,7 @@ Correction Tracer::start_singular(const Guess& guess, double forward) {
   evaluations += fold.evaluations();
   if (located && is_there(located->point)) {
     Vector direction = Vector::Zero(corrector_.size() + 1);
-    direction.head(corrector_.size()) = fold.right_null();
+    direction.head(corrector_.size()) = forward * fold.right_null();
     return stepper_.start_along(located->point.unknowns, located->point.parameters, guess.regime, direction);
   }
   return Correction::singular;

@@ -144,12 +144,6 @@ void check_range(const CaseBranch& branch, const TomlSection& section) {
     section.mismatch("to", "a number that differs from branch.from");
 }
 
-void check_start(const CaseBranch& branch, const TomlSection& section) {
-  const problems::LibraryModel* model = branch.problem.model.get();
-  if (branch.switching && (model == nullptr || !model->orbit))
-    section.fail("start", "not beside switching, which follows the branch that begins at branch.from");
-}
-
 void read_from_point(CaseBranch& branch, const TomlSection& section) {
   const continuation::TraceOptions& options = branch.options;
   branch.stored = read_stored_point(section);
@@ -292,16 +286,12 @@ std::vector<BranchKey> keys_of_ways() {
               "follow all branches that meet this one, at branch points and corners, and the cycles of "
               "flows; of curves of folds or Hopf points those that they meet",
               beside_curves_that_meet),
-          BranchKey(
-              "start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
-              "trace both ways from this value; beside switching only of pieces and boundary value problems",
-              not_beside_curve, then(check_start)),
+          BranchKey("start", &CaseBranch::start, {" from `from` to `to`", rule_of_range},
+                    "trace both ways from this value", not_beside_curve),
           BranchKey::special(
               "from_point", "\"DIR:branch/point\"",
               "trace both ways from a special point of the run in DIR, at its value of the parameter",
-              read_from_point, not_beside_curve, only("not beside start", lacks("start")),
-              only("not beside switching",
-                   [](const CaseBranch& branch, const TomlSection&) { return !branch.switching; })),
+              read_from_point, not_beside_curve, only("not beside start", lacks("start"))),
           BranchKey::flag(
               "all_solutions", &CaseBranch::all_solutions,
               "find all solutions at `start`, by deflation and by branches in all parameters, say whether "

@@ -51,12 +51,18 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
     options.events.insert(options.events.end(), subject.built.events.begin(), subject.built.events.end());
     return options;
   };
-  if (request->switching) {
+  std::vector<continuation::Guess> begun{subject.guess};
+  if (request->all_solutions) {
+    AllSolutions all = find_all_solutions(*request, subject, time);
+    begun = std::move(all.solutions);
+    solutions = std::make_shared<const SolutionCount>(std::move(all.count));
+  }
+  if (request->switching && request->start) {
+    branches = continuation::trace_connected_through(problem, begun, rest(), {}, observer);
+  } else if (request->switching) {
     branches = continuation::trace_connected(problem, subject.guess, rest(), {}, observer);
   } else if (request->all_solutions) {
-    AllSolutions all = find_all_solutions(*request, subject, time);
-    branches = continuation::trace_through(problem, all.solutions, rest(), observer);
-    solutions = std::make_shared<const SolutionCount>(std::move(all.count));
+    branches = continuation::trace_through(problem, begun, rest(), observer);
   } else if (request->start) {
     branches.push_back(continuation::trace_both(problem, subject.guess, rest(), observer));
   } else {

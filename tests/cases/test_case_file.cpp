@@ -200,8 +200,6 @@ TEST_CASE("Wrong input for what goes beyond a forced response is refused as well
        "only beside curve", ""},
       {"to = 120.0", "to = 120.0\nwindow = [1, 2]", ":16:10", "branch.window", "only beside curve", ""},
       {"to = 120.0", "to = 120.0\nstart = 0.4", ":16:9", "branch.start", ">= 0.5 and <= 120", "got 0.4"},
-      {"to = 120.0", "to = 120.0\nstart = 1\nswitching = true", ":16:9", "branch.start",
-       "not beside switching", ""},
       {"to = 120.0", "to = 120.0\nswitching = 1", ":16:13", "branch.switching", "true or false", "got 1"},
       {"to = 120.0", "to = 120.0\nresponse = \"free\"", ":16:12", "branch.response",
        R"("forced" or "limit_cycle" or "nonlinear_mode" or "one_way")", "got \"free\""},

@@ -169,6 +169,59 @@ TEST_CASE("A branch that has a symmetry again ends where it would go on as its o
   CHECK(circle.stop == Stop::closed_loop);
 }
 
+TEST_CASE("What hangs together is the same from wherever it is begun") {
+  const Arch problem;
+  const TraceOptions options = over("lambda", -2, 2);
+  const std::vector<std::vector<double>> starts{{0}, {0, 1}, {1, 0, -1}, {-1, 0}};
+  for (const std::vector<double>& start : starts) {
+    std::vector<Guess> solutions;
+    for (const double u : start) solutions.push_back({vector_of({u}), vector_of({0})});
+    const std::vector<Branch> all = trace_connected_through(problem, solutions, options);
+    CAPTURE(start);
+    REQUIRE(all.size() == 2);
+    const Branch& line = all[all[0].stop == Stop::own_image ? 1 : 0];
+    const Branch& circle = all[all[0].stop == Stop::own_image ? 0 : 1];
+    CHECK(line.complete());
+    CHECK(line.points.front().parameters(0) == -2);
+    CHECK(line.points.back().parameters(0) == 2);
+    CHECK(of_type(line, PointType::branch_point).size() == 2);
+    CHECK(circle.complete());
+    CHECK_THAT(circle.points.front().unknowns(0), WithinAbs(0, 1e-6));
+    CHECK_THAT(circle.points.back().unknowns(0), WithinAbs(0, 1e-6));
+  }
+}
+
+TEST_CASE("A branch that is begun on its fold is traced to both sides of it") {
+  const ScalarProblem problem = circle();
+  for (const double p : {-1.0, 1.0}) {
+    const Branch branch = trace_both(problem, {vector_of({0}), vector_of({p})}, over("p", -1.5, 1.5));
+    CHECK(branch.stop == Stop::closed_loop);
+    const ScalarProblem bend{{"p"},
+                             [&](double u, const Vector& q) { return q(0) - p + u * u; },
+                             [](double u, const Vector&) { return 2 * u; },
+                             {[](double, const Vector&) { return 1.0; }}};
+    const Branch open = trace_both(bend, {vector_of({0}), vector_of({p})}, over("p", -1.5, 1.5));
+    CHECK(open.points.front().unknowns(0) * open.points.back().unknowns(0) < 0);
+    CHECK_THAT(open.points.front().parameters(0), WithinAbs(-1.5, 1e-12));
+    CHECK_THAT(open.points.back().parameters(0), WithinAbs(-1.5, 1e-12));
+  }
+}
+
+TEST_CASE("What hangs together is begun on a branch point, or on an end, as well") {
+  const Arch problem;
+  for (const double lambda : {-2.0, -1.0, 1.0, 2.0}) {
+    CAPTURE(lambda);
+    const std::vector<Branch> all =
+        trace_connected_through(problem, {{vector_of({0}), vector_of({lambda})}}, over("lambda", -2, 2));
+    REQUIRE(all.size() == 2);
+    for (const Branch& one : all) CHECK(one.complete());
+    CHECK(std::abs(all[0].points.front().parameters(0)) == 2);
+    CHECK(all[0].points.back().parameters(0) == -all[0].points.front().parameters(0));
+    CHECK(of_type(all[0], PointType::branch_point).size() == (std::abs(lambda) == 1 ? 1 : 2));
+    CHECK(all[1].stop == Stop::own_image);
+  }
+}
+
 TEST_CASE("It does not end where it meets its images alone") {
   const auto turn = [](double angle) {
     const Matrix map{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};

@@ -68,6 +68,21 @@ def test_deflation_finds_all_solutions_and_their_branches():
     assert len(branches) == 1 and len(branches[0].special) >= 4  # all three lie on one
 
 
+def test_what_hangs_together_is_begun_anywhere_or_everywhere():
+    pitchfork = lambda u, p: u * p - u**3  # noqa: E731
+    connected = arcslip.trace_all(pitchfork, [0.0], -0.5, range=(-1, 1))
+    assert sorted(abs(one["u0"]).max() for one in connected) == pytest.approx([0, 1, 1], abs=1e-8)
+    for which, found in {"deflation": 2, "all": 3}.items():  # the line and the bend, which meets it: two halves
+        branches = arcslip.trace_all(pitchfork, [0.9], 0.5, range=(-1, 1), follow=which, box=([-2.0], [2.0]))
+        assert sum(abs(one["u0"]).max() < 1e-8 for one in branches) == 1
+        assert len(branches) == found or which == "all"
+    island = lambda u, p: (u**2 + (p - 3) ** 2 - 1) * u  # noqa: E731
+    branches = arcslip.trace_all(island, [5.0], 3.0, range=(0, 6), follow="all", box=([-2.0], [2.0]))
+    assert max(abs(one["u0"]).max() for one in branches) == pytest.approx(1, abs=1e-2)
+    with pytest.raises(ValueError, match='"connected", "deflation" or "all"'):
+        arcslip.trace_all(pitchfork, [0.0], -1.0, range=(-1, 1), follow="both")
+
+
 def test_hopf_points_of_an_equilibrium():
     def brusselator(u, p):
         a, b = 1.0, p["b"]

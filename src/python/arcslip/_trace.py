@@ -121,9 +121,10 @@ def trace_all(
     ----------
     problem, u0, p0, parameter, range, regime, check, progress
         As `trace` takes them.
-    follow : {"connected", "deflation"}
-        The branch next to u0 and all that it meets, through branch points and corners; or the branches through all
-        solutions at p0 that deflation finds.
+    follow : {"connected", "deflation", "all"}
+        The branch next to u0 and all that it meets, through branch points and corners; the branches through all
+        solutions at p0 that deflation finds; or both, these and all that they meet. Within `range` branches begin both
+        ways.
     box : (array, array), optional
         Lowest and highest unknowns, shape (n,): where deflation looks beside u0.
     functions : dict, optional
@@ -136,19 +137,16 @@ def trace_all(
     list of Branch
         In the order found.
     """
-    if follow not in ("connected", "deflation"):
-        raise ValueError(f'follow: expected "connected" or "deflation", got {follow!r}')
+    if follow not in ("connected", "deflation", "all"):
+        raise ValueError(f'follow: expected "connected", "deflation" or "all", got {follow!r}')
     problem = _problem(problem, functions or {})
     u0, p0 = problem._begin(u0, p0, parameter, range[0])
     prepared = Prepared(problem, u0, p0, parameter, regime)
     options["parameter"] = prepared.parameter
+    options["range"] = range
     if follow == "connected":
-        value = prepared.p0[prepared.names.index(prepared.parameter)]
-        if value not in range:
-            raise ValueError(f"p0: {prepared.parameter} = {value:g}; connected branches start at an end of {range}")
-        _, options["range"] = _way(prepared, range)
-    else:
-        options["range"] = range
+        how, options["range"] = _way(prepared, range)
+        follow = "connected both" if how == "both" else "connected"
     cores = _traced(prepared, follow, box, check, options, progress)
     return [_told(Branch(core, i, prepared.derivatives)) for i, core in enumerate(cores)]
 

@@ -50,14 +50,17 @@ std::vector<Branch> traced_by(const std::string& how, const PythonProblem& probl
                               const std::pair<Vector, Vector>& box, const TraceOptions& options,
                               const continuation::Observer& observer) {
   if (how == "connected") return continuation::trace_connected(problem, guess, options, {}, observer);
+  if (how == "connected both")
+    return continuation::trace_connected_through(problem, {guess}, options, {}, observer);
   if (how == "both") return {continuation::trace_both(problem, guess, options, observer)};
   if (how == "one") return {continuation::trace(problem, guess, options, observer)};
   continuation::SolveAllOptions seeking;
   seeking.lower = box.first;
   seeking.upper = box.second;
   seeking.go_on = options.go_on;
-  return continuation::trace_through(problem, continuation::solve_all(problem, {guess}, seeking), options,
-                                     observer);
+  const std::vector<Guess> all = continuation::solve_all(problem, {guess}, seeking);
+  return how == "all" ? continuation::trace_connected_through(problem, all, options, {}, observer)
+                      : continuation::trace_through(problem, all, options, observer);
 }
 
 Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u, const py::handle& p,
