@@ -45,7 +45,7 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   if (has_orbits_alone(*request)) return trace_from_orbit(request, subject, time, observer);
   if (asks_for_cycles(*request)) return trace_settled_cycles(request, subject, time, observer);
   std::vector<Branch> branches;
-  std::shared_ptr<const SolutionCount> solutions;
+  std::shared_ptr<const problems::SolutionCount> solutions;
   const auto rest = [&] {
     continuation::TraceOptions options = time.rest();
     options.events.insert(options.events.end(), subject.built.events.begin(), subject.built.events.end());
@@ -53,9 +53,9 @@ std::vector<TracedBranch> trace_branches(const Request& request, const Subject& 
   };
   std::vector<continuation::Guess> begun{subject.guess};
   if (request->all_solutions) {
-    AllSolutions all = find_all_solutions(*request, subject, time);
+    problems::AllSolutions all = find_all_solutions(*request, subject, time);
     begun = std::move(all.solutions);
-    solutions = std::make_shared<const SolutionCount>(std::move(all.count));
+    solutions = std::make_shared<const problems::SolutionCount>(std::move(all.count));
   }
   if (request->switching && request->start) {
     branches = continuation::trace_connected_through(problem, begun, rest(), {}, observer);

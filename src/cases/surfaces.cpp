@@ -23,9 +23,9 @@ TracedBranch cover_surface(const std::shared_ptr<const CaseBranch>& request, con
         fmt::format("a surface is covered in up to {} unknowns, and there are {}", most_unknowns, n));
   std::vector<continuation::Guess> starts{subject.guess};
   if (request->all_solutions) {
-    AllSolutions all = find_all_solutions(*request, subject, time);
+    problems::AllSolutions all = find_all_solutions(*request, subject, time);
     starts = std::move(all.solutions);
-    traced.solutions = std::make_shared<const SolutionCount>(std::move(all.count));
+    traced.solutions = std::make_shared<const problems::SolutionCount>(std::move(all.count));
   }
   const continuation::TraceOptions given = time.rest();
   continuation::AtlasOptions options;

@@ -6,7 +6,7 @@ namespace arcslip {
 
 using nlohmann::ordered_json;
 
-ordered_json solutions_to_json(const SolutionCount& solutions) {
+ordered_json solutions_to_json(const problems::SolutionCount& solutions) {
   ordered_json json = {{"count", solutions.count}, {"complete", "unknown"}, {"reason", solutions.reason}};
   if (solutions.complete) json["complete"] = *solutions.complete;
   if (solutions.box.empty()) return json;
@@ -23,7 +23,7 @@ std::string solutions_sentence(const ordered_json& told) {
                      told.at("reason").get<std::string>());
 }
 
-std::string describe_solutions(const CaseBranch& request, const SolutionCount& solutions) {
+std::string describe_solutions(const CaseBranch& request, const problems::SolutionCount& solutions) {
   return fmt::format("at {} = {:.10g}: {}\n", request.options.parameter, request.start.value_or(0),
                      solutions_sentence(solutions_to_json(solutions)));
 }

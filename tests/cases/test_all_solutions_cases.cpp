@@ -54,7 +54,7 @@ TEST_CASE("All steady rolls of the aircraft are found and proven to be all", "[c
   const std::string elevator = GENERATE("-0.008", "0.0", "-0.05");
   const Run run("aircraft", {"branch.start=" + elevator});
   REQUIRE(!run.traced.empty());
-  const SolutionCount& told = *run.traced.front().solutions;
+  const problems::SolutionCount& told = *run.traced.front().solutions;
   INFO(told.reason);
   CHECK(told.complete == true);
   CHECK(told.reason.find("alone") == std::string::npos);  // deflation and branches found them all
@@ -89,7 +89,7 @@ TEST_CASE("The aircraft has its published limit points", "[cases]") {
 
 TEST_CASE("What lies outside of the box is found by branches, and not said to be all", "[cases]") {
   const Run run("aircraft", {"branch.box=[-1, 1]"});
-  const SolutionCount& told = *run.traced.front().solutions;
+  const problems::SolutionCount& told = *run.traced.front().solutions;
   CHECK(told.complete == true);
   CHECK(told.count == 9);
   CHECK(told.reason.find("outside the box are 8 more") != std::string::npos);
@@ -97,7 +97,7 @@ TEST_CASE("What lies outside of the box is found by branches, and not said to be
 
 TEST_CASE("Without formulas a list is not said to be complete", "[cases]") {
   const Run run("freudenstein_roth", {"branch.start=-0.5", "branch.all_solutions=true"});
-  const SolutionCount& told = *run.traced.front().solutions;
+  const problems::SolutionCount& told = *run.traced.front().solutions;
   CHECK_FALSE(told.complete);
   CHECK(told.count == 3);
   CHECK(told.reason.find("independent starts") != std::string::npos);

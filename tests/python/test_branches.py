@@ -68,6 +68,18 @@ def test_deflation_finds_all_solutions_and_their_branches():
     assert len(branches) == 1 and len(branches[0].special) >= 4  # all three lie on one
 
 
+def test_a_list_of_solutions_says_whether_it_is_all():
+    cusp = arcslip.Model({"x": "q + p*x - x^3"}, parameters={"p": 3.0, "q": 1.0}, kind="algebraic")
+    found = arcslip.solve_all(cusp, box=([-5.0], [5.0]))
+    assert found.complete is True and "proven by interval arithmetic" in found.reason
+    assert sorted(float(u[0]) for u in found) == pytest.approx(sorted(np.roots([-1, 0, 3, 1]).real), abs=1e-12)
+    outside = arcslip.solve_all(cusp, box=([1.0], [5.0]))
+    assert len(outside) == 3 and outside.complete is True and "outside the box are 2 more" in outside.reason
+    unknown = arcslip.solve_all(lambda u, p: u**3 - 3 * u - p, [2.0], 1.0, box=([-3.0], [3.0]))
+    assert len(unknown) == 3 and unknown.complete is None and "independent starts" in unknown.reason
+    assert arcslip.solve_all(lambda u, p: u - p, [2.0], 1.0).complete is None
+
+
 def test_what_hangs_together_is_begun_anywhere_or_everywhere():
     pitchfork = lambda u, p: u * p - u**3  # noqa: E731
     connected = arcslip.trace_all(pitchfork, [0.0], -0.5, range=(-1, 1))

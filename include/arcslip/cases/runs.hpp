@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "arcslip/cases/case_file.hpp"
-#include "arcslip/cases/solution_count.hpp"
 #include "arcslip/continuation/atlas/atlas.hpp"
 #include "arcslip/continuation/path/branch.hpp"
 #include "arcslip/continuation/problem/problem.hpp"
 #include "arcslip/problems/proof/certificate.hpp"
+#include "arcslip/problems/tasks/all_solutions.hpp"
 
 namespace arcslip {
 
@@ -57,7 +57,7 @@ struct TracedBranch {
   /// maybe more.
   std::shared_ptr<const Matrix> told = nullptr;
   /// Of the solutions that it was traced from, where all were asked for.
-  std::shared_ptr<const SolutionCount> solutions = nullptr;
+  std::shared_ptr<const problems::SolutionCount> solutions = nullptr;
   /// Of two parameters, in place of points.
   std::shared_ptr<const continuation::Atlas> surface = nullptr;
 

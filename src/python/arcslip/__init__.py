@@ -18,7 +18,7 @@ from ._model import Model
 from ._problem import Problem
 from ._structure import Structure
 from ._surface import Surface, surface
-from ._trace import solve_all, trace, trace_all, trace_boundary, trace_cycles
+from ._trace import Solutions, solve_all, trace, trace_all, trace_boundary, trace_cycles
 
 __all__ = [
     "Branch",
@@ -36,6 +36,7 @@ __all__ = [
     "check",
     "marched",
     "run",
+    "Solutions",
     "solve_all",
     "study",
     "surface",

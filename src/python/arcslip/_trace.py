@@ -285,6 +285,27 @@ def _first_but_time(p0, is_driven):
     return next(iter(p0)) if is_driven and len(p0) == 2 else None
 
 
+class Solutions(list):
+    """Solutions at fixed parameters, and what is known of their list.
+
+    Attributes
+    ----------
+    complete : bool or None
+        True where interval arithmetic has proven that the box holds no other, which takes formulas; False where there must
+        be more; None where nothing is known.
+    reason : str
+        Why, or what the search tells by itself.
+    """
+
+    def __init__(self, found, complete, reason):
+        super().__init__(found)
+        self.complete = complete
+        self.reason = reason
+
+    def __repr__(self):
+        return f"Solutions({super().__repr__()}, complete={self.complete!r}, reason={self.reason!r})"
+
+
 def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, parameter=None, **functions):
     """All solutions at fixed parameters that deflated Newton iterations find.
 
@@ -303,8 +324,8 @@ def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, para
 
     Returns
     -------
-    list of numpy.ndarray
-        Each of shape (n,), in the order found.
+    Solutions
+        A list of arrays of shape (n,), in the order found, with `complete` and `reason`.
     """
     problem = _problem(problem, functions)
     u0, p0 = problem._begin(u0, p0, parameter, None)
@@ -312,7 +333,11 @@ def solve_all(problem, u0=None, p0=None, *, box=None, starts=100, regime=0, para
     names = list(p0) if isinstance(p0, dict) else list(problem.parameters)
     prepared = Prepared(problem, guesses[0], p0, parameter or (names[0] if names else None), regime)
     lower, upper = box if box is not None else (None, None)
-    return _core.solve_all(prepared.core, guesses, prepared.p0, regime, lower, upper, starts)
+    formulas = getattr(problem, "_formulas", None)
+    found, complete, reason = _core.solve_all(
+        prepared.core, formulas, guesses, prepared.p0, regime, lower, upper, starts
+    )
+    return Solutions(found, complete, reason)
 
 
 def _is_number(value):

@@ -9,6 +9,7 @@
 #include "arcslip/continuation/curves/curve.hpp"
 #include "arcslip/continuation/path/all_solutions.hpp"
 #include "arcslip/continuation/path/switching.hpp"
+#include "arcslip/problems/tasks/all_solutions.hpp"
 #include "python/binding/formulas.hpp"
 #include "python/binding/trace_options.hpp"
 #include "python/binding/tracing.hpp"
@@ -84,9 +85,10 @@ Handles trace(const std::shared_ptr<PythonProblem>& problem, const py::handle& u
   return handles;
 }
 
-py::list solve_all(const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
-                   const py::handle& p, const py::handle& regime, const std::pair<Vector, Vector>& box,
-                   int count) {
+/// The solutions, whether these are all in the box, and why.
+py::tuple solve_all(const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
+                    const std::vector<py::object>& starts, const py::handle& p, const py::handle& regime,
+                    const std::pair<Vector, Vector>& box, int count) {
   std::vector<Guess> guesses;
   guesses.reserve(starts.size());
   for (const py::object& start : starts) guesses.push_back(guess_of(*problem, start, p, regime));
@@ -94,14 +96,20 @@ py::list solve_all(const std::shared_ptr<PythonProblem>& problem, const std::vec
   seeking.lower = box.first;
   seeking.upper = box.second;
   seeking.starts = count;
+  EnclosedMap map;
+  if (!formulas.is_none()) {
+    if (const auto system = formulas.cast<const Formulas&>().problem)
+      map = system->enclosed(guesses.front().parameters);
+  }
   TraceOptions options;
-  const std::vector<Guess> found = in_engine(options, py::none(), [&](const auto&) {
+  const problems::AllSolutions found = in_engine(options, py::none(), [&](const auto&) {
     seeking.go_on = options.go_on;
-    return continuation::solve_all(*problem, guesses, seeking);
+    return problems::find_all_solutions(*problem, guesses, seeking, map);
   });
   py::list all;
-  for (const Guess& solution : found) all.append(give(solution.unknowns));
-  return all;
+  for (const Guess& solution : found.solutions) all.append(give(solution.unknowns));
+  const std::optional<bool>& complete = found.count.complete;
+  return py::make_tuple(all, complete ? py::object(py::bool_(*complete)) : py::none(), found.count.reason);
 }
 
 /// The options of a branch with those that are given.
@@ -282,12 +290,12 @@ void bind_trace(py::module_& module) {
                return trace(problem, u, p, regime, how, box, check, options, progress);
              });
   module.def("solve_all",
-             [](const std::shared_ptr<PythonProblem>& problem, const std::vector<py::object>& starts,
-                const py::object& p, const py::object& regime, const py::object& lower,
-                const py::object& upper, int count) {
+             [](const std::shared_ptr<PythonProblem>& problem, const py::object& formulas,
+                const std::vector<py::object>& starts, const py::object& p, const py::object& regime,
+                const py::object& lower, const py::object& upper, int count) {
                std::pair<Vector, Vector> box;
                if (!lower.is_none()) box = {take_all(lower, "box"), take_all(upper, "box")};
-               return solve_all(problem, starts, p, regime, box, count);
+               return solve_all(problem, formulas, starts, p, regime, box, count);
              });
   module.def("start_from", start_from);
   module.def("switch_at", switch_at);
