@@ -223,7 +223,24 @@ TEST_CASE("A sheet that others cross is followed through the crossing, which is 
   CHECK(std::abs(shadow(atlas) - 4) < 1e-12);
   CHECK(count(atlas, PointType::branch_point) == static_cast<long>(atlas.folds.size()));
   CHECK(!atlas.folds.empty());
-  for (const AtlasFold& fold : atlas.folds) CHECK(std::abs(fold.parameters(0)) < 1e-9);
+  for (const AtlasFold& fold : atlas.folds) CHECK(std::abs(fold.parameters(0)) < 1e-12);
+}
+
+TEST_CASE("Folds on a line where sheets cross are located on it: u (p - u^2 + q/10)") {
+  const ScalarProblem pitchfork =
+      level_set([](const Place& z) { return z(0) * (z(1) - z(0) * z(0) + z(2) / 10); },
+                [](const Place& z) { return Place(z(1) - 3 * z(0) * z(0) + z(2) / 10, z(0), z(0) / 10); });
+  for (const Guess& from : {start(0.5, 0.25, 0), start(0.7, 0.49, 0), start(0, 0.5, 0)}) {
+    const Atlas atlas = cover(pitchfork, {from}, box(1));
+    INFO(atlas.reason);
+    REQUIRE(atlas.complete());
+    CHECK(count(atlas, PointType::branch_point) == static_cast<long>(atlas.folds.size()));
+    CHECK(atlas.folds.size() > 20);
+    for (const AtlasFold& fold : atlas.folds) {
+      CHECK(std::abs(fold.unknowns(0)) < 1e-12);
+      CHECK(std::abs(fold.parameters(0) + fold.parameters(1) / 10) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("Wrong requests for surfaces are refused") {
