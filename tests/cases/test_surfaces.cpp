@@ -7,6 +7,7 @@
 
 #include "arcslip/continuation/points/normal_form.hpp"
 #include "case_runs.hpp"
+#include "results/atlas_table.hpp"
 
 using namespace arcslip;
 using namespace arcslip::testing;
@@ -231,7 +232,22 @@ TEST_CASE("A detached resonance is born and merges where its force is extremal a
   };
   const std::string ranges = "parameters = [\"W\", \"F\"]\nwindow = [0.5, 1.5]\nfrom = 0.05\nto = 0.07\n";
   check(isolas_of(of_oscillator("curve = \"fold\"\n" + ranges)));
-  check(isolas_of(of_oscillator("surface = true\n" + ranges).front()));
+  const TracedBranch surface = of_oscillator("surface = true\n" + ranges).front();
+  check(isolas_of(surface));
+  const nlohmann::ordered_json told = surface_to_json(surface);
+  CHECK(told.at("isola_centres") == 1);
+  CHECK(told.at("simple_bifurcations") == 1);
+  CHECK(told.at("ridges").get<int>() > 0);
+  CHECK(told.at("special").size() == 4);  // with two cusps
+  for (const auto& special : told.at("special")) {
+    CHECK(special.value("turns", "") == (special.at("type") == "cusp" ? "" : "F"));
+    CHECK(special.contains("B"));
+  }
+  CHECK_THAT(surface_sentence(told), ContainsSubstring("2 cusps, 1 isola centre, 1 simple bifurcation and "));
+  CHECK(folds_header(surface) == "branch,fold_curve,point,type,turns,W,F,A,B\n");
+  CHECK_THAT(fold_rows(0, surface), ContainsSubstring(",isola_centre,F,1,"));
+  CHECK(ridges_header(surface) == "branch,ridge,point,type,observable,W,F,A,B\n");
+  CHECK_THAT(ridge_rows(0, surface), ContainsSubstring(",peak,A,"));
 }
 
 TEST_CASE("The ridge of a Duffing response over frequency and force is the curve of its peaks") {
