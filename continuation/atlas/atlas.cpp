@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "arcslip/continuation/atlas/fold_curves.hpp"
+#include "arcslip/continuation/atlas/ridges.hpp"
 
 namespace arcslip::continuation {
 namespace {
@@ -32,7 +33,8 @@ std::array<AtlasSide, 2> sides_of(const Problem& problem, const AtlasOptions& op
   return sides;
 }
 
-void check(const Problem& problem, const std::vector<Guess>& starts, const std::array<AtlasSide, 2>& sides) {
+void check(const Problem& problem, const std::vector<Guess>& starts, const std::array<AtlasSide, 2>& sides,
+           const AtlasOptions& options) {
   if (starts.empty()) throw std::invalid_argument("cover: at least one guess is needed");
   const std::vector<std::string> names = problem.parameter_names();
   for (const Guess& start : starts) {
@@ -43,6 +45,12 @@ void check(const Problem& problem, const std::vector<Guess>& starts, const std::
             fmt::format("cover: a start has {} = {:g}, which is not from {:g} to {:g}",
                         names[static_cast<std::size_t>(side.parameter)], value, side.low, side.high));
     }
+  }
+  const std::vector<Observable> observables = problem.observables();
+  for (const std::string& name : options.extrema_of) {
+    const Index which = index_of(observable_names(problem), name);
+    if (!observables[static_cast<std::size_t>(which)].has_gradient)
+      throw std::invalid_argument(fmt::format("cover: '{}' has no gradient", name));
   }
 }
 
@@ -188,7 +196,7 @@ std::string why_open(const Survey& survey, const Triangulation& triangles, const
 
 Atlas cover(const Problem& problem, const std::vector<Guess>& starts, const AtlasOptions& options) {
   const std::array<AtlasSide, 2> sides = sides_of(problem, options);
-  check(problem, starts, sides);
+  check(problem, starts, sides, options);
   const Clock::time_point begun = Clock::now();
   AtlasOptions all = options;
   bool is_late = false;
@@ -216,15 +224,19 @@ Atlas cover(const Problem& problem, const std::vector<Guess>& starts, const Atla
     atlas.charts.push_back(told(problem, survey.surface, disc));
   atlas.faces = triangles.faces();
   tell_components(triangles, atlas);
-  FoldCurves folds(problem, survey.surface, survey.covering, triangles);
-  atlas.folds = folds.find();
+  ZeroCurves zeros(problem, survey.surface, survey.covering, triangles);
+  atlas.folds = fold_curves(problem, survey.surface, survey.covering.discs(), zeros);
+  const bool has_all_folds = !zeros.has_failed();
+  atlas.ridges = ridges(problem, survey.surface, survey.covering.discs(), zeros, options.extrema_of);
   atlas.reason =
       ended == Stop::max_points
           ? fmt::format("the most charts that were allowed, {}, are not enough", options.most_charts)
       : ended == Stop::time_limit ? "the time is up"
       : ended                     ? "it was interrupted"
                                   : why_open(survey, triangles, options);
-  if (atlas.reason.empty() && folds.has_failed()) atlas.reason = "a fold could not be located on its edge";
+  if (atlas.reason.empty() && zeros.has_failed())
+    atlas.reason =
+        fmt::format("{} could not be located on its edge", has_all_folds ? "an extremum" : "a fold");
   atlas.stop = atlas.reason.empty() ? Stop::reached_end : ended.value_or(Stop::min_step);
   atlas.evaluations += survey.surface.evaluations();
   return atlas;

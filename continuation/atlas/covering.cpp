@@ -30,11 +30,7 @@ double cosine(const Matrix& a, const Matrix& b) {
 }  // namespace
 
 Covering::Covering(Surface& surface, const AtlasOptions& options)
-    : surface_(surface),
-      options_(options),
-      unknowns_(surface.size() - 2),
-      centres_(surface.size(), 256),
-      rows_(2, surface.size()) {}
+    : surface_(surface), options_(options), unknowns_(surface.size() - 2), rows_(2, surface.size()) {}
 
 /// How far inside the box a disc's centre is, and the direction in its plane in which that falls fastest,
 /// with the rate.
@@ -114,10 +110,10 @@ bool Covering::is_one_sheet(const Disc& disc, const Disc& other) {
 }
 
 bool Covering::is_covered(const Vector& x) {
-  for (const Disc& disc : discs_) {
-    const Vector away = x - disc.at;
-    if (away.norm() > disc.radius) continue;
-    Vector there = disc.at + disc.plane * (disc.plane.transpose() * away);
+  for (const auto& [distance, i] : near(x, 0)) {
+    const Disc& disc = discs_[i];
+    if (distance > disc.radius) continue;
+    Vector there = disc.at + disc.plane * (disc.plane.transpose() * (x - disc.at));
     if (lift(disc, there) && (there - x).norm() < same * (1 + x.norm())) return true;
   }
   return false;
@@ -133,14 +129,25 @@ void Covering::fail(const Vector& x) {
                          options_.parameters[0], value(0), options_.parameters[1], value(1));
 }
 
+/// As wide as discs that are neighbours may be apart.
+Covering::Cell Covering::cell(const Vector& x) const {
+  const double width = 2 * options_.max_radius;
+  return {std::lround(x(unknowns_) / width), std::lround(x(unknowns_ + 1) / width)};
+}
+
 /// The discs to which it is less than twice the radius, or theirs, with the distance, the nearest first.
 std::vector<std::pair<double, std::size_t>> Covering::near(const Vector& x, double radius) const {
-  const auto count = static_cast<Index>(discs_.size());
-  const Vector squares = (centres_.leftCols(count).colwise() - x).colwise().squaredNorm();
+  const Cell here = cell(x);
   std::vector<std::pair<double, std::size_t>> found;
-  for (std::size_t i = 0; i < discs_.size(); ++i) {
-    const double distance = std::sqrt(squares(static_cast<Index>(i)));
-    if (distance < 2 * std::max(radius, discs_[i].radius)) found.emplace_back(distance, i);
+  for (long a = here[0] - 1; a <= here[0] + 1; ++a) {
+    for (long b = here[1] - 1; b <= here[1] + 1; ++b) {
+      const auto there = cells_.find({a, b});
+      if (there == cells_.end()) continue;
+      for (const std::size_t i : there->second) {
+        const double distance = (discs_[i].at - x).norm();
+        if (distance < 2 * std::max(radius, discs_[i].radius)) found.emplace_back(distance, i);
+      }
+    }
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -262,9 +269,7 @@ bool Covering::add(Disc disc, double radius) {
   const auto others = near(disc.at, 0);
   if (!others.empty() && others.front().first < same && is_one_sheet(disc, discs_[others.front().second]))
     return false;
-  const auto count = static_cast<Index>(discs_.size());
-  if (count == centres_.cols()) centres_.conservativeResize(Eigen::NoChange, 2 * count);
-  centres_.col(count) = disc.at;
+  cells_[cell(disc.at)].push_back(discs_.size());
   discs_.push_back(std::move(disc));
   unfinished_.push_back(discs_.size() - 1);
   outline(discs_.size() - 1);

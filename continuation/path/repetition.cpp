@@ -8,7 +8,7 @@ namespace arcslip::continuation {
 std::optional<std::size_t> came_round(const Problem& problem, const std::vector<BranchPoint>& points,
                                       Index active, const Tolerances& tolerances) {
   constexpr double far = 1e-3;  // in the problem's scale
-  if (points.empty() || points.back().type != PointType::fold) return std::nullopt;
+  if (points.empty() || !is_turn(points.back().type)) return std::nullopt;
   const BranchPoint& last = points.back();
   const Index n = last.unknowns.size();
   Vector unknowns(n);
@@ -26,7 +26,7 @@ std::optional<std::size_t> came_round(const Problem& problem, const std::vector<
     const BranchPoint& other = points[i];
     const double from_last = distance(other);
     farthest = std::max(farthest, from_last);
-    if (other.type != PointType::fold || farthest < far || from_last > tolerances.same_point) continue;
+    if (!is_turn(other.type) || farthest < far || from_last > tolerances.same_point) continue;
     const bool is_same_way = other.tangent.cwiseQuotient(scale).normalized().dot(direction) > 0;
     if (other.regime == last.regime && is_same_way) return i;
   }
@@ -36,14 +36,14 @@ std::optional<std::size_t> came_round(const Problem& problem, const std::vector<
 bool stands_still(const Problem& problem, const std::vector<BranchPoint>& points, Index active,
                   const Tolerances& tolerances) {
   constexpr std::size_t many = 8;  // of no curve at a distance of rounding
-  if (points.size() < many || points.back().type != PointType::fold) return false;
+  if (points.size() < many || !is_turn(points.back().type)) return false;
   const BranchPoint& last = points.back();
   Vector unknowns(last.unknowns.size());
   Vector scale(last.parameters.size());
   problem.scale(last.unknowns, last.parameters, unknowns, scale);
   return std::all_of(points.end() - many, points.end(), [&](const BranchPoint& point) {
-    return point.type == PointType::fold && std::abs(point.parameters(active) - last.parameters(active)) <=
-                                                tolerances.same_value * scale(active);
+    return is_turn(point.type) && std::abs(point.parameters(active) - last.parameters(active)) <=
+                                      tolerances.same_value * scale(active);
   });
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// A singular point is located by the derivatives themselves.
 bool is_singular(PointType type) {
-  return type == PointType::fold || type == PointType::branch_point || type == PointType::hopf;
+  return is_turn(type) || type == PointType::branch_point || type == PointType::hopf;
 }
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("resume: " + what); }

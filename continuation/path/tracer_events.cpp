@@ -20,13 +20,16 @@ bool Tracer::meets(const CurvePoint& point) const {
 }
 
 void Tracer::take_events(const Signs& before) {
+  const CurvePoint& here = stepper_.here();
   const Passage passage{before, state_.signs, stepper_, watch_};
   state_.signs.unstable = before.unstable;
   for (const Event& event : events_) {
     event.kind->pass(event, passage);
     if (event.kind->ends_regime || !event.told) continue;
-    store(event.type, event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index))
-                                                     : std::string());
+    store(
+        event.type == PointType::fold ? problem_.turn(here.unknowns, here.parameters, here.regime)
+                                      : event.type,
+        event.type == PointType::event ? watch_.label(static_cast<std::size_t>(event.index)) : std::string());
     if (const auto known = came_round(problem_, branch_.points, parameter_, options_.tolerances))
       stop(Stop::repeats, "the branch came back to its point " + std::to_string(*known) +
                               " and not to its start: a step had gone over to another branch");

@@ -99,16 +99,20 @@ void Tracer::take_targets_around(bool turns) {
 
 void Tracer::take_target(const Target& target) {
   targets_.take(target);
-  switch (target.kind) {
-    case Target::Kind::landmark: return store(PointType::regular);
-    case Target::Kind::user: return store(PointType::user);
-    case Target::Kind::end:
-      store(PointType::end);
-      return stop(Stop::reached_end, "the last value was reached");
-    case Target::Kind::bound:
-      store(PointType::end);
-      return stop(Stop::left_range, "the branch came back to its first value");
-  }
+  if (target.kind == Target::Kind::landmark) return store(PointType::regular);
+  if (target.kind == Target::Kind::user) return store(PointType::user);
+  store_turn();
+  store(PointType::end);
+  if (target.kind == Target::Kind::end) return stop(Stop::reached_end, "the last value was reached");
+  stop(Stop::left_range, "the branch came back to its first value");
+}
+
+/// What a landing on the very value of a turn is, where that is more than that the parameter stands still.
+void Tracer::store_turn() {
+  const CurvePoint& here = stepper_.here();
+  if (std::abs(stepper_.parameter_slope(Hold::tangent)) > options_.tolerances.off_by_rounding) return;
+  const PointType turn = problem_.turn(here.unknowns, here.parameters, here.regime);
+  if (turn != PointType::fold) store(turn);
 }
 
 /// A distance, a little shorter, to a value of the parameter that hangs little on where the step begins: so

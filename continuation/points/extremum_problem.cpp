@@ -83,4 +83,14 @@ bool ExtremumProblem::conditions(const BasePoint& point, Vector& values, Matrix*
   return true;
 }
 
+double ExtremumProblem::bend(const BasePoint& point) const {
+  const Index n = base().size();
+  Vector slope(1);
+  Matrix gradient(1, n + point.parameters.size());
+  if (!conditions(point, slope, &gradient)) return std::nan("");
+  const double along = gradient.row(0).head(n).dot(scale_.cwiseProduct(tangent_.head(n))) +
+                       gradient(0, n + active()) * active_scale_ * tangent_(n);
+  return size_ * along / tangent_.squaredNorm();
+}
+
 }  // namespace arcslip::continuation

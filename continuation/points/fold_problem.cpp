@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arcslip/continuation/linear/borders.hpp"
+#include "arcslip/continuation/points/normal_form.hpp"
 
 namespace arcslip::continuation {
 
@@ -52,6 +53,11 @@ void FoldProblem::test(const Vector& u, const Vector& p, const Regime& regime, V
   } else if (values.size() > 1) {
     values(1) = w.dot(v) / (w.norm() * v.norm());
   }
+}
+
+PointType FoldProblem::turn(const Vector& u, const Vector& p, const Regime& regime) const {
+  const BasePoint at = split(u, p, regime);
+  return turn_of_folds(base(), active(), {at.unknowns, at.parameters, regime, {}});
 }
 
 bool FoldProblem::eigenvalues(const Vector& u, const Vector& p, const Regime& regime,

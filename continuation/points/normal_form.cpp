@@ -198,4 +198,12 @@ std::optional<BranchPointForm> branch_point_form(const Problem& problem, Index p
   return result;
 }
 
+PointType turn_of_folds(const Problem& problem, Index parameter, const Guess& fold) {
+  const auto form = branch_point_form(problem, parameter, fold);
+  if (!form) return PointType::fold;
+  return form->kind == BranchPointKind::isolated        ? PointType::isola_centre
+         : form->kind == BranchPointKind::transcritical ? PointType::simple_bifurcation
+                                                        : PointType::fold;
+}
+
 }  // namespace arcslip::continuation

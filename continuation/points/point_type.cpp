@@ -31,12 +31,14 @@ std::string_view to_string(PointType type) {
     case PointType::chenciner: return "chenciner";
     case PointType::generalized_period_doubling: return "generalized_period_doubling";
     case PointType::fold_flip: return "fold_flip";
+    case PointType::isola_centre: return "isola_centre";
+    case PointType::simple_bifurcation: return "simple_bifurcation";
   }
   return "";
 }
 
 std::optional<PointType> point_type(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(PointType::fold_flip); ++i) {
+  for (int i = 0; i <= static_cast<int>(PointType::simple_bifurcation); ++i) {
     if (to_string(static_cast<PointType>(i)) == name) return static_cast<PointType>(i);
   }
   return std::nullopt;

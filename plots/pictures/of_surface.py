@@ -1,4 +1,4 @@
-"""Surfaces of solutions over two parameters: the first observable above both, with folds and cusps."""
+"""Surfaces of solutions over two parameters: the first observable above both, with folds, their special points, and ridges."""
 
 import os
 
@@ -31,12 +31,14 @@ class PicturesOfSurface:
         """Names, each with what draws it."""
         return {"surface": self._draw}
 
-    def _folds(self):
+    def _curves(self, name, number):
+        """Types and places of the points on each curve of a table."""
+        wanted = ["branch", number, "type", *self.parameters, self.height]
         try:
-            table = self._table("folds.csv", ["branch", "fold_curve", "type", *self.parameters, self.height])
+            table = self._table(name, wanted)
         except Refused:  # there are none
             return []
-        branch, curve, kind, *at = table.read(["branch", "fold_curve", "type", *self.parameters, self.height])
+        branch, curve, kind, *at = table.read(wanted)
         keys = np.stack([branch, curve], axis=1)
         starts = np.r_[0, np.flatnonzero(np.any(np.diff(keys, axis=0) != 0, axis=1)) + 1, len(keys)]
         return [(kind[a:b], [values[a:b] for values in at]) for a, b in zip(starts[:-1], starts[1:])]
@@ -51,9 +53,11 @@ class PicturesOfSurface:
         ax = page.figure.add_axes([0.1, 0.07, 0.84, 0.95], projection="3d", computed_zorder=False)
         ax.plot_trisurf(Triangulation(place[0], place[1], faces), place[2], cmap=COLOURS, linewidth=0.1,
                         edgecolor="#FFFFFF40", antialiased=True, alpha=0.92, zorder=1)
-        for kind, at in self._folds():
+        for _, at in self._curves("ridges.csv", "ridge"):
+            ax.plot(*at, color="#000000", linewidth=style.THIN, linestyle="--", zorder=2)
+        for kind, at in self._curves("folds.csv", "fold_curve"):
             ax.plot(*at, color=style.FEW[1], linewidth=style.THICK, zorder=2)
-            for name, mark in (("cusp", "o"), ("branch_point", ".")):
+            for name, mark in (("cusp", "o"), ("branch_point", "."), ("isola_centre", "*"), ("simple_bifurcation", "X")):
                 chosen = np.asarray(kind) == name
                 ax.plot(*(values[chosen] for values in at), mark, color="#000000", markersize=3, zorder=3)
         for axis, name in zip("xyz", [*self.parameters, self.height]):

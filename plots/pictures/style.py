@@ -103,6 +103,8 @@ KINDS = {
     "resonance_1_4": ("1:4 resonance", "s", 3.6, True),
     "chenciner": ("Chenciner", "D", 3.6, True),
     "generalized_period_doubling": ("generalised period doubling", "D", 3.6, False),
+    "isola_centre": ("isola centre", "*", 5.4, True),
+    "simple_bifurcation": ("simple bifurcation", "X", 4.0, True),
     "fold_flip": ("fold–flip", "p", 4.2, False),
     "neimark_sacker": ("Neimark–Sacker", "h", 3.6, True),
     "period_doubling": ("period doubling", "v", 4.0, False),

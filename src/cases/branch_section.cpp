@@ -174,16 +174,13 @@ void check_all(const CaseBranch& branch, const TomlSection& section) {
 void read_extrema(CaseBranch& branch, const TomlSection& section) {
   const char* expected = "the one observable whose extrema the curve is made of";
   const bool curve = branch.curve.has_value();
-  if (curve && branch.curve->is_surface()) {
-    if (section.has("extrema_of")) section.fail("extrema_of", "not beside surface");
-    return;
-  }
+  const bool is_line = curve && !branch.curve->is_surface();
   const bool ridge =
       curve && (branch.curve->type == PointType::peak || branch.curve->type == PointType::trough);
   std::vector<std::string>& observables = branch.options.extrema_of;
   if (section.has("extrema_of")) {
     observables = section.texts("extrema_of", {}, "an array of observables");
-    if (curve && !ridge) section.fail("extrema_of", "only beside curves of peaks or troughs");
+    if (is_line && !ridge) section.fail("extrema_of", "only beside curves of peaks or troughs");
   } else if (branch.problem.model == nullptr && !branch.problem.response->extremum.empty()) {
     const bool is_whole = section.document().root().contains("ring");
     observables = {is_whole ? "Y_max" : branch.problem.response->extremum};
@@ -304,9 +301,11 @@ std::vector<BranchKey> keys_of_ways() {
               read_box,
               only("only beside all_solutions",
                    [](const CaseBranch& branch, const TomlSection&) { return branch.all_solutions; })),
-          BranchKey::special("extrema_of", "list of names",
-                             "observables whose peaks and troughs are located; of a curve of these the one",
-                             read_extrema, needed("`[\"Y\"]` of forced responses", always)),
+          BranchKey::special(
+              "extrema_of", "list of names",
+              "observables whose peaks and troughs are located; of a curve of these the one; of a surface "
+              "those whose ridges are told, the first one if none is given",
+              read_extrema, needed("`[\"Y\"]` of forced responses", always)),
           BranchKey::flag("stability", at(&CaseBranch::problem, &ProblemRequest::stability),
                           "growth of disturbances in every wave, of forced responses and limit cycles")};
 }

@@ -34,6 +34,11 @@ TracedBranch cover_surface(const std::shared_ptr<const CaseBranch>& request, con
   options.to = {asked.to, given.to};
   options.max_radius = std::min(given.max_step, widest);
   if (given.max_points != continuation::TraceOptions().max_points) options.most_charts = given.max_points;
+  options.extrema_of = given.extrema_of;
+  if (options.extrema_of.empty()) {
+    options.extrema_of = tracked_observables(request->problem, false);
+    options.extrema_of.resize(std::min<std::size_t>(options.extrema_of.size(), 1));
+  }
   options.max_seconds = given.max_seconds;
   options.go_on = given.go_on;
   traced.branch.stop = continuation::Stop::no_start;

@@ -34,6 +34,7 @@ class Values {
   explicit Values(const TracedBranch& traced) : columns_(traced), physical_(traced) {}
 
   std::string names() const { return listed(columns_.names()); }
+  const std::vector<std::string>& all_names() const { return columns_.names(); }
   std::string physical_names() const { return listed(physical_.names()); }
 
   template <class Solution>
@@ -93,22 +94,27 @@ std::string face_rows(std::size_t number, const TracedBranch& traced) {
   return fmt::to_string(text);
 }
 
-std::string folds_header(const TracedBranch& traced) {
-  const Values values(traced);
-  return "branch,fold_curve,point,type" + values.names() + values.physical_names() + "\n";
+namespace {
+
+/// The name of the parameter that turns, or nothing.
+std::string turning(const TracedBranch& traced, const AtlasFold& fold) {
+  return fold.turns < 0    ? ""
+         : fold.turns == 0 ? traced.request->curve->active
+                           : traced.request->options.parameter;
 }
 
-std::string fold_rows(std::size_t number, const TracedBranch& traced) {
+/// Rows of points on curves, with what `further` tells of each behind its type.
+template <class Points, class Further>
+std::string curve_rows(std::size_t number, const TracedBranch& traced, const Points& points,
+                       const Further& further) {
   fmt::memory_buffer text;
-  if (!traced.surface) return "";
   Values values(traced);
   std::size_t point = 0;
-  const std::vector<AtlasFold>& folds = traced.surface->folds;
-  for (std::size_t i = 0; i < folds.size(); ++i) {
-    point = i > 0 && folds[i].curve == folds[i - 1].curve ? point + 1 : 0;
-    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{},{},{}"), number, folds[i].curve, point,
-                   to_string(folds[i].type));
-    const std::vector<double>& row = values(folds[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    point = i > 0 && points[i].curve == points[i - 1].curve ? point + 1 : 0;
+    fmt::format_to(std::back_inserter(text), FMT_COMPILE("{},{},{},{},{}"), number, points[i].curve, point,
+                   to_string(points[i].type), further(points[i]));
+    const std::vector<double>& row = values(points[i]);
     append(text, row);
     append(text, values.physical(row));
     text.push_back('\n');
@@ -116,11 +122,52 @@ std::string fold_rows(std::size_t number, const TracedBranch& traced) {
   return fmt::to_string(text);
 }
 
-ordered_json surface_to_json(const continuation::Atlas& surface) {
+/// Cusps and where isolas are born or merge.
+ordered_json special_folds(const TracedBranch& traced) {
+  Values values(traced);
+  ordered_json listed = ordered_json::array();
+  for (const AtlasFold& fold : traced.surface->folds) {
+    if (fold.type != PointType::cusp && fold.turns < 0) continue;
+    ordered_json& told = listed.emplace_back();
+    told["type"] = to_string(fold.type);
+    if (fold.turns >= 0) told["turns"] = turning(traced, fold);
+    const std::vector<double>& row = values(fold);
+    for (std::size_t i = 0; i < row.size(); ++i) told[values.all_names()[i]] = row[i];
+  }
+  return listed;
+}
+
+}  // namespace
+
+std::string folds_header(const TracedBranch& traced) {
+  const Values values(traced);
+  return "branch,fold_curve,point,type,turns" + values.names() + values.physical_names() + "\n";
+}
+
+std::string fold_rows(std::size_t number, const TracedBranch& traced) {
+  if (!traced.surface) return "";
+  return curve_rows(number, traced, traced.surface->folds,
+                    [&](const AtlasFold& fold) { return turning(traced, fold); });
+}
+
+std::string ridges_header(const TracedBranch& traced) {
+  const Values values(traced);
+  return "branch,ridge,point,type,observable" + values.names() + values.physical_names() + "\n";
+}
+
+std::string ridge_rows(std::size_t number, const TracedBranch& traced) {
+  if (!traced.surface) return "";
+  return curve_rows(number, traced, traced.surface->ridges,
+                    [](const continuation::AtlasRidge& ridge) { return ridge.observable; });
+}
+
+ordered_json surface_to_json(const TracedBranch& traced) {
+  const continuation::Atlas& surface = *traced.surface;
   const auto count = [&](PointType type) {
     return std::count_if(surface.folds.begin(), surface.folds.end(),
                          [&](const AtlasFold& fold) { return fold.type == type; });
   };
+  const auto curves = [](const auto& points) { return points.empty() ? 0 : points.back().curve + 1; };
   ordered_json components = ordered_json::array();
   for (const continuation::AtlasComponent& one : surface.components)
     components.push_back(
@@ -128,8 +175,12 @@ ordered_json surface_to_json(const continuation::Atlas& surface) {
   return {{"charts", surface.charts.size()},
           {"faces", surface.faces.size()},
           {"components", components},
-          {"fold_curves", surface.folds.empty() ? 0 : surface.folds.back().curve + 1},
+          {"fold_curves", curves(surface.folds)},
           {"cusps", count(PointType::cusp)},
+          {"isola_centres", count(PointType::isola_centre)},
+          {"simple_bifurcations", count(PointType::simple_bifurcation)},
+          {"special", special_folds(traced)},
+          {"ridges", curves(surface.ridges)},
           {"complete", surface.complete()}};
 }
 
@@ -138,9 +189,17 @@ std::string surface_sentence(const ordered_json& told) {
     return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
   };
   const auto number = [&](const char* name) { return told.at(name).get<std::size_t>(); };
-  return fmt::format("The surface has {} in {}, {} and {}; it is {}.", of(number("charts"), "chart"),
-                     of(told.at("components").size(), "component"), of(number("fold_curves"), "fold curve"),
-                     of(number("cusps"), "cusp"),
+  std::vector<std::string> parts{of(number("fold_curves"), "fold curve")};
+  for (const auto& [name, what] :
+       {std::pair{"cusps", "cusp"}, std::pair{"isola_centres", "isola centre"},
+        std::pair{"simple_bifurcations", "simple bifurcation"}, std::pair{"ridges", "ridge"}}) {
+    if (number(name) > 0) parts.push_back(of(number(name), what));
+  }
+  const std::string last = parts.back();
+  parts.pop_back();
+  return fmt::format("The surface has {} in {}{}{} and {}; it is {}.", of(number("charts"), "chart"),
+                     of(told.at("components").size(), "component"), parts.empty() ? "" : ", ",
+                     fmt::join(parts, ", "), last,
                      told.at("complete").get<bool>() ? "complete" : "not complete");
 }
 

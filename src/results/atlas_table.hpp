@@ -1,6 +1,6 @@
 #pragma once
 
-// Surfaces over two parameters as tables: atlas.csv, faces.csv and folds.csv.
+// Surfaces over two parameters as tables: atlas.csv, faces.csv, folds.csv and ridges.csv.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,12 +18,17 @@ std::string atlas_rows(std::size_t number, const TracedBranch& traced);
 std::string faces_header(const TracedBranch& traced);
 std::string face_rows(std::size_t number, const TracedBranch& traced);
 
-/// One row for each fold on an edge: branch, fold_curve, point, type, the parameters, the observables.
+/// One row for each point of curves of folds: branch, fold_curve, point, type, turns, the parameters, the
+/// observables.
 std::string folds_header(const TracedBranch& traced);
 std::string fold_rows(std::size_t number, const TracedBranch& traced);
 
+/// The same of ridges: branch, ridge, point, type, observable, the parameters, the observables.
+std::string ridges_header(const TracedBranch& traced);
+std::string ridge_rows(std::size_t number, const TracedBranch& traced);
+
 /// What summary.json says of a surface, and a line of it.
-nlohmann::ordered_json surface_to_json(const continuation::Atlas& surface);
+nlohmann::ordered_json surface_to_json(const TracedBranch& traced);
 std::string surface_sentence(const nlohmann::ordered_json& told);
 
 }  // namespace arcslip

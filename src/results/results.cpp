@@ -284,7 +284,7 @@ ordered_json summarize(std::size_t number, const TracedBranch& traced) {
                      {"rejected_steps", work.rejected_steps}};
   summary["seconds"] = traced.seconds;
   if (traced.solutions) summary["solutions"] = solutions_to_json(*traced.solutions);
-  if (traced.surface) summary["surface"] = surface_to_json(*traced.surface);
+  if (traced.surface) summary["surface"] = surface_to_json(traced);
   if (traced.certificate) summary["certificate"] = certificate_to_json(*traced.certificate);
   return summary;
 }

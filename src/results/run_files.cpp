@@ -30,6 +30,7 @@ constexpr const char* tori_name = "/tori.csv";
 constexpr const char* atlas_name = "/atlas.csv";
 constexpr const char* faces_name = "/faces.csv";
 constexpr const char* folds_name = "/folds.csv";
+constexpr const char* ridges_name = "/ridges.csv";
 constexpr std::size_t most_curve_rows = 30'000;  // of more, nothing is seen between the points
 
 /// The branch as a polyline that looks like the curve.
@@ -63,6 +64,7 @@ RunFiles::RunFiles(const std::string& folder, const CasePlan& plan, bool verifie
   add_table("/branch/surface", atlas_name, atlas_header, atlas_rows);
   add_table("/branch/surface", faces_name, faces_header, face_rows);
   add_table("/branch/surface", folds_name, folds_header, fold_rows);
+  add_table("/branch/surface", ridges_name, ridges_header, ridge_rows);
   if (!verified) return;
   verification_ = std::make_unique<AtomicFile>(folder + "/verify.csv");
   verification_->write(verification_header());

@@ -126,6 +126,26 @@ start = 4
   check_values(all_values_at(isola, PointType::fold, "rho"), {ends[1], ends[2]}, 1e-8);
 }
 
+TEST_CASE("An isola of the enzyme's cycles vanishes at one place on two meshes", "[cycles]") {
+  // From both folds of s0 = 110, between which its cycles turn back, on to where they meet.
+  const Run run("enzyme_cycle_folds", {"branch.to=140"});
+  REQUIRE(run.traced.size() == 2);
+  std::vector<double> places;
+  for (const TracedBranch& traced : run.traced) {
+    CHECK(count(traced, PointType::fold) == 0);
+    CHECK(count(traced, PointType::simple_bifurcation) == 0);
+    for (const BranchPoint& point : points(traced, PointType::isola_centre)) {
+      places.push_back(value(traced, point, "s0"));
+      places.push_back(value(traced, point, "rho"));
+    }
+  }
+  REQUIRE(places.size() == 4);
+  CHECK_THAT(places[2], WithinRel(places[0], 1e-9));
+  CHECK_THAT(places[3], WithinRel(places[1], 1e-8));
+  for (const BranchPoint& point : run.traced[0].branch.points)  // folds lie below it, as the isola does
+    CHECK(value(run.traced[0], point, "s0") <= places[0]);
+}
+
 TEST_CASE("Cycles end on orbits between equilibria, at a parameter that is told", "[cycles]") {
   const Run lorenz("lorenz_cycles");
   const auto homoclinic = cycles_of(lorenz.traced);

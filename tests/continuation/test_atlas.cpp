@@ -7,27 +7,13 @@
 #include "arcslip/continuation/atlas/atlas.hpp"
 #include "catch.hpp"
 #include "engine_problems.hpp"
-#include "scalar_problem.hpp"
+#include "level_set.hpp"
 
 using namespace arcslip;
 using namespace arcslip::continuation;
 using namespace arcslip::testing;
 
 namespace {
-
-using Place = Eigen::Vector3d;  // u, p, q
-
-/// f(u, p, q) = 0 with its gradient, for unknowns of another size.
-ScalarProblem level_set(std::function<double(const Place&)> f, std::function<Place(const Place&)> gradient,
-                        double size = 1) {
-  const auto at = [size](double u, const Vector& p) { return Place(u / size, p(0), p(1)); };
-  const auto slope = [=](Index which) {
-    return [=](double u, const Vector& p) { return gradient(at(u, p))(which); };
-  };
-  return ScalarProblem(
-      {"p", "q"}, [=](double u, const Vector& p) { return f(at(u, p)); },
-      [=](double u, const Vector& p) { return gradient(at(u, p))(0) / size; }, {slope(1), slope(2)});
-}
 
 ScalarProblem sphere() {
   return level_set([](const Place& z) { return z.squaredNorm() - 1; }, [](const Place& z) { return 2 * z; });
@@ -47,17 +33,6 @@ ScalarProblem catastrophe(double size = 1) {
 ScalarProblem plane() {
   return level_set([](const Place& z) { return z(0) - 0.3 * z(1) + 0.2 * z(2); },
                    [](const Place&) { return Place(1, -0.3, 0.2); });
-}
-
-Guess start(double u, double p, double q) { return {vector_of({u}), vector_of({p, q}), {}, {}}; }
-
-AtlasOptions box(double reach, double max_radius = 0.1) {
-  AtlasOptions options;
-  options.parameters = {"p", "q"};
-  options.from = {-reach, -reach};
-  options.to = {reach, reach};
-  options.max_radius = max_radius;
-  return options;
 }
 
 /// Areas of all triangles as vectors.
@@ -248,7 +223,24 @@ TEST_CASE("A sheet that others cross is followed through the crossing, which is 
   CHECK(std::abs(shadow(atlas) - 4) < 1e-12);
   CHECK(count(atlas, PointType::branch_point) == static_cast<long>(atlas.folds.size()));
   CHECK(!atlas.folds.empty());
-  for (const AtlasFold& fold : atlas.folds) CHECK(std::abs(fold.parameters(0)) < 1e-9);
+  for (const AtlasFold& fold : atlas.folds) CHECK(std::abs(fold.parameters(0)) < 1e-12);
+}
+
+TEST_CASE("Folds on a line where sheets cross are located on it: u (p - u^2 + q/10)") {
+  const ScalarProblem pitchfork =
+      level_set([](const Place& z) { return z(0) * (z(1) - z(0) * z(0) + z(2) / 10); },
+                [](const Place& z) { return Place(z(1) - 3 * z(0) * z(0) + z(2) / 10, z(0), z(0) / 10); });
+  for (const Guess& from : {start(0.5, 0.25, 0), start(0.7, 0.49, 0), start(0, 0.5, 0)}) {
+    const Atlas atlas = cover(pitchfork, {from}, box(1));
+    INFO(atlas.reason);
+    REQUIRE(atlas.complete());
+    CHECK(count(atlas, PointType::branch_point) == static_cast<long>(atlas.folds.size()));
+    CHECK(atlas.folds.size() > 20);
+    for (const AtlasFold& fold : atlas.folds) {
+      CHECK(std::abs(fold.unknowns(0)) < 1e-12);
+      CHECK(std::abs(fold.parameters(0) + fold.parameters(1) / 10) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("Wrong requests for surfaces are refused") {

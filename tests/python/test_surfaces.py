@@ -25,6 +25,22 @@ def test_a_surface_has_its_folds_and_its_cusp():
     assert set(surface.determinant) == {-1, 1}
 
 
+def test_isolas_and_ridges_are_told():
+    model = arcslip.Model({"x": "x^2 + p^3 - p - q"}, kind="algebraic", parameters={"p": 0.0, "q": 0.0}, start={"x": 0.1})
+    surface = arcslip.surface(model, parameters=("p", "q"), ranges=((-1.3, 1.3), (-1.3, 1.3)), extrema_of=["x"])
+    at = 1 / np.sqrt(3)
+    for kind, sign in (("isola_centre", 1), ("simple_bifurcation", -1)):
+        place = np.array([sign * at, -sign * 2 * at / 3])
+        (found,) = np.flatnonzero((surface.fold_type == kind) & (surface.fold_turns == "q"))
+        assert np.abs(surface.fold_values[found] - place).max() < 1e-9
+        (found,) = np.flatnonzero(surface.ridge_type == kind)
+        assert np.abs(surface.ridge_values[found] - place).max() < 1e-9
+    assert np.abs(np.abs(surface.ridge_values[:, 0]) - at).max() < 1e-9
+    assert set(surface.ridge_type) == {"peak", "trough", "isola_centre", "simple_bifurcation"}
+    assert set(surface.ridge_observable) == {"x"} and len(surface.ridges) == len(surface.ridge_curve)
+    assert set(surface.fold_turns[surface.fold_type == "fold"]) == {""}
+
+
 def test_components_begin_at_starts_and_sums_of_squares_are_closed():
     model = arcslip.Model({"u": "u^2 + p^2 + q^2 - 1"}, kind="algebraic", parameters={"p": 0.0, "q": 0.0}, start={"u": 1.0})
     ball = arcslip.surface(model, parameters=("p", "q"), ranges=((-1.2, 1.2), (-1.2, 1.2)))

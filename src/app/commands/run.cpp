@@ -220,7 +220,7 @@ std::string Run::described(const TracedBranch& traced, std::size_t number) {
   if (problem.geometry) text += describe_groups(problem) + "\n" + describe_units(problem) + "\n";
   text += describe_harmonics(traced);
   text += traced.surface
-              ? surface_sentence(surface_to_json(*traced.surface)) + "\n"
+              ? surface_sentence(surface_to_json(traced)) + "\n"
               : special_table_header(traced) + special_table(number, traced) + describe_stability(traced);
   if (traced.branch.stop != continuation::Stop::reached_end)
     text += fmt::format("{}: {}\n", to_string(traced.branch.stop), traced.branch.explanation);

@@ -133,6 +133,7 @@ def surface(
     max_turn: float = 0.2,
     max_charts: int = 10000,
     max_seconds: float = ...,
+    extrema_of: Sequence[str] = (),
     **functions: Any,
 ) -> Surface: ...
 
@@ -151,6 +152,12 @@ class Surface:
     fold_values: _Array
     fold_curve: _Array
     fold_type: _Array
+    fold_turns: _Array
+    ridges: _Array
+    ridge_values: _Array
+    ridge_curve: _Array
+    ridge_observable: _Array
+    ridge_type: _Array
     components: list[dict[str, Any]]
     complete: bool
     stop: str

@@ -29,7 +29,15 @@ class Surface:
     folds, fold_values : numpy.ndarray of shape (folds, n), and (folds, number of parameters)
         Unknowns and parameters of the points on edges at which dF/du is singular.
     fold_curve, fold_type : numpy.ndarray of shape (folds,)
-        Number of the curve along which they follow each other; "fold", "cusp" or "branch_point".
+        Number of the curve along which they follow each other; "fold", "cusp" or "branch_point", or where the curve
+        turns in one parameter "isola_centre" (a closed branch over the other one shrinks to a point) or
+        "simple_bifurcation" (two of these branches meet).
+    fold_turns : numpy.ndarray of str, of shape (folds,)
+        The parameter in which it turns there, else empty.
+    ridges, ridge_values : numpy.ndarray of shape (ridge points, n), and (ridge points, number of parameters)
+        Unknowns and parameters of the points on edges at which an observable is extremal over the first parameter.
+    ridge_curve, ridge_observable, ridge_type : numpy.ndarray of shape (ridge points,)
+        Number of the ridge, its observable; "peak", "trough", or "fold" where these meet, and as of folds.
     components : list of dict
         "charts", "faces", "euler" (Euler number) and "closed" of each.
     complete : bool
@@ -47,6 +55,13 @@ class Surface:
         )
         self.folds, self.fold_values = told["fold_unknowns"], told["fold_parameters"]
         self.fold_curve, self.fold_type = told["fold_curve"].astype(int), np.array(told["fold_type"], dtype=str)
+        turns = told["fold_turns"].astype(int)
+        self.fold_turns = np.array(["", *parameters])[turns + 1]
+        self.ridges, self.ridge_values = told["ridge_unknowns"], told["ridge_parameters"]
+        self.ridge_curve = told["ridge_curve"].astype(int)
+        self.ridge_type, self.ridge_observable = (
+            np.array(told[name], dtype=str) for name in ("ridge_type", "ridge_observable")
+        )
         self.components, self.stop, self.reason = told["components"], told["stop"], told["reason"]
         self.complete = self.stop == "reached_end"
 
@@ -65,7 +80,7 @@ class Surface:
 
 def surface(
     problem, u0=None, p0=None, parameters=None, ranges=None, *, max_radius=0.1, max_turn=0.2, max_charts=10000,
-    max_seconds=float("inf"), **functions
+    max_seconds=float("inf"), extrema_of=(), **functions
 ):
     """All solutions of F(u, p) = 0 over two parameters, as a surface covered by charts.
 
@@ -86,6 +101,8 @@ def surface(
     max_charts : int
     max_seconds : float
         Wall clock, s.
+    extrema_of : sequence of str
+        Observables of which the ridges are told: where they are extremal over the first parameter.
     **functions
         Parts of a `Problem` beside f.
 
@@ -112,6 +129,7 @@ def surface(
         "max_turn": float(max_turn),
         "max_charts": int(max_charts),
         "max_seconds": float(max_seconds),
+        "extrema_of": list(extrema_of),
     }
     pairs = [(float(low), float(high)) for low, high in ranges]
     told = _core.cover(prepared.core, guesses, prepared.p0, [first, second], pairs, options)

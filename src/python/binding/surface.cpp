@@ -24,6 +24,14 @@ py::array_t<double> numbers_of(const All& all, const Value& value) {
   return numbers;
 }
 
+/// A text of each.
+template <class All, class Value>
+py::list texts_of(const All& all, const Value& value) {
+  py::list texts;
+  for (const auto& one : all) texts.append(std::string(value(one)));
+  return texts;
+}
+
 py::dict told(const Atlas& atlas) {
   py::dict told;
   const auto unknowns = [](const auto& one) -> const Vector& { return one.unknowns; };
@@ -39,12 +47,16 @@ py::dict told(const Atlas& atlas) {
     for (std::size_t k = 0; k < 3; ++k) faces.mutable_at(i, k) = atlas.faces[i][k];
   }
   told["faces"] = faces;
-  py::list types;
-  for (const continuation::AtlasFold& fold : atlas.folds) types.append(std::string(to_string(fold.type)));
-  told["fold_type"] = types;
+  told["fold_type"] = texts_of(atlas.folds, [](const auto& fold) { return to_string(fold.type); });
+  told["fold_turns"] = numbers_of(atlas.folds, [](const auto& fold) { return fold.turns; });
   told["fold_curve"] = numbers_of(atlas.folds, [](const auto& fold) { return fold.curve; });
   told["fold_unknowns"] = rows_of(atlas.folds, unknowns);
   told["fold_parameters"] = rows_of(atlas.folds, parameters);
+  told["ridge_type"] = texts_of(atlas.ridges, [](const auto& ridge) { return to_string(ridge.type); });
+  told["ridge_observable"] = texts_of(atlas.ridges, [](const auto& ridge) { return ridge.observable; });
+  told["ridge_curve"] = numbers_of(atlas.ridges, [](const auto& ridge) { return ridge.curve; });
+  told["ridge_unknowns"] = rows_of(atlas.ridges, unknowns);
+  told["ridge_parameters"] = rows_of(atlas.ridges, parameters);
   py::list components;
   for (const continuation::AtlasComponent& one : atlas.components)
     components.append(py::dict(py::arg("charts") = one.charts, py::arg("faces") = one.faces,
@@ -70,6 +82,7 @@ py::dict cover(const std::shared_ptr<PythonProblem>& problem, const std::vector<
   }
   options.max_radius = given["max_radius"].cast<double>();
   options.max_turn = given["max_turn"].cast<double>();
+  options.extrema_of = given["extrema_of"].cast<std::vector<std::string>>();
   options.most_charts = given["max_charts"].cast<long>();
   options.max_seconds = given["max_seconds"].cast<double>();
   continuation::TraceOptions trace;

@@ -26,6 +26,7 @@ struct AtlasOptions {
   std::array<double, 2> to{};             ///< the other
   double max_radius = 0.1;  ///< of a chart, in widths of the box, and of how far unknowns go over it
   double max_turn = 0.2;    ///< of the tangent plane from a chart's centre to its rim, in radians
+  std::vector<std::string> extrema_of = {};  ///< observables with gradients whose ridges are told
   long most_charts = 10000;
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock
   std::function<bool()> go_on = {};  ///< asked before each chart; false ends the search
@@ -42,13 +43,26 @@ struct Chart {
   int sides = 0;        ///< of the box that it lies on: 1 and 2 low and high end of the first range, 4 and 8
 };
 
-/// A point where dF/du is singular.
-struct AtlasFold {
-  PointType type =
-      PointType::fold;  ///< a cusp where the curve of folds turns; branch_point where sheets cross
-  int curve = 0;        ///< number of the curve of folds, along which points follow each other
-  Vector unknowns;      ///< n
-  Vector parameters;    ///< all of the problem's
+/// A point of a curve on the surface.
+struct AtlasPoint {
+  PointType type = PointType::regular;
+  int curve = 0;      ///< its number, along which points follow each other
+  Vector unknowns;    ///< n
+  Vector parameters;  ///< all of the problem's
+};
+
+/// A point where dF/du is singular: a fold, a cusp where the curve of folds turns in both parameters, and
+/// where it turns in one of them isola_centre or simple_bifurcation of the branches over the other one;
+/// branch_point where sheets cross.
+struct AtlasFold : AtlasPoint {
+  int turns = -1;  ///< position among both parameters of the one that turns; else -1
+};
+
+/// A point where an observable is extremal along the branch over the first parameter: a peak or a trough;
+/// fold where these meet, and the curve turns in the second parameter; where that stands still on the
+/// surface, isola_centre or simple_bifurcation.
+struct AtlasRidge : AtlasPoint {
+  std::string observable;
 };
 
 /// A part of the surface that hangs together.
@@ -64,6 +78,7 @@ struct [[nodiscard]] Atlas {
   std::vector<Chart> charts;               ///< in the order found
   std::vector<std::array<int, 3>> faces;   ///< triangles of charts, all with one orientation
   std::vector<AtlasFold> folds;            ///< on edges of triangles; closed curves end where they begin
+  std::vector<AtlasRidge> ridges;          ///< the same of each observable in turn
   std::vector<AtlasComponent> components;  ///< by their first chart
   /// `reached_end` where each component is covered: its triangles end on the box's sides alone.
   Stop stop = Stop::min_step;

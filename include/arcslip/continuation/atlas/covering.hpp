@@ -2,7 +2,9 @@
 
 // Charts that are added to each other until they cover a surface.
 
+#include <array>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +49,7 @@ class Covering {
   [[nodiscard]] bool lift(const Disc& disc, Vector& x, int sides = 0);
 
  private:
+  using Cell = std::array<long, 2>;
   struct Opening {
     Eigen::Vector2d at;  ///< in the plane
     int sides;           ///< to be put on
@@ -63,6 +66,7 @@ class Covering {
   Eigen::Vector2d towards(const Disc& disc, int side) const;
   bool is_one_sheet(const Disc& disc, const Disc& other);
   bool is_covered(const Vector& x);
+  Cell cell(const Vector& x) const;
   std::vector<std::pair<double, std::size_t>> near(const Vector& x, double radius) const;
   void fail(const Vector& x);
 
@@ -70,7 +74,7 @@ class Covering {
   const AtlasOptions& options_;
   Index unknowns_;
   std::vector<Disc> discs_;
-  Matrix centres_;  // N x capacity, of the discs
+  std::map<Cell, std::vector<std::size_t>> cells_;  // discs by the cells of both parameters that they lie in
   std::deque<std::size_t> unfinished_;
   std::string failure_;
   bool has_left_ = false;  // the regime, where the last disc was to be

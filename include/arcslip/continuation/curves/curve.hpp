@@ -47,9 +47,10 @@ CurveStart curve_at(const Level& level, const Problem& base, const std::string& 
 /// Locates the special point next to `start` at its other parameters, and traces the curve through it both
 /// ways while `options.parameter` stays between `from` and `to` and the active parameter within the window.
 /// The points are those of the extended problem: `problem.split` turns them into points of the base. Among
-/// them are the curve's turning points in `options.parameter` (`fold`), cusps, Bogdanov-Takens, zero-Hopf and
-/// double Hopf points; `options.extrema_of` may name the active parameter, for the turning points in it. A
-/// curve of Hopf points ends at a Bogdanov-Takens point.
+/// them are the curve's turning points in `options.parameter` (`fold`, of folds isola_centre or
+/// simple_bifurcation), cusps, Bogdanov-Takens, zero-Hopf and double Hopf points; `options.extrema_of` may
+/// name the active parameter, for the turning points in it. A curve of Hopf points ends at a Bogdanov-Takens
+/// point.
 Branch trace_curve(ExtendedProblem& problem, const BasePoint& start, const TraceOptions& options,
                    const CurveWindow& window = {}, const Observer& observer = {});
 

@@ -65,6 +65,7 @@ class Tracer {
   void take_events(const Signs& before);
   void take_targets_around(bool turns);
   void take_target(const Target& target);
+  void store_turn();
   void cross(int border, bool several);
   bool meets(const CurvePoint& point) const;
   bool turn_back();

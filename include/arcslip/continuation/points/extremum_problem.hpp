@@ -20,6 +20,10 @@ class ExtremumProblem : public ExtendedProblem {
 
   [[nodiscard]] bool adapt(const BasePoint& point) override;
 
+  /// d^2 Y/ds^2 along the branch at an extremum, the point last evaluated, with s in the problem's scale:
+  /// negative at a peak. NaN where F or Y cannot be evaluated around it.
+  double bend(const BasePoint& point) const;
+
  protected:
   bool conditions(const BasePoint& point, Vector& values, Matrix* gradients) const override;
   void each_border(const std::function<void(double*, Index)>& use) override;

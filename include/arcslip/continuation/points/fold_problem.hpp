@@ -9,7 +9,10 @@ namespace arcslip::continuation {
 /// Folds: dF/du singular.
 ///
 /// Along a curve of folds cusps are found, of equilibria Bogdanov-Takens and zero-Hopf points, of cycles and
-/// maps fold-flip points.
+/// maps fold-flip points. Where it turns in its parameter p_b, psi^T dF/dp_a = 0, the branches over p_a at
+/// that p_b have a singular point [M. Golubitsky & D. Schaeffer, Singularities and Groups in Bifurcation
+/// Theory I, Springer 1985, ch. IV]: an isola centre where the quadratic form of their equation is definite,
+/// a simple bifurcation where it is not.
 class FoldProblem : public SingularProblem {
  public:
   /// `active` becomes an unknown. The base is kept by reference.
@@ -20,6 +23,7 @@ class FoldProblem : public SingularProblem {
   [[nodiscard]] bool eigenvalues(const Vector& u, const Vector& p, const Regime& regime,
                                  ComplexVector& values) const override;
   PointType pair_crossing() const override { return PointType::zero_hopf; }
+  PointType turn(const Vector& u, const Vector& p, const Regime& regime) const override;
 
   /// w at the point last evaluated, where `right_null` is v: dF/du v = 0, v of unit length in the problem's
   /// scale, and w^T dF/du = 0.

@@ -57,4 +57,9 @@ struct BranchPointForm {
                                                                const Guess& branch_point,
                                                                const Tolerances& tolerances = {});
 
+/// What the fold at which a curve of folds over `parameter` and another parameter turns in the other one is:
+/// isola_centre or simple_bifurcation where the branches over `parameter` are those of a branch point; fold
+/// where that cannot be told or one of them turns besides, as at a pitchfork.
+[[nodiscard]] PointType turn_of_folds(const Problem& problem, Index parameter, const Guess& fold);
+
 }  // namespace arcslip::continuation

@@ -35,8 +35,15 @@ enum class PointType {
   resonance_1_4,                ///< and by a quarter
   chenciner,                    ///< the coefficient that tells sub- from supercritical vanishes
   generalized_period_doubling,  ///< the same on a curve of period doublings
-  fold_flip                     ///< multipliers 1 and -1
+  fold_flip,                    ///< multipliers 1 and -1
+  isola_centre,                 ///< of a curve of folds that turns: a closed branch shrinks to a point
+  simple_bifurcation            ///< the same where two branches meet and exchange ends
 };
+
+/// Whether a parameter turns smoothly there.
+constexpr bool is_turn(PointType type) {
+  return type == PointType::fold || type == PointType::isola_centre || type == PointType::simple_bifurcation;
+}
 
 /// As written to files: its name; `switch` for regime_switch.
 std::string_view to_string(PointType type);

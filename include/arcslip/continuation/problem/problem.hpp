@@ -140,6 +140,11 @@ class Problem {
   /// branch points, which are found without eigenvalues.
   virtual PointType real_crossing() const { return PointType::regular; }
 
+  /// What a point is called at which the parameter turns smoothly.
+  virtual PointType turn(const Vector& /*u*/, const Vector& /*p*/, const Regime& /*regime*/) const {
+    return PointType::fold;
+  }
+
   /// Functions along a branch whose zeros are special points: the types of these points.
   virtual std::vector<PointType> test_types() const { return {}; }
   /// Fills the values of these functions, one for each type.
