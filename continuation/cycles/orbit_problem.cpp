@@ -327,7 +327,7 @@ bool OrbitProblem::transfers(const Vector& u, const Vector& p, const Regime& reg
   const Index m = degree();
   const double length = duration(u, p);
   Scratch scratch(*this, p.size());
-  BlocksSideBySide blocks(n * m, n * (m + 1));  // of the inner nodes, then of the right end and of the left
+  BlocksSideBySide blocks(n * m, n * (m + 1), n * m);  // of the inner nodes, then of the right end and of the left
   out.assign(static_cast<std::size_t>(intervals()), Matrix(n, n));
   for (Index first = 0; first < intervals(); first += scratch.together) {
     if (!at_points(at, u, p, length, first, true, scratch)) return false;

@@ -75,7 +75,9 @@ void SparseBorderedSolver::set_pattern(const SparseMatrix& jacobian) {
   if (status < 0) throw std::invalid_argument("set_jacobian: the sparse Jacobian is not a valid matrix");
   for (Index i = n; i < rows; ++i) order_[static_cast<std::size_t>(i)] = static_cast<int>(i);
   find_last_rows(jacobian);
-  frontal_ = make_frontal_factors(matrix_, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
+  frontal_ = make_alike_factors(matrix_, borders());
+  if (frontal_ == nullptr)
+    frontal_ = make_frontal_factors(matrix_, borders(), dense_gain * info[AMD_NMULTSUBS_LU]);
   klu_.reset();
 }
 
