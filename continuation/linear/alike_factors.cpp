@@ -22,7 +22,8 @@ std::size_t slot(int i) { return static_cast<std::size_t>(i); }
 int place_in(const SparseMatrix& pattern, Index row, Index column) {
   const int* const rows = pattern.innerIndexPtr();
   const int* const end = rows + pattern.outerIndexPtr()[column + 1];
-  const int* const found = std::lower_bound(rows + pattern.outerIndexPtr()[column], end, static_cast<int>(row));
+  const int* const found =
+      std::lower_bound(rows + pattern.outerIndexPtr()[column], end, static_cast<int>(row));
   return found != end && *found == row ? static_cast<int>(found - rows) : -1;
 }
 
@@ -74,7 +75,8 @@ Parts find_parts(const SparseMatrix& pattern, Index borders) {
     if (serves) by_size[{rows.size(), block.inner.size(), block.outer.size()}].push_back(block);
   }
   for (auto& [size, blocks] : by_size) {
-    if (blocks.size() >= least_blocks && blocks.size() > parts.blocks.size()) parts.blocks = std::move(blocks);
+    if (blocks.size() >= least_blocks && blocks.size() > parts.blocks.size())
+      parts.blocks = std::move(blocks);
   }
   std::vector<char> is_row_left(static_cast<std::size_t>(pattern.rows()), 1);
   std::vector<char> is_column_left(static_cast<std::size_t>(pattern.cols()), 1);
@@ -90,14 +92,14 @@ Parts find_parts(const SparseMatrix& pattern, Index borders) {
   return parts;
 }
 
-/// The same numbers of all blocks, those of `lanes` side by side: of the last one again where there are fewer.
+/// The same numbers of all blocks, those of `lanes` side by side: of the last one again where there are
+/// fewer.
 class Table {
  public:
   Table(Index blocks, Index count) : entries_(count * lanes, (blocks + lanes - 1) / lanes) {}
 
   void set(Index block, Index k, int value) {
-    for (Index lane = block % lanes; lane < lanes; ++lane)
-      entries_(k * lanes + lane, block / lanes) = value;
+    for (Index lane = block % lanes; lane < lanes; ++lane) entries_(k * lanes + lane, block / lanes) = value;
   }
   auto of(Index batch) const { return entries_.col(batch); }
 
@@ -339,9 +341,9 @@ class AlikeFactors final : public SparseFactors {
   Index height_;     // of a block with these
   Eigen::VectorX<int> other_rows_;
   Eigen::VectorX<int> staying_rows_;
-  Eigen::VectorX<int> columns_;           // of the rest
+  Eigen::VectorX<int> columns_;            // of the rest
   std::vector<std::pair<int, int>> kept_;  // entries of the matrix, and where they are among the rest's
-  Table rows_;                            // of blocks
+  Table rows_;                             // of blocks
   Table inner_columns_;
   Table outer_columns_;  // among the rest's
   Table sources_;        // of their entries, or -1

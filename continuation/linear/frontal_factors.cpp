@@ -10,7 +10,7 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr int panel = 4;               // columns that are eliminated from the others at a time
+constexpr int panel = 4;  // columns that are eliminated from the others at a time
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

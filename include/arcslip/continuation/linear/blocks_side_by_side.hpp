@@ -12,8 +12,8 @@
 namespace arcslip::continuation {
 
 /// Their entries side by side, column by column. The first columns, `pivots` of them, are eliminated from all
-/// others, by rows which stand before the last `staying` ones. Pivots are the largest entries of columns, each
-/// matrix's own. Vectors have their entries side by side as well.
+/// others, by rows which stand before the last `staying` ones. Pivots are the largest entries of columns,
+/// each matrix's own. Vectors have their entries side by side as well.
 class BlocksSideBySide {
  public:
   static constexpr Index lanes = 4;
@@ -29,29 +29,11 @@ class BlocksSideBySide {
 
   /// An entry of the first one, before that of the others.
   double* at(Index row, Index column) { return values_.data() + (column * rows_ + row) * lanes; }
-  const double* at(Index row, Index column) const {
-    return values_.data() + (column * rows_ + row) * lanes;
-  }
+  const double* at(Index row, Index column) const { return values_.data() + (column * rows_ + row) * lanes; }
 
   /// Leaves multiples of the pivots' columns below these, and in the rows of pivots and behind the columns
   /// what the elimination has made.
-  void eliminate() {
-    double inverse[lanes];
-    double factor[lanes];
-    for (Index k = 0; k < pivots_; ++k) {
-      exchange(k);
-      const double* const column = at(k, k);
-      for (Index l = 0; l < lanes; ++l) inverse[l] = 1 / column[l];
-      for (Index j = k + 1; j < columns_; ++j) {
-        double* __restrict const other = at(k, j);
-        for (Index l = 0; l < lanes; ++l) factor[l] = other[l] * inverse[l];
-        const double* __restrict const below = column;
-        for (Index i = 1; i < rows_ - k; ++i) {
-          for (Index l = 0; l < lanes; ++l) other[i * lanes + l] -= factor[l] * below[i * lanes + l];
-        }
-      }
-    }
-  }
+  void eliminate();
 
   /// Then the last `count` unknowns by the right-hand sides in the columns behind, in their place.
   void solve_last(Index count) {
@@ -133,32 +115,11 @@ class BlocksSideBySide {
   }
 
  private:
+  void exchange(Index k);
+
   /// x <- x - a b
   static void subtract(double* __restrict x, const double* __restrict a, const double* __restrict b) {
     for (Index l = 0; l < lanes; ++l) x[l] -= a[l] * b[l];
-  }
-
-  /// The row of each matrix that is to give pivot k comes there.
-  void exchange(Index k) {
-    double largest[lanes];
-    double row[lanes];
-    const double* entry = at(k, k);
-    for (Index l = 0; l < lanes; ++l) largest[l] = std::abs(entry[l]);
-    std::fill_n(row, lanes, static_cast<double>(k));
-    for (Index i = k + 1; i < rows_ - staying_; ++i) {
-      entry += lanes;
-      for (Index l = 0; l < lanes; ++l) {
-        const double size = std::abs(entry[l]);
-        row[l] = size > largest[l] ? static_cast<double>(i) : row[l];
-        largest[l] = size > largest[l] ? size : largest[l];
-      }
-    }
-    for (Index l = 0; l < lanes; ++l) {
-      const auto best = static_cast<Index>(row[l]);
-      exchanged_[static_cast<std::size_t>(k * lanes + l)] = best;
-      if (best == k) continue;
-      for (Index j = k; j < columns_; ++j) std::swap(at(k, j)[l], at(best, j)[l]);
-    }
   }
 
   void exchange(Index k, double* y) const {

@@ -48,7 +48,6 @@ std::unique_ptr<SparseFactors> make_klu_factors(SparseMatrix& pattern, std::vect
 /// more than `most` multiplications.
 std::unique_ptr<SparseFactors> make_frontal_factors(const SparseMatrix& pattern, Index borders, double most);
 
-
 /// By blocks of rows that have the same columns, as those of one interval of an orbit have: the columns that
 /// each has alone are eliminated in several of them side by side, and what is left by fronts. Null where the
 /// blocks are few or large.
