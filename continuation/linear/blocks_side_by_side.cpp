@@ -33,12 +33,9 @@ void BlocksSideBySide::eliminate() {
     const double* const column = at(k, k);
     for (Index l = 0; l < lanes; ++l) inverse[l] = 1 / column[l];
     for (Index j = k + 1; j < columns_; ++j) {
-      double* __restrict const other = at(k, j);
+      double* const other = at(k, j);
       for (Index l = 0; l < lanes; ++l) factor[l] = other[l] * inverse[l];
-      const double* __restrict const below = column;
-      for (Index i = 1; i < rows_ - k; ++i) {
-        for (Index l = 0; l < lanes; ++l) other[i * lanes + l] -= factor[l] * below[i * lanes + l];
-      }
+      subtract(rows_ - k - 1, other + lanes, column + lanes, factor);
     }
   }
 }

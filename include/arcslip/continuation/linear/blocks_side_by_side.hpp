@@ -42,7 +42,8 @@ class BlocksSideBySide {
         double* const own = at(i, j);
         const double* const pivot = at(i, i);
         for (Index l = 0; l < lanes; ++l) own[l] /= pivot[l];
-        for (Index r = pivots_ - count; r < i; ++r) subtract(at(r, j), at(r, i), own);
+        const Index above = i - (pivots_ - count);
+        subtract(above, at(i - above, j), at(i - above, i), own);
       }
     }
   }
@@ -52,20 +53,20 @@ class BlocksSideBySide {
     double factor[lanes];
     for (Index k = 0; k < pivots_; ++k) {
       exchange(k, y);
-      for (Index l = 0; l < lanes; ++l) factor[l] = y[k * lanes + l] / at(k, k)[l];
-      for (Index i = k + 1; i < rows_; ++i) subtract(y + i * lanes, at(i, k), factor);
+      double* const own = y + k * lanes;
+      const double* const column = at(k, k);
+      for (Index l = 0; l < lanes; ++l) factor[l] = own[l] / column[l];
+      subtract(rows_ - k - 1, own + lanes, column + lanes, factor);
     }
   }
 
   /// Its first entries, as many as there are pivots, become the unknowns, where the others are `behind`.
   void back(double* y, const double* behind) const {
-    for (Index j = pivots_; j < columns_; ++j, behind += lanes) {
-      for (Index i = 0; i < pivots_; ++i) subtract(y + i * lanes, at(i, j), behind);
-    }
+    for (Index j = pivots_; j < columns_; ++j, behind += lanes) subtract(pivots_, y, at(0, j), behind);
     for (Index k = pivots_; k-- > 0;) {
       double* const own = y + k * lanes;
       for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
-      for (Index i = 0; i < k; ++i) subtract(y + i * lanes, at(i, k), own);
+      subtract(k, y, at(0, k), own);
     }
   }
 
@@ -74,19 +75,18 @@ class BlocksSideBySide {
   void forward_transposed(double* y, double* behind) const {
     for (Index k = 0; k < pivots_; ++k) {
       double* const own = y + k * lanes;
-      for (Index i = 0; i < k; ++i) subtract(own, at(i, k), y + i * lanes);
+      subtract_products(k, own, at(0, k), y);
       for (Index l = 0; l < lanes; ++l) own[l] /= at(k, k)[l];
     }
-    for (Index j = pivots_; j < columns_; ++j, behind += lanes) {
-      for (Index i = 0; i < pivots_; ++i) subtract(behind, at(i, j), y + i * lanes);
-    }
+    for (Index j = pivots_; j < columns_; ++j, behind += lanes)
+      subtract_products(pivots_, behind, at(0, j), y);
   }
 
   /// Then with those of the other rows behind these: all, in the rows' order.
   void back_transposed(double* y) const {
     for (Index k = pivots_; k-- > 0;) {
       double sum[lanes] = {};
-      for (Index i = k + 1; i < rows_; ++i) subtract(sum, at(i, k), y + i * lanes);
+      subtract_products(rows_ - k - 1, sum, at(k, k) + lanes, y + (k + 1) * lanes);
       for (Index l = 0; l < lanes; ++l) y[k * lanes + l] += sum[l] / at(k, k)[l];
       exchange(k, y);
     }
@@ -117,9 +117,23 @@ class BlocksSideBySide {
  private:
   void exchange(Index k);
 
-  /// x <- x - a b
-  static void subtract(double* __restrict x, const double* __restrict a, const double* __restrict b) {
-    for (Index l = 0; l < lanes; ++l) x[l] -= a[l] * b[l];
+  /// x_i <- x_i - a_i b
+  static void subtract(Index count, double* __restrict x, const double* __restrict a, const double* b) {
+    double factor[lanes];
+    for (Index l = 0; l < lanes; ++l) factor[l] = b[l];
+    for (Index i = 0; i < count; ++i) {
+      for (Index l = 0; l < lanes; ++l) x[i * lanes + l] -= a[i * lanes + l] * factor[l];
+    }
+  }
+
+  /// x <- x - sum_i a_i b_i
+  static void subtract_products(Index count, double* x, const double* a, const double* b) {
+    double rest[lanes];
+    for (Index l = 0; l < lanes; ++l) rest[l] = x[l];
+    for (Index i = 0; i < count; ++i) {
+      for (Index l = 0; l < lanes; ++l) rest[l] -= a[i * lanes + l] * b[i * lanes + l];
+    }
+    for (Index l = 0; l < lanes; ++l) x[l] = rest[l];
   }
 
   void exchange(Index k, double* y) const {
